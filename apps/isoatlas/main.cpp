@@ -1,0 +1,3 @@
+#include <isoatlas/isoatlas.h>
+
+int main() { return 0; }

@@ -1,0 +1,10 @@
+# Flags of every target of ours. Contraction stays off: a*c - b*d must round the same on every machine (theory.md section 9).
+add_library(isoatlas_flags INTERFACE)
+target_compile_features(isoatlas_flags INTERFACE cxx_std_20)
+target_compile_options(isoatlas_flags INTERFACE
+  -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<CONFIG:Debug>:-D_GLIBCXX_ASSERTIONS>)
+if(ISOATLAS_SANITIZE)
+  target_compile_options(isoatlas_flags INTERFACE -fsanitize=${ISOATLAS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(isoatlas_flags INTERFACE -fsanitize=${ISOATLAS_SANITIZE})
+endif()

@@ -1,0 +1,28 @@
+// isoatlas: which objects are in a scalar volume, and at which isovalues?
+//
+//   #include <isoatlas/isoatlas.h>
+//   #include <cstdio>
+//
+//   int main(int argc, char** argv) try {
+//       const isoatlas::Volume volume = isoatlas::load_volume(argc > 1 ? argv[1] : "scan.nrrd");
+//       const isoatlas::Analysis analysis = isoatlas::analyse(volume);
+//       for (const isoatlas::ObjectEntry& object : isoatlas::rank_objects(volume, analysis).entries)
+//           std::printf("voxel %lld: best at %g, %lld voxels\n", (long long)object.id, object.best_tau, (long long)object.voxels);
+//       const isoatlas::Surface surface = isoatlas::extract(volume, 100);
+//       isoatlas::write_surface("surface.ply", surface);
+//   } catch (const isoatlas::Error& error) {
+//       std::fprintf(stderr, "%s\n", error.what());
+//       return static_cast<int>(error.kind());
+//   }
+#pragma once
+
+#include "isoatlas/analysis.h"
+#include "isoatlas/context.h"
+#include "isoatlas/cut.h"
+#include "isoatlas/error.h"
+#include "isoatlas/objects.h"
+#include "isoatlas/output.h"
+#include "isoatlas/phantom.h"
+#include "isoatlas/surface.h"
+#include "isoatlas/verify.h"
+#include "isoatlas/volume.h"

@@ -1,0 +1,36 @@
+// Writers of everything that is not a surface: the criticality tree and label volumes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isoatlas/analysis.h"
+#include "isoatlas/volume.h"
+
+namespace isoatlas {
+
+/// Writes unsigned labels (x fastest; 0 = background) with the geometry of the volume; the format follows the name:
+/// .nrrd (gzip), .nii, .nii.gz, .tif. The smallest of uint8/uint16/uint32 that holds the largest label is used (NIfTI, TIFF too).
+/// Written to a temporary name and renamed. Throws Error: usage (unknown extension), resource.
+void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels);
+
+/// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .nii.
+void write_volume(const std::string& path, const Volume& volume);
+
+enum class TreeDetail : std::uint8_t { events, levels, elements, contours };
+
+struct TreeOutput {
+    TreeDetail detail = TreeDetail::events;
+    std::int64_t max_listed_contours = 20'000'000;  ///< above this many numbers the per-object genus lists are left out and said so
+};
+
+/// The tree as a file; the format follows the name: .json (docs/schema), .graphml, .csv, .vtu (points and lines, TTK array names).
+void write_tree(const std::string& path, const Volume& volume, const Analysis& analysis, const TreeOutput& options = {});
+/// The same JSON document on a stream.
+void write_tree_json(std::ostream& out, const Volume& volume, const Analysis& analysis, const TreeOutput& options = {});
+
+}  // namespace isoatlas

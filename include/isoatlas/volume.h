@@ -1,0 +1,199 @@
+// Volumes: scalar samples on a regular or rectilinear grid of 2 or 3 dimensions, with the geometry that places them in space.
+//
+// Axis order everywhere: x fastest. Sample (x, y, z) has index x + nx*(y + ny*z), 64-bit.
+// A 2D volume has rank 2 and size[2] == 1; a 3D volume that is one voxel thick keeps rank 3 (its topology is another).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "isoatlas/context.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas {
+
+using Vec3 = std::array<double, 3>;
+using Mat3 = std::array<Vec3, 3>;  ///< rows
+
+enum class ValueType : std::uint8_t { u8, i8, u16, i16, u32, i32, f32, f64 };
+[[nodiscard]] std::size_t size_of(ValueType type);
+[[nodiscard]] const char* name_of(ValueType type);  ///< "uint8", "float32", ...
+[[nodiscard]] bool is_floating(ValueType type);
+
+/// The shape of a grid. Every size is at least 1; the product fits in 63 bits.
+struct Extent {
+    int rank = 3;                              ///< 2 or 3: decides which theory applies
+    std::array<std::int64_t, 3> size{1, 1, 1};
+
+    [[nodiscard]] std::int64_t voxels() const { return size[0] * size[1] * size[2]; }
+    [[nodiscard]] std::int64_t slice() const { return size[0] * size[1]; }
+    [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return x + size[0] * (y + size[1] * z);
+    }
+    [[nodiscard]] std::array<std::int64_t, 3> voxel(std::int64_t i) const {
+        return {i % size[0], i / size[0] % size[1], i / (size[0] * size[1])};
+    }
+    bool operator==(const Extent&) const = default;
+};
+
+/// Where sample (0,0,0) lies and how the axes run: physical = origin + direction * (spacing .* index).
+/// Rectilinear grids carry one coordinate per sample and axis instead of spacing (coordinates[a].size() == size[a], else empty).
+struct Geometry {
+    Vec3 spacing{1, 1, 1};                            ///< positive
+    Vec3 origin{0, 0, 0};
+    Mat3 direction{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< column a = unit vector of axis a
+    std::array<std::vector<double>, 3> coordinates{};
+    std::string space = "unknown";                    ///< "LPS", "RAS", "unknown", ...: what the physical axes mean
+    std::string unit;                                 ///< of lengths: "mm", "um", ...; empty when the file does not say
+    bool operator==(const Geometry&) const = default;
+};
+[[nodiscard]] Vec3 to_physical(const Geometry& geometry, const Vec3& voxel_position);
+/// +1 when the axes form a right-handed frame in physical space, -1 for a mirrored one.
+[[nodiscard]] int handedness(const Geometry& geometry);
+/// Physical volume of the box around one sample (area in 2D); for rectilinear grids that of the given voxel.
+[[nodiscard]] double voxel_measure(const Geometry& geometry, const Extent& extent, std::int64_t index);
+
+/// reported value = slope * stored value + intercept (NIfTI scl_slope, ...). Topology is computed on stored values.
+struct Calibration {
+    double slope = 1;
+    double intercept = 0;
+    [[nodiscard]] bool is_identity() const { return slope == 1 && intercept == 0; }
+    [[nodiscard]] double reported(double stored) const { return is_identity() ? stored : slope * stored + intercept; }
+    [[nodiscard]] double stored(double reported) const { return is_identity() ? reported : (reported - intercept) / slope; }
+    bool operator==(const Calibration&) const = default;
+};
+
+/// What a file is, known from its header alone.
+struct VolumeInfo {
+    std::string path;         ///< as the user gave it
+    std::string format;       ///< "NRRD", "NIfTI-1", "RAW", ...
+    std::string encoding;     ///< "raw", "gzip", "zlib", "ascii", "base64", "TIFF", ...
+    std::string data_file;    ///< where the samples are, if not in path
+    ValueType type = ValueType::u8;
+    bool big_endian = false;
+    Extent extent;
+    Geometry geometry;
+    Calibration calibration;
+    std::string value_unit;   ///< of sample values, if the file says
+    std::string description;  ///< free text of the file, if any
+    bool slab_readable = false;   ///< uncompressed: any slab is read without reading what precedes it
+    std::int64_t file_bytes = 0;  ///< size of the file(s) on disk
+    std::vector<std::string> notes;  ///< what the reader chose or ignored, for the user
+};
+
+/// A volume file being read slab by slab. Not thread safe. The samples come out in host byte order, bit-exact.
+class VolumeReader {
+public:
+    virtual ~VolumeReader() = default;
+    [[nodiscard]] const VolumeInfo& info() const { return info_; }
+    /// Reads the slices [z_begin, z_end) of the last axis (for rank 2: rows are not split, use [0, 1)).
+    /// out.size() == slices * slice() * size_of(type). Compressed files are cheap to read forwards only: going back restarts.
+    /// Throws Error{input} when the file ends early or is corrupt. Cost: O(slab) time and memory.
+    virtual void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) = 0;
+
+protected:
+    VolumeInfo info_;
+};
+
+/// What to assume about RAW files; contradictions with a header are errors. Unset: read from a JSON sidecar
+/// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw).
+struct OpenOptions {
+    std::optional<std::vector<std::int64_t>> dims;   ///< x y [z]
+    std::optional<ValueType> type;
+    std::optional<bool> big_endian;
+    std::optional<std::int64_t> skip_bytes;
+    std::optional<Vec3> spacing, origin;
+    std::optional<std::int64_t> time_step;           ///< which volume of a 4D file; unset: a 4D file is an error that names this option
+};
+
+/// Chooses the reader by content and name. Allocates nothing in proportion to what a header claims.
+/// Throws Error: input (missing, truncated, contradictory), unsupported (4D without time_step, complex, 64-bit integers, ...).
+[[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options = {});
+
+/// What to do with NaN and infinite samples (and, if given, a no-data value).
+struct MissingPolicy {
+    enum class Action : std::uint8_t { error, replace, below } action = Action::error;
+    double value = 0;                  ///< for replace
+    std::optional<double> no_data;     ///< samples equal to this count as missing too
+};
+
+/// A volume in memory: samples of info.type in host byte order.
+class Volume {
+public:
+    VolumeInfo info;
+    std::vector<std::byte> bytes;
+
+    template <class T>
+    [[nodiscard]] std::span<const T> samples() const {
+        return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+    }
+    template <class T>
+    [[nodiscard]] std::span<T> samples() {
+        return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
+    }
+    [[nodiscard]] double value(std::int64_t index) const;     ///< stored value, exact
+    [[nodiscard]] double reported(std::int64_t index) const { return info.calibration.reported(value(index)); }
+};
+
+/// Calls function(std::span<const T>) with the samples of the volume.
+template <class Function>
+decltype(auto) visit_samples(const Volume& volume, Function&& function) {
+    switch (volume.info.type) {
+        case ValueType::u8: return function(volume.samples<std::uint8_t>());
+        case ValueType::i8: return function(volume.samples<std::int8_t>());
+        case ValueType::u16: return function(volume.samples<std::uint16_t>());
+        case ValueType::i16: return function(volume.samples<std::int16_t>());
+        case ValueType::u32: return function(volume.samples<std::uint32_t>());
+        case ValueType::i32: return function(volume.samples<std::int32_t>());
+        case ValueType::f32: return function(volume.samples<float>());
+        case ValueType::f64: break;
+    }
+    return function(volume.samples<double>());
+}
+
+/// Reads everything, applies the policy for missing values, and makes superlevel sets mean what the user sees:
+/// a negative calibration slope is applied to the samples (they become f64) and noted.
+/// Throws Error{input} that names the first NaN or infinite voxel under Action::error. Cost: O(volume).
+[[nodiscard]] Volume load_volume(VolumeReader& reader, const MissingPolicy& missing = {}, const Context& context = {});
+[[nodiscard]] Volume load_volume(const std::string& path, const OpenOptions& options = {}, const MissingPolicy& missing = {},
+                                 const Context& context = {});
+/// An empty (zero-filled) volume of a type. Throws Error{usage} for sizes below 1 or a product that does not fit.
+[[nodiscard]] Volume make_volume(const Extent& extent, ValueType type, const Geometry& geometry = {});
+
+template <class T>
+inline constexpr ValueType value_type_of = ValueType::u8;
+template <>
+inline constexpr ValueType value_type_of<std::int8_t> = ValueType::i8;
+template <>
+inline constexpr ValueType value_type_of<std::uint16_t> = ValueType::u16;
+template <>
+inline constexpr ValueType value_type_of<std::int16_t> = ValueType::i16;
+template <>
+inline constexpr ValueType value_type_of<std::uint32_t> = ValueType::u32;
+template <>
+inline constexpr ValueType value_type_of<std::int32_t> = ValueType::i32;
+template <>
+inline constexpr ValueType value_type_of<float> = ValueType::f32;
+template <>
+inline constexpr ValueType value_type_of<double> = ValueType::f64;
+
+/// A volume from samples that are already there (x fastest). Throws Error{usage} when the count does not match.
+template <class T>
+[[nodiscard]] Volume make_volume(const Extent& extent, std::span<const T> samples, const Geometry& geometry = {}) {
+    Volume volume = make_volume(extent, value_type_of<T>, geometry);
+    if (static_cast<std::int64_t>(samples.size()) != extent.voxels()) {
+        throw Error(ErrorKind::usage, {.what = "the number of samples does not match the extent"});
+    }
+    std::copy(samples.begin(), samples.end(), volume.samples<T>().begin());
+    return volume;
+}
+
+}  // namespace isoatlas
