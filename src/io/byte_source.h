@@ -1,0 +1,62 @@
+// ByteSource: the payload of a file as one stream of bytes, whatever it is wrapped in. Position 0 is the first payload byte.
+//
+// A reader seeks and reads; a plain file jumps, a compressed one restarts when asked to go back. Memory is bounded by a fixed buffer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isoatlas::io {
+
+class ByteSource {
+public:
+    virtual ~ByteSource() = default;
+    /// Fills all of out from the current position and moves behind it.
+    /// Throws Error{input} with file, offset and expected bytes when the stream ends early, is corrupt or cannot be read.
+    virtual void read(std::span<std::byte> out) = 0;
+    /// Moves to a payload position (0: start). Cost: O(1) with random_access(), else O(distance), or O(offset) when it lies behind.
+    virtual void seek(std::int64_t offset) = 0;
+    /// Whether nothing follows the current position. Compressed streams are read on to their checksum; Error{input} if it is wrong.
+    [[nodiscard]] virtual bool at_end() = 0;
+    [[nodiscard]] virtual bool random_access() const = 0;
+    /// The size of the payload with random_access(), else an upper bound of it that follows from the size of the file.
+    [[nodiscard]] virtual std::int64_t size_bound() const = 0;
+    /// The file to name in messages.
+    [[nodiscard]] virtual const std::string& file() const = 0;
+};
+
+/// The bytes [offset, offset + length) of a file; length -1: up to its end.
+/// Throws Error{input} when the file cannot be opened or has no such range.
+[[nodiscard]] std::unique_ptr<ByteSource> open_file_source(const std::string& path, std::int64_t offset = 0, std::int64_t length = -1);
+
+/// The bytes that a gzip (also of several members) or zlib stream in [offset, offset + length) of a file holds.
+/// size_bound() is 1032 times the compressed size: deflate cannot do better (a 2-bit pair stands for at most 258 bytes).
+[[nodiscard]] std::unique_ptr<ByteSource> open_inflate_source(const std::string& path, std::int64_t offset = 0, std::int64_t length = -1);
+
+/// `count` sources of part_bytes payload bytes each, one after the other; open(i) is called when part i is needed, one is open at a
+/// time. The caller vouches for random access and for the bound (it has looked at the files).
+struct PartsPlan {
+    std::int64_t count = 0;
+    std::int64_t part_bytes = 0;  ///< positive
+    std::int64_t size_bound = 0;
+    bool random_access = false;
+    std::function<std::unique_ptr<ByteSource>(std::int64_t part)> open{};
+    std::string file{};           ///< the file that lists the parts, for messages
+};
+[[nodiscard]] std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan);
+
+/// Size of a regular file in bytes. Throws Error{input} like opening it.
+[[nodiscard]] std::int64_t file_size(const std::string& path);
+/// The first bytes of a file: max of them, or all when it is smaller.
+[[nodiscard]] std::vector<std::byte> read_header_bytes(const std::string& path, std::int64_t max);
+/// The first bytes of the payload of a gzip or zlib file: at most max. Throws Error{input} on a corrupt stream.
+[[nodiscard]] std::vector<std::byte> read_inflated_bytes(const std::string& path, std::int64_t max);
+/// Whether the bytes start like a gzip file.
+[[nodiscard]] bool starts_like_gzip(std::span<const std::byte> bytes);
+
+}  // namespace isoatlas::io

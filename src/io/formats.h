@@ -1,0 +1,43 @@
+// The formats: for each a test of the first bytes and a function that opens it. open_volume.cpp chooses among them.
+//
+// looks_like_X(first, path): whether the file is an X, judged by its first 4096 bytes or fewer (of a gzip file: decompressed) and,
+// where a format has no magic number, by its name. Never throws.
+// open_X(path, options): reads the header and nothing else. Throws Error: input, unsupported, usage (see open_volume).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "isoatlas/volume.h"
+
+namespace isoatlas::io {
+
+using FirstBytes = std::span<const std::byte>;
+
+[[nodiscard]] bool looks_like_nrrd(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptions& options);
+
+[[nodiscard]] bool looks_like_metaimage(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const OpenOptions& options);
+
+[[nodiscard]] bool looks_like_npy(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOptions& options);
+
+[[nodiscard]] bool looks_like_nifti(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOptions& options);
+
+[[nodiscard]] bool looks_like_vti(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOptions& options);
+
+[[nodiscard]] bool looks_like_tiff(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptions& options);
+
+/// A directory of slices, one image file each. There is no looks_like: every directory is taken for one.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options);
+
+/// Any file: nothing in it says what it is, so options, a sidecar or its name must.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOptions& options);
+
+}  // namespace isoatlas::io

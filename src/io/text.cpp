@@ -1,0 +1,67 @@
+#include "io/text.h"
+
+#include <charconv>
+#include <filesystem>
+
+namespace isoatlas::io {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n\v\f";
+constexpr std::size_t kLongestQuote = 60;
+
+template <class Number>
+std::optional<Number> parse_whole(std::string_view word) {
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-')) return std::nullopt;
+    }
+    Number value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size() || word.empty()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+std::string_view trim(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(kSpace);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+std::vector<std::string_view> split_words(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (std::size_t begin = text.find_first_not_of(kSpace); begin != std::string_view::npos; begin = text.find_first_not_of(kSpace, begin)) {
+        const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+        begin = end;
+    }
+    return words;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view word) { return parse_whole<std::int64_t>(word); }
+std::optional<double> parse_number(std::string_view word) { return parse_whole<double>(word); }
+
+bool ends_with_ignoring_case(std::string_view text, std::string_view end) {
+    return text.size() >= end.size() && lower(text.substr(text.size() - end.size())) == lower(end);
+}
+
+std::string quoted(std::string_view text) {
+    std::string result = "'";
+    for (const char c : text.substr(0, kLongestQuote)) result += c < ' ' || c == 127 ? '?' : c;
+    return result + (text.size() > kLongestQuote ? "...'" : "'");
+}
+
+std::string beside(const std::string& path, std::string_view name) {
+    return (std::filesystem::path(path).parent_path() / std::filesystem::path(name)).string();
+}
+
+}  // namespace isoatlas::io

@@ -1,0 +1,23 @@
+// Reading the words and numbers of text headers. Numbers are independent of the locale and must be the whole word.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isoatlas::io {
+
+[[nodiscard]] std::string_view trim(std::string_view text);  ///< without blanks, tabs and line ends around it
+[[nodiscard]] std::string lower(std::string_view text);      ///< ASCII only
+[[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);  ///< at white space, views into text
+[[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);  ///< nothing: not an integer or out of range
+[[nodiscard]] std::optional<double> parse_number(std::string_view word);         ///< also nan and inf
+[[nodiscard]] bool ends_with_ignoring_case(std::string_view text, std::string_view end);
+/// The text shortened and with control bytes replaced, fit to be shown in a message.
+[[nodiscard]] std::string quoted(std::string_view text);
+/// `name` beside `path`: names are relative to the folder of the header that contains them.
+[[nodiscard]] std::string beside(const std::string& path, std::string_view name);
+
+}  // namespace isoatlas::io
