@@ -1,0 +1,55 @@
+# Two commands do everything on a fresh Debian 12:
+#   make demo [VOLUME=file] [ARGS="--dims 256 256 128 --type u8"]   builds, analyses, writes objects and tree to demo/
+#   make test                                                       builds and runs every check
+# `make help` lists the rest.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+export VOLUME ARGS PREFIX SECONDS_PER_TARGET
+
+.PHONY: help demo test check build install format lint bench fuzz asan tsan coverage clean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+
+demo: ## build, analyse the demonstration volume (or VOLUME=file, ARGS=options of the reader), write demo/
+	@scripts/demo.sh
+
+test: ## build everything and run every check: tests, layering, installation, format, lint
+	@scripts/test.sh
+
+build: ## the command line and the library, optimised: build/release/bin/isoatlas
+	@scripts/bootstrap.sh demo
+	@scripts/build.sh release
+
+install: build ## install to PREFIX (default /usr/local)
+	@cmake --install build/release --prefix "$${PREFIX:-/usr/local}"
+
+format: ## format all sources in place
+	@scripts/bootstrap.sh test
+	@scripts/format.sh --fix
+
+lint: ## clang-tidy over src and apps
+	@scripts/bootstrap.sh test
+	@cmake --preset dev >/dev/null
+	@scripts/lint.sh
+
+bench: ## measure: analysis against a sort, extraction against Flying Edges; writes build/bench/*.json and docs/performance.md
+	@scripts/bench.sh
+
+fuzz: ## every fuzz target for SECONDS_PER_TARGET (60)
+	@scripts/fuzz.sh
+
+asan: ## all tests under the address and undefined behaviour sanitizers
+	@scripts/bootstrap.sh test
+	@cmake --workflow --preset asan
+
+tsan: ## all tests under the thread sanitizer
+	@scripts/bootstrap.sh test
+	@cmake --workflow --preset tsan
+
+coverage: ## line coverage of src by the tests (gcov)
+	@scripts/coverage.sh
+
+clean: ## remove build/ and demo/
+	@rm -rf build demo

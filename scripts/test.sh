@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Everything that must hold before a change is shared. Prints what each step took.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+step() {
+    local name=$1 start=$SECONDS
+    shift
+    echo "== $name"
+    "$@"
+    echo "== $name: ok, $((SECONDS - start)) s"
+}
+
+step "packages" scripts/bootstrap.sh test
+step "format" scripts/format.sh
+step "build" scripts/build.sh dev
+step "tests" ctest --preset dev
+step "lint" scripts/lint.sh build/dev
+echo "All checks passed in $SECONDS s."

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""Reads every source of src, include, apps, tests and bench and fails where the layers are broken.
+
+    layering.py ROOT         checks a checkout, prints one line per finding, exits 1 when there is one
+    layering.py --self-test  feeds bad snippets to each rule and fails when one of them is not found
+
+The rules are CONTRIBUTING.md's: a stage includes `base`, itself, earlier stages and isoatlas/*.h; libraries and threads
+have one door each; mathematics does not print, exit or use assert; files stay short; nothing is left for later.
+"""
+import re
+import sys
+from pathlib import Path
+
+STAGES = ["base", "io", "field", "critical", "tree", "zones", "query", "mesh", "output", "phantom", "verify"]
+MAX_LINES = 400
+
+# header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
+DOORS = {
+    r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
+    r"thread|future|mutex|condition_variable|stop_token": r"(apps|tests|bench)/.*",
+    r"mpi\.h": r"src/dist/.*",
+    r"tiff.*\.h": r"src/io/tiff.*|src/output/.*tiff.*|src/output/write_labels.*|tests/.*",
+    r"pugixml\.hpp": r"src/io/vti.*|src/output/.*|tests/.*",
+    r"zlib\.h": r"src/io/.*|src/output/.*|tests/.*",
+    r"iostream|cstdio|stdio\.h|print": r"apps/.*|tests/.*|bench/.*|src/(io|output|base)/.*",
+    r"cassert|assert\.h": r"(?!)",
+    r"CLI/.*|fmt/.*": r"apps/.*",
+    r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/io/.*|src/output/.*",
+    r"gtest/.*|gmock/.*|rapidcheck.*": r"tests/.*",
+    r"benchmark/.*": r"bench/.*",
+}
+
+# what no line of src/ may contain, with the reason
+FORBIDDEN_IN_SOURCE = {
+    r"\bstd::(cout|cerr|clog)\b": "src does not print; results go back to the caller",
+    r"(?<![\w:.>])(std::)?(printf|fprintf|puts|perror)\s*\(": "src does not print; results go back to the caller",
+    r"(?<![\w.>])(std::|::)?_?(exit|quick_exit|abort)\s*\(": "src does not end the program; throw isoatlas::Error",
+    r"(?<![\w.>])assert\s*\(": "input is checked with isoatlas::Error, our own logic with ISOATLAS_CHECK",
+    r"\bstd::(jthread|thread|async|mutex)\b": "threads only through base/parallel.h",
+    r"\b(rand|srand|random_device)\s*\(": "results are the same on every run",
+}
+LATER = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "XX" + "X", "HA" + "CK"]) + r")\b")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def without_comments_and_strings(text):
+    """The same lines with comments and string contents blanked, so that prose cannot trip a rule."""
+    def blank(match):
+        token = match.group(0)
+        if token.startswith(("//", "/*")):
+            return re.sub(r"[^\n]", " ", token)
+        return '""' if token.startswith('"') else "''"
+    pattern = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])\''
+    return re.sub(pattern, blank, text, flags=re.S)
+
+
+def stage_of(path):
+    parts = path.split("/")
+    return parts[1] if parts[0] == "src" and len(parts) > 2 else None
+
+
+def include_findings(path, bracket, header):
+    stage = stage_of(path)
+    for door, allowed in DOORS.items():
+        if re.fullmatch(door, header) and not re.fullmatch(allowed, path):
+            yield f"includes <{header}>, which only {allowed} may"
+    if path.startswith(("apps/", "include/")):
+        if header.split("/")[0] in STAGES and bracket == '"' and "/" in header:
+            yield f"includes {header}: outside src only the public headers isoatlas/*.h are used"
+    if stage is None or bracket == "<" or header.startswith("isoatlas/"):
+        return
+    if "/" not in header:
+        yield f'includes "{header}": write the folder, "{stage}/{header}"'
+        return
+    target = header.split("/")[0]
+    if target not in STAGES:
+        yield f"includes {header}: not a stage"
+    elif STAGES.index(target) > STAGES.index(stage):
+        yield f"includes {header}: {target} comes after {stage}"
+
+
+def findings_of(path, text):
+    """Yields (line, message) for one file; path is relative to the root of the checkout."""
+    lines = text.splitlines()
+    if len(lines) > MAX_LINES:
+        yield len(lines), f"{len(lines)} lines; one idea per file, at most {MAX_LINES}"
+    if path.startswith("src/") and stage_of(path) not in STAGES:
+        yield 1, f"not in a folder of the flow: {' '.join(STAGES)}"
+    for number, line in enumerate(lines, 1):
+        include = INCLUDE.match(line)
+        if include:
+            for message in include_findings(path, include.group(1), include.group(2)):
+                yield number, message
+        if LATER.search(line):
+            yield number, "something is left for later; do it or open an issue"
+    if path.startswith(("src/", "include/")):
+        for number, line in enumerate(without_comments_and_strings(text).splitlines(), 1):
+            for pattern, reason in FORBIDDEN_IN_SOURCE.items():
+                if re.search(pattern, line):
+                    yield number, f"{re.search(pattern, line).group(0).strip()}: {reason}"
+
+
+def sources_of(root):
+    for folder in ["src", "include", "apps", "tests", "bench"]:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in (".h", ".cpp", ".hpp", ".cc"):
+                yield path
+
+
+def stages_in_cmake(root):
+    return re.findall(r"^add_stage\((\w+)\)", (root / "CMakeLists.txt").read_text(), flags=re.M)
+
+
+def check(root):
+    findings = []
+    if stages_in_cmake(root) != STAGES:
+        findings.append(f"CMakeLists.txt: the stages are {stages_in_cmake(root)}, this test knows {STAGES}")
+    count = 0
+    for path in sources_of(root):
+        count += 1
+        relative = path.relative_to(root).as_posix()
+        findings += [f"{relative}:{line}: {message}" for line, message in findings_of(relative, path.read_text(encoding="utf-8"))]
+    for finding in findings:
+        print(finding)
+    print(f"layering: {count} files, {len(findings)} findings")
+    return 1 if findings or count < 20 else 0
+
+
+# path, text, how many findings there must be
+SNIPPETS = [
+    ("src/io/a.cpp", '#include "tree/sweep.h"\n', 1),
+    ("src/tree/a.cpp", '#include "io/bytes.h"\n#include "tree/a.h"\n#include "base/check.h"\n#include "isoatlas/volume.h"\n', 0),
+    ("src/base/a.cpp", '#include "io/bytes.h"\n', 1),
+    ("src/base/a.cpp", '#include "check.h"\n', 1),
+    ("src/tree/a.cpp", '#include "store/file.h"\n', 1),
+    ("src/critical/a.cpp", "#include <tbb/parallel_for.h>\n", 1),
+    ("src/base/parallel.cpp", "#include <tbb/parallel_for.h>\n", 0),
+    ("src/zones/a.cpp", "#include <thread>\n", 1),
+    ("src/mesh/a.cpp", "#include <iostream>\n", 1),
+    ("src/mesh/a.cpp", "#include <cassert>\n", 1),
+    ("src/mesh/a.cpp", "#include <tiffio.h>\n", 1),
+    ("src/mesh/a.cpp", "#include <pugixml.hpp>\n", 1),
+    ("src/tree/a.cpp", "#include <mpi.h>\n", 1),
+    ("apps/isoatlas/a.cpp", '#include "tree/sweep.h"\n', 1),
+    ("apps/isoatlas/a.cpp", '#include <isoatlas/isoatlas.h>\n#include <iostream>\n#include "table.h"\n', 0),
+    ("include/isoatlas/a.h", '#include "field/order.h"\n', 1),
+    ("src/tree/a.cpp", 'int f() { std::cout << 1; }\n', 1),
+    ("src/tree/a.cpp", 'int f() { printf("x"); }\n', 1),
+    ("src/tree/a.cpp", 'int f() { std::snprintf(b, 2, "x"); }\n', 0),
+    ("src/tree/a.cpp", "int f() { std::exit(1); }\n", 1),
+    ("src/tree/a.cpp", "int f() { assert(x > 0); }\n", 1),
+    ("src/tree/a.cpp", "static_assert(sizeof(int) == 4);\n", 0),
+    ("src/tree/a.cpp", "std::mutex lock;\n", 1),
+    ("src/tree/a.cpp", '// never std::cout or exit(1) here\nconst char* s = "abort()";\n', 0),
+    ("src/tree/a.cpp", "// TO" + "DO: the rest\n", 1),
+    ("src/tree/a.cpp", "int x;\n" * (MAX_LINES + 1), 1),
+    ("src/tree/a.cpp", "int x;\n" * MAX_LINES, 0),
+    ("src/other/a.cpp", "int x;\n", 1),
+    ("src/tree/a.cpp", '#include <gtest/gtest.h>\n', 1),
+]
+
+
+def self_test():
+    wrong = 0
+    for path, text, expected in SNIPPETS:
+        found = list(findings_of(path, text))
+        if len(found) != expected:
+            wrong += 1
+            print(f"self-test: {path}: {text[:60]!r}: expected {expected} findings, got {found}")
+    print(f"layering self-test: {len(SNIPPETS)} snippets, {wrong} wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(self_test() if sys.argv[1] == "--self-test" else check(Path(sys.argv[1])))
