@@ -8,3 +8,4 @@ configure_package_config_file(cmake/isoatlasConfig.cmake.in ${CMAKE_CURRENT_BINA
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/isoatlasConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/isoatlasConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/isoatlasConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/isoatlas)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

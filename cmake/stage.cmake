@@ -26,7 +26,8 @@ function(add_library_of_stages target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_link_libraries(${target} PUBLIC TBB::tbb ZLIB::ZLIB TIFF::TIFF pugixml::pugixml Threads::Threads)
+  # Private: none of these shows in a public header; a static library still passes them on to the linker.
+  target_link_libraries(${target} PRIVATE TBB::tbb ZLIB::ZLIB TIFF::TIFF pugixml::pugixml Threads::Threads)
   if(ISOATLAS_SANITIZE)
     target_link_options(${target} PUBLIC -fsanitize=${ISOATLAS_SANITIZE})
   endif()

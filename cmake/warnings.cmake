@@ -3,6 +3,7 @@ add_library(isoatlas_flags INTERFACE)
 target_compile_features(isoatlas_flags INTERFACE cxx_std_20)
 target_compile_options(isoatlas_flags INTERFACE
   -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns wrongly about std::string operator+ (gcc bug 105651)
   $<$<CONFIG:Debug>:-D_GLIBCXX_ASSERTIONS>)
 if(ISOATLAS_SANITIZE)
   target_compile_options(isoatlas_flags INTERFACE -fsanitize=${ISOATLAS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -1,0 +1,151 @@
+// bench_engine: what does an analysis cost, measured in sorts, and how much memory does it need?
+//
+//   bench_engine [--data FOLDER] [--cache FOLDER] [--json FILE] [--threads N] [--pairs N] [--growth] [VOLUME...]
+//
+// For each volume: std::sort of its (value, index) pairs and analyse, in turns, medians of --pairs pairs; the answers are checked first.
+// --growth adds 128^3, 256^3, 512^3 of the smooth and the noisy field, without the sort.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "measure.h"
+#include "memory.h"
+#include "volumes.h"
+
+namespace bench {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+    Sources sources{"bench-cache", ""};
+    std::string json;
+    Options options;
+    bool growth = false;
+    std::string memory_of;  ///< set in the measuring process
+    std::vector<std::string> names;
+};
+
+Arguments parse(int argc, char** argv) {
+    Arguments arguments;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const auto value = [&]() -> std::string {
+            if (++i == argc) throw std::runtime_error(word + " needs a value");
+            return argv[i];
+        };
+        if (word == "--data")
+            arguments.sources.data = value();
+        else if (word == "--cache")
+            arguments.sources.cache = value();
+        else if (word == "--json")
+            arguments.json = value();
+        else if (word == "--threads")
+            arguments.options.threads = std::stoi(value());
+        else if (word == "--pairs")
+            arguments.options.pairs = std::stoi(value());
+        else if (word == "--memory-of")
+            arguments.memory_of = value();
+        else if (word == "--growth")
+            arguments.growth = true;
+        else if (word.starts_with("--"))
+            throw std::runtime_error("unknown option " + word);
+        else
+            arguments.names.push_back(word);
+    }
+    return arguments;
+}
+
+/// The measuring process: prints the peak bytes of one analysis.
+int print_peak(const Arguments& arguments) {
+    const isoatlas::Volume volume = make(arguments.memory_of, arguments.sources);
+    isoatlas::Context context;
+    context.threads = arguments.options.threads;
+    const std::int64_t before = reset_peak();
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, context);
+    std::printf("%lld\n", static_cast<long long>(peak() - before));
+    return analysis.element_count() > 0 ? 0 : 1;
+}
+
+std::int64_t peak_of(const std::string& name, const Arguments& arguments) {
+    return peak_bytes_of_child({"bench_engine", "--memory-of", name, "--cache", arguments.sources.cache, "--data", arguments.sources.data,
+                                "--threads", std::to_string(arguments.options.threads)});
+}
+
+ordered_json record_of(const std::string& name, const Arguments& arguments, bool with_sort) {
+    Answer answer{};
+    Options options = arguments.options;
+    options.sort = with_sort;
+    const isoatlas::Volume volume = make(name, arguments.sources);
+    const Timing timing = measure(volume, options, answer);
+    const std::int64_t voxels = volume.info.extent.voxels();
+    const std::int64_t peak = peak_of(name, arguments);
+    const std::int64_t allowed = 12 * voxels + 64 * answer.elements;
+
+    ordered_json record{{"volume", name},
+                        {"size", volume.info.extent.size},
+                        {"type", isoatlas::name_of(volume.info.type)},
+                        {"voxels", voxels},
+                        {"critical_elements", answer.elements},
+                        {"maxima", answer.maxima},
+                        {"events", answer.events},
+                        {"seconds", timing.seconds},
+                        {"seconds_one_thread", timing.seconds_serial},
+                        {"peak_bytes", peak},
+                        {"peak_bytes_per_voxel", static_cast<double>(peak) / static_cast<double>(voxels)},
+                        {"peak_over_allowed", static_cast<double>(peak) / static_cast<double>(allowed)}};
+    if (with_sort) {
+        record["sort_seconds"] = timing.sort_seconds;
+        record["ratio"] = timing.ratio;
+        record["ratio_range"] = {timing.ratio_low, timing.ratio_high};
+    }
+    for (const auto& [phase, seconds] : timing.phases) record["phases"][phase] = seconds;
+    return record;
+}
+
+void print_line(const ordered_json& record) {
+    std::printf("%-12s %-8s %11lld voxels %10lld elements %8.3f s %8.3f s on 1", record["volume"].get<std::string>().c_str(),
+                record["type"].get<std::string>().c_str(), record["voxels"].get<long long>(), record["critical_elements"].get<long long>(),
+                record["seconds"].get<double>(), record["seconds_one_thread"].get<double>());
+    if (record.contains("ratio"))
+        std::printf("  sort %6.3f s  ratio %5.3f", record["sort_seconds"].get<double>(), record["ratio"].get<double>());
+    std::printf("  %5.1f bytes/voxel (%.2f of what is allowed)\n", record["peak_bytes_per_voxel"].get<double>(),
+                record["peak_over_allowed"].get<double>());
+    if (record.contains("phases")) {
+        for (const auto& [phase, seconds] : record["phases"].items())
+            std::printf("    %-28s %7.3f s\n", phase.c_str(), seconds.get<double>());
+    }
+    std::fflush(stdout);
+}
+
+int run_all(const Arguments& arguments) {
+    std::filesystem::create_directories(arguments.sources.cache);
+    ordered_json document{
+        {"schema", "isoatlas-bench-engine/1"}, {"threads", arguments.options.threads}, {"pairs", arguments.options.pairs}};
+    for (const std::string& name : arguments.names.empty() ? default_names(arguments.sources) : arguments.names) {
+        print_line(document["volumes"].emplace_back(record_of(name, arguments, true)));
+    }
+    for (const char* name : {"smooth-128", "smooth-256", "smooth-512", "noisy-128", "noisy-256", "noisy-512"}) {
+        if (arguments.growth) print_line(document["growth"].emplace_back(record_of(name, arguments, false)));
+    }
+    if (arguments.json.empty()) return 0;
+    std::ofstream file(arguments.json);
+    file << document.dump(2) << "\n";
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + arguments.json);
+    return 0;
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) try {
+    const bench::Arguments arguments = bench::parse(argc, argv);
+    return arguments.memory_of.empty() ? bench::run_all(arguments) : bench::print_peak(arguments);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_engine: %s\n", error.what());
+    return 1;
+}

@@ -1,0 +1,115 @@
+#include "measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "yardstick.h"
+
+namespace bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// Sums time by the name of the phase that the engine reports.
+class PhaseClock {
+public:
+    void enter(const std::string& name) {
+        leave();
+        current_ = name;
+        start_ = Clock::now();
+    }
+    void leave() {
+        if (current_.empty()) return;
+        const auto known = std::find_if(phases_.begin(), phases_.end(), [this](const auto& phase) { return phase.first == current_; });
+        if (known == phases_.end())
+            phases_.emplace_back(current_, since(start_));
+        else
+            known->second += since(start_);
+        current_.clear();
+    }
+    [[nodiscard]] const std::string& current() const { return current_; }
+    [[nodiscard]] const std::vector<std::pair<std::string, double>>& phases() const { return phases_; }
+
+private:
+    std::vector<std::pair<std::string, double>> phases_;
+    std::string current_;
+    Clock::time_point start_;
+};
+
+Answer answer_of(const isoatlas::Analysis& analysis) {
+    Answer answer{analysis.element_count(), 0, analysis.event_count(), analysis.contour_arc_count()};
+    std::int64_t euler = 0;
+    for (std::int64_t id = 0; id < answer.elements; ++id) {
+        const isoatlas::Element element = analysis.element(id);
+        euler += element.l0 - element.h0;
+        answer.maxima += element.h0 == 0 ? 1 : 0;
+    }
+    if (euler != 1) throw std::runtime_error("wrong answer: the Euler numbers of the critical elements sum to " + std::to_string(euler));
+    return answer;
+}
+
+struct Run {
+    double seconds;
+    Answer answer;
+    std::vector<std::pair<std::string, double>> phases;
+};
+
+Run run(const isoatlas::Volume& volume, int threads) {
+    PhaseClock phases;
+    isoatlas::Context context;
+    context.threads = threads;
+    context.progress = [&phases](const isoatlas::Progress& progress) {
+        if (progress.phase != phases.current()) phases.enter(std::string(progress.phase));
+    };
+    const Clock::time_point start = Clock::now();
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, context);
+    const double seconds = since(start);
+    phases.leave();
+    return {seconds, answer_of(analysis), phases.phases()};
+}
+
+void require_equal(const Answer& answer, const Answer& other) {
+    if (!(answer == other)) throw std::runtime_error("wrong answer: two runs of the analysis do not agree");
+}
+
+}  // namespace
+
+Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& answer) {
+    answer = run(volume, options.threads).answer;  // also warms up
+    if (const std::int64_t maxima = count_maxima(volume); maxima != answer.maxima) {
+        throw std::runtime_error("wrong answer: " + std::to_string(answer.maxima) + " maxima, but there are " + std::to_string(maxima));
+    }
+    Timing timing;
+    std::vector<double> sorts, parallel, serial, ratios;
+    for (int pair = 0; pair < options.pairs; ++pair) {
+        if (options.sort) sorts.push_back(seconds_of_sort(volume));
+        Run last = run(volume, options.threads);
+        require_equal(answer, last.answer);
+        parallel.push_back(last.seconds);
+        if (options.sort) ratios.push_back(last.seconds / sorts.back());
+        timing.phases = std::move(last.phases);
+        const Run one = run(volume, 1);
+        require_equal(answer, one.answer);
+        serial.push_back(one.seconds);
+    }
+    timing.sort_seconds = median(sorts);
+    timing.seconds = median(parallel);
+    timing.seconds_serial = median(serial);
+    timing.ratio = median(ratios);
+    if (!ratios.empty()) {
+        timing.ratio_low = *std::min_element(ratios.begin(), ratios.end());
+        timing.ratio_high = *std::max_element(ratios.begin(), ratios.end());
+    }
+    return timing;
+}
+
+}  // namespace bench

@@ -1,0 +1,22 @@
+// Peak memory of analyse beyond its input, measured in a process of its own.
+//
+// The child loads the volume, gives freed pages back, resets the kernel's high-water mark of resident memory (/proc/self/clear_refs) and
+// reads the resident size; after analyse it reads the high-water mark (VmHWM). The difference is what analyse needed at its peak,
+// its result, thread stacks and allocator overhead included.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// Runs this program again as `arguments` and returns the number of bytes it prints. Throws std::runtime_error when it fails.
+[[nodiscard]] std::int64_t peak_bytes_of_child(const std::vector<std::string>& arguments);
+
+/// Resident bytes now, with the high-water mark reset to it. Throws std::runtime_error where the kernel does not offer it.
+[[nodiscard]] std::int64_t reset_peak();
+/// The high-water mark since then.
+[[nodiscard]] std::int64_t peak();
+
+}  // namespace bench

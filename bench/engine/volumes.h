@@ -1,0 +1,23 @@
+// The volumes of the benchmark: generated fields and, when their folder is given, real data sets.
+#pragma once
+
+#include <isoatlas/isoatlas.h>
+
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// Where volumes come from. Generated fields are kept in `cache` (raw samples), because making them costs more than analysing them.
+struct Sources {
+    std::string cache;  ///< folder; must exist
+    std::string data;   ///< folder with NAME/NAME.nrrd; empty: no real data
+};
+
+/// Names: smooth-N, noisy-N (2 % uniform noise), u8-N (256 grey levels) for a size N, and data set names.
+[[nodiscard]] isoatlas::Volume make(const std::string& name, const Sources& sources);
+
+/// The names of the default run: the three fields at 256^3 and the data sets that are there.
+[[nodiscard]] std::vector<std::string> default_names(const Sources& sources);
+
+}  // namespace bench
