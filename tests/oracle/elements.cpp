@@ -1,0 +1,93 @@
+// Elements and their total order (theory.md section 1), written from the text.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "oracle/oracle.h"
+
+namespace oracle {
+
+bool Grid::contains(const std::array<Index, 3>& p) const {
+    return p[0] >= 0 && p[1] >= 0 && p[2] >= 0 && p[0] < size[0] && p[1] < size[1] && p[2] < size[2];
+}
+
+Index Grid::neighbour(Index v, int d) const {
+    std::array<Index, 3> p = voxel(v);
+    p[d / 2] += d % 2 == 0 ? -1 : 1;
+    return contains(p) ? index(p[0], p[1], p[2]) : -1;
+}
+
+namespace {
+
+constexpr int kAxis1[3] = {0, 0, 1}, kAxis2[3] = {1, 2, 2};  // xy, xz, yz
+
+std::tuple<double, double, double> key(const Element& e) { return {e.value, e.tie[0], e.tie[1]}; }
+
+Element make_vertex(const Grid& grid, Index v) {
+    const std::array<Index, 3> p = grid.voxel(v);
+    Element e;
+    e.value = grid.value[v];
+    e.tie = {static_cast<double>(v), 0};
+    e.position = {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    return e;
+}
+
+/// The face with corner a and an orientation; false when it is not in the grid or not ambiguous.
+bool make_face(const Grid& grid, const std::vector<Element>& vertex, Index a, int orientation, Element& e) {
+    const int axis1 = kAxis1[orientation], axis2 = kAxis2[orientation];
+    const Index b = grid.neighbour(a, 2 * axis1 + 1), d = grid.neighbour(a, 2 * axis2 + 1);
+    if (b < 0 || d < 0) return false;
+    const Index c = grid.neighbour(b, 2 * axis2 + 1);
+    const auto above = [&vertex](Index p, Index q) { return key(vertex[p]) > key(vertex[q]); };
+    const bool ac_high = above(a, b) && above(a, d) && above(c, b) && above(c, d);
+    const bool bd_high = above(b, a) && above(b, c) && above(d, a) && above(d, c);
+    if (!ac_high && !bd_high) return false;
+    e.is_face = true;
+    e.corner = {a, b, c, d};
+    e.high = ac_high ? std::array<Index, 2>{a, c} : std::array<Index, 2>{b, d};
+    e.low = ac_high ? std::array<Index, 2>{b, d} : std::array<Index, 2>{a, c};
+    const Index highest_low = above(e.low[0], e.low[1]) ? e.low[0] : e.low[1];
+    const Index lowest_high = above(e.high[0], e.high[1]) ? e.high[1] : e.high[0];
+    const double va = grid.value[a], vb = grid.value[b], vc = grid.value[c], vd = grid.value[d];
+    const double lo = grid.value[highest_low], hi = grid.value[lowest_high];
+    double s = (va * vc - vb * vd) / (((va + vc) - vb) - vd);
+    if (!(s >= lo)) s = lo;
+    if (s > hi) s = hi;
+    e.value = s;
+    e.tie = {s > lo ? -1.0 : static_cast<double>(highest_low) + 0.5, static_cast<double>(3 * a + orientation)};
+    e.position = vertex[a].position;
+    e.position[axis1] += 0.5;
+    e.position[axis2] += 0.5;
+    return true;
+}
+
+}  // namespace
+
+Elements::Elements(Grid g) : grid(std::move(g)) {
+    const Index voxels = grid.voxels();
+    for (Index v = 0; v < voxels; ++v) all.push_back(make_vertex(grid, v));
+    face_at.assign(static_cast<std::size_t>(3 * voxels), -1);
+    std::vector<Element> faces;
+    for (Index v = 0; v < voxels; ++v) {
+        for (int orientation = 0; orientation < (grid.rank == 2 ? 1 : 3); ++orientation) {
+            Element face;
+            if (!make_face(grid, all, v, orientation, face)) continue;
+            face_at[3 * v + orientation] = voxels + static_cast<Index>(faces.size());
+            faces.push_back(face);
+        }
+    }
+    all.insert(all.end(), faces.begin(), faces.end());
+    by_rank.resize(all.size());
+    for (Index e = 0; e < count(); ++e) by_rank[e] = e;
+    std::sort(by_rank.begin(), by_rank.end(), [this](Index p, Index q) { return key(all[p]) < key(all[q]); });
+    rank_of.resize(all.size());
+    for (Index r = 0; r < count(); ++r) rank_of[by_rank[r]] = r;
+}
+
+Index Elements::cut_at(double tau) const {
+    Index cut = 0;
+    while (cut < count() && all[by_rank[cut]].value < tau) ++cut;
+    return cut;
+}
+
+}  // namespace oracle
