@@ -1,0 +1,268 @@
+// The only file that includes CLI11: every verb gets its own small parser.
+#include "arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "suggest.h"
+#include "verbs.h"
+#include "words.h"
+
+namespace isoatlas::cli {
+namespace {
+
+[[noreturn]] void usage(const std::string& what, const std::string& next, const std::string& expected = {}) {
+    throw Error(ErrorKind::usage, {.what = what, .expected = expected, .next = next});
+}
+
+/// Options as typed; converted after the parse so that every message is ours.
+struct Typed {
+    std::string dims, type, endian, spacing, origin, missing, interpolant = "faces", shell = "all", style = "compact", boundary = "closed",
+        detail = "events";
+    double no_data = 0;
+    double tau = 0;
+    std::int64_t skip = 0, time_step = 0;
+};
+
+void add_talking(CLI::App& app, Arguments& arguments) {
+    app.add_flag("--json", arguments.json, "One JSON document on standard output, errors included")->group("Talking");
+    app.add_flag("-q,--quiet", arguments.quiet, "No progress, no hints")->group("Talking");
+    app.add_flag("-v,--verbose", arguments.verbose, "Say more (time, memory)")->group("Talking");
+    app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Talking");
+    app.add_option("--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
+        ->check(CLI::Range(0, 4096))->type_name("N")->group("Talking");
+}
+
+void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
+    const char* group = "Reading";
+    app.add_option("--dims", typed.dims, "Samples per axis of a RAW file, x fastest: 512x512x100")->type_name("NX[xNY[xNZ]]")->group(group);
+    app.add_option("--type", typed.type, "Sample type of a RAW file: uint8 int8 uint16 int16 uint32 int32 float32 float64")->type_name("T")->group(group);
+    app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
+    app.add_option("--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
+    app.add_option("--spacing", typed.spacing, "Distance of samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
+    app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
+    app.add_option("--time-step", typed.time_step, "Which volume of a 4D file, from 0")->type_name("N")->group(group);
+    app.add_option("--missing", typed.missing, "Put VALUE for NaN and infinite samples; below: less than every value")->type_name("VALUE|below")->group(group);
+    app.add_option("--no-data", typed.no_data, "Samples of this stored value are missing too (with --missing)")->type_name("VALUE")->group(group);
+    app.add_flag("--voxel", arguments.voxel_units, "Lengths in voxels, not in the file's units")->group(group);
+}
+
+void add_interpolant(CLI::App& app, Typed& typed) {
+    app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces")->type_name("NAME")->group("Reading");
+}
+
+void add_output(CLI::App& app, Arguments& arguments, const std::string& formats, bool required) {
+    CLI::Option* option = app.add_option("-o,--output", arguments.output, "Write to FILE (" + formats + "); an existing file is overwritten");
+    option->type_name("FILE");
+    if (required) option->required();
+}
+
+void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
+    app.add_option("--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
+}
+
+void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed& typed) {
+    if (verb == "tree") {
+        app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
+        add_output(app, arguments, ".json .graphml .csv .vtu", false);
+    } else if (verb == "objects") {
+        add_tau(app, typed, "List every object at this isovalue");
+        app.add_option("--top", arguments.top, "At most N objects (without --tau: 24)")->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))->type_name("N");
+        app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
+    } else if (verb == "extract") {
+        add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
+        app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID...");
+        app.add_option("--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID...");
+        app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
+        app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
+        app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
+        app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
+        add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
+    } else if (verb == "label") {
+        add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
+        app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
+        add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
+    } else if (verb == "phantom") {
+        app.add_flag("--list", arguments.list, "List the phantoms");
+        app.add_option("--size", arguments.phantom.size, "Samples per axis")->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 20))->type_name("N");
+        app.add_option("--seed", arguments.phantom.seed, "Seed of random phantoms")->type_name("N");
+        app.add_option("--genus", arguments.phantom.genus, "Number of handles (torus-chain)")->type_name("N");
+        app.add_option("--shells", arguments.phantom.shells, "Number of shells (nested-shells)")->type_name("N");
+        app.add_option("--noise", arguments.phantom.noise, "Uniform noise of +- this fraction of the range")->type_name("F");
+        app.add_option("--quantise", arguments.phantom.quantise, "Number of grey levels, 2..65536")->type_name("N");
+        add_output(app, arguments, ".nrrd .npy .raw .mha .nii", false);
+    } else if (verb == "verify") {
+        app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")->check(CLI::Range(1, 100000))->type_name("N");
+    }
+}
+
+bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion"; }
+
+std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
+    auto app = std::make_unique<CLI::App>(verb.summary, "isoatlas " + verb.name);
+    CLI::Option* operand = app->add_option(verb.operand, arguments.file, reads_volumes(verb.name) ? "The file (or folder of slices)" : "");
+    if (verb.name != "phantom") operand->required();
+    add_own(*app, verb.name, arguments, typed);
+    if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
+    if (reads_volumes(verb.name) && verb.name != "info") add_interpolant(*app, typed);
+    add_talking(*app, arguments);
+    app->get_formatter()->column_width(34);
+    std::string examples = "Examples:\n";
+    for (const std::string& example : verb.examples) examples += "  " + example + "\n";
+    app->footer(examples + "\nExit codes: isoatlas --help. More: docs/cli.md");
+    return app;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+/// "--dims 4 5 6" is the same as "--dims 4x5x6": joined here, because CLI11 would take a following file name for a number.
+std::vector<std::string> join_numbers(const std::vector<std::string>& words) {
+    std::vector<std::string> joined;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        joined.push_back(words[i]);
+        if (words[i] != "--dims" && words[i] != "--spacing" && words[i] != "--origin") continue;
+        std::string numbers;
+        while (i + 1 < words.size() && is_number(words[i + 1])) numbers += (numbers.empty() ? "" : ",") + words[++i];
+        if (!numbers.empty()) joined.push_back(numbers);
+    }
+    return joined;
+}
+
+void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
+    const auto given = [&](const char* name) {
+        const CLI::Option* option = app.get_option_no_throw(name);
+        return option != nullptr && option->count() > 0;
+    };
+    if (given("--dims")) arguments.open.dims = parse_dims(typed.dims);
+    if (given("--type")) arguments.open.type = parse_type(typed.type);
+    if (given("--endian")) arguments.open.big_endian = parse_choice<bool>("--endian", typed.endian, {{"little", false}, {"big", true}});
+    if (given("--skip")) arguments.open.skip_bytes = typed.skip;
+    if (given("--spacing")) arguments.open.spacing = parse_vector("--spacing", typed.spacing, 1);
+    if (given("--origin")) arguments.open.origin = parse_vector("--origin", typed.origin, 0);
+    if (given("--time-step")) arguments.open.time_step = typed.time_step;
+    if (given("--missing")) arguments.missing = parse_missing(typed.missing);
+    if (given("--no-data")) arguments.missing.no_data = typed.no_data;
+    if (given("--tau")) {
+        if (!std::isfinite(typed.tau)) usage("--tau is not a finite number", "give an isovalue inside the range that `isoatlas info` prints");
+        arguments.tau = typed.tau;
+    }
+    arguments.interpolant = parse_choice<Interpolant>("--interpolant", typed.interpolant, {{"faces", Interpolant::faces}});
+    arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
+                                                {{"all", ShellChoice::all}, {"outer", ShellChoice::outer}, {"inner", ShellChoice::inner}});
+    arguments.style = parse_choice<SurfaceStyle>("--style", typed.style, {{"compact", SurfaceStyle::compact}, {"full", SurfaceStyle::full}});
+    arguments.boundary = parse_choice<Boundary>("--boundary", typed.boundary, {{"closed", Boundary::closed}, {"open", Boundary::open}});
+    arguments.detail = parse_choice<TreeDetail>("--detail", typed.detail,
+                                                {{"events", TreeDetail::events}, {"levels", TreeDetail::levels},
+                                                 {"elements", TreeDetail::elements}, {"contours", TreeDetail::contours}});
+}
+
+[[noreturn]] void explain(const CLI::App& app, const std::string& verb, const std::vector<std::string>& words, const std::string& message) {
+    const std::vector<std::string> known = option_names(app);
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        if (word.rfind("--", 0) != 0 || word == "--" || std::count(known.begin(), known.end(), name) > 0) continue;
+        const std::string near = nearest(name, known);
+        usage("`isoatlas " + verb + "` has no option " + name,
+              (near.empty() ? "" : "did you mean " + near + "? ") + ("all options: isoatlas " + verb + " --help"));
+    }
+    usage(message, "isoatlas " + verb + " --help");
+}
+
+[[noreturn]] void unknown_verb(const std::string& word) {
+    std::vector<std::string> names{"help"};
+    for (const Verb& verb : verbs()) names.push_back(verb.name);
+    std::error_code ignored;
+    if (std::filesystem::exists(word, ignored)) {
+        usage("\"" + word + "\" is a file, not a verb", "isoatlas objects " + word + ", or isoatlas --help");
+    }
+    const std::string near = nearest(word, names);
+    usage("there is no verb \"" + word + "\"", near.empty() ? "isoatlas --help" : "did you mean `isoatlas " + near + "`?", list_of(names));
+}
+
+/// Moves options before the verb behind it, so that `isoatlas --json info FILE` works. Returns the verb, "" if there is none.
+std::string take_verb(std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] == "--threads") {
+            ++i;
+        } else if (words[i].empty() || words[i][0] != '-') {
+            const std::string verb = words[i];
+            std::vector<std::string> before(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i));
+            words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+            words.insert(words.end(), before.begin(), before.end());
+            return verb;
+        }
+    }
+    return "";
+}
+
+Parsed parse_without_verb(const std::vector<std::string>& words) {
+    Parsed parsed;
+    if (words.empty()) parsed.text = greeting();
+    for (const std::string& word : words) {
+        if (word == "-h" || word == "--help") parsed.text = overview();
+        if (word == "--version" && parsed.text.empty()) parsed.text = "isoatlas " ISOATLAS_VERSION "\n";
+    }
+    if (parsed.text.empty()) usage("no verb after " + words[0], "isoatlas --help");
+    return parsed;
+}
+
+Parsed parse_help(const std::vector<std::string>& words) {
+    Parsed parsed;
+    if (words.empty() || words[0][0] == '-') {
+        parsed.text = overview();
+        return parsed;
+    }
+    const Verb* verb = find_verb(words[0]);
+    if (verb == nullptr) unknown_verb(words[0]);
+    Arguments arguments;
+    Typed typed;
+    parsed.text = make_parser(*verb, arguments, typed)->help();
+    return parsed;
+}
+
+}  // namespace
+
+Parsed parse(const std::vector<std::string>& given) {
+    std::vector<std::string> words = join_numbers(given);
+    const std::string name = take_verb(words);
+    if (name.empty()) return parse_without_verb(words);
+    if (name == "help") return parse_help(words);
+    const Verb* verb = find_verb(name);
+    if (verb == nullptr) unknown_verb(name);
+
+    Parsed parsed;
+    Typed typed;
+    parsed.arguments.verb = name;
+    const auto parser = make_parser(*verb, parsed.arguments, typed);
+    if (std::count(words.begin(), words.end(), "--version") > 0) return parse_without_verb({"--version"});
+    try {
+        std::vector<std::string> reversed(words.rbegin(), words.rend());   // CLI11 takes words from the back
+        parser->parse(std::move(reversed));
+    } catch (const CLI::CallForHelp&) {
+        parsed.text = parser->help();
+        return parsed;
+    } catch (const CLI::ParseError& error) {
+        explain(*parser, name, words, error.what());
+    }
+    convert(*parser, typed, parsed.arguments);
+    return parsed;
+}
+
+std::vector<std::string> options_of(const std::string& verb) {
+    Arguments arguments;
+    Typed typed;
+    const Verb* found = find_verb(verb);
+    return found == nullptr ? std::vector<std::string>{} : option_names(*make_parser(*found, arguments, typed));
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,56 @@
+// Arguments: what the user typed, checked and converted. parse() lives in the only file that knows CLI11.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <isoatlas/isoatlas.h>
+
+namespace isoatlas::cli {
+
+struct Arguments {
+    std::string verb;
+    std::string file;     ///< VOLUME, MESH, or the name of a phantom, verb or shell
+    std::string output;   ///< -o; empty: none
+
+    // Reading
+    OpenOptions open;
+    MissingPolicy missing;
+    bool voxel_units = false;   ///< lengths in voxels, whatever the file says
+
+    // Running and talking
+    Interpolant interpolant = Interpolant::faces;
+    int threads = 0;
+    bool json = false, quiet = false, no_color = false;
+    int verbose = 0;
+
+    // Choosing
+    std::optional<double> tau;   ///< in reported (calibrated) units, as typed
+    std::vector<std::int64_t> objects, contours;
+    bool best = false, all = false, zones = false, list = false;
+    std::int64_t top = 0;        ///< 0: not given
+    int levels = 8;
+
+    // Shaping the output
+    ShellChoice shell = ShellChoice::all;
+    SurfaceStyle style = SurfaceStyle::compact;
+    Boundary boundary = Boundary::closed;
+    TreeDetail detail = TreeDetail::events;
+    PhantomOptions phantom;
+};
+
+/// What to do with a command line: run a verb, or print a text (help, version) and stop.
+struct Parsed {
+    Arguments arguments;
+    std::string text;   ///< not empty: print it and exit 0
+};
+
+/// Throws Error{usage} with a next step (did you mean ...?) for everything it does not understand.
+[[nodiscard]] Parsed parse(const std::vector<std::string>& words);
+
+/// The long options of a verb, for completion.
+[[nodiscard]] std::vector<std::string> options_of(const std::string& verb);
+
+}  // namespace isoatlas::cli

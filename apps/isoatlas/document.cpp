@@ -1,0 +1,59 @@
+#include "document.h"
+
+#include <cmath>
+
+#include "terminal.h"
+#include "values.h"
+
+namespace isoatlas::cli {
+namespace {
+
+/// Paths and descriptions of files need not be UTF-8: what is not becomes U+FFFD.
+std::string text_of(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
+
+Json volume_json(const VolumeInfo& info) {
+    Json json{{"path", info.path}, {"format", info.format}, {"encoding", info.encoding}, {"type", name_of(info.type)}, {"rank", info.extent.rank}};
+    json["dims"] = Json::array();
+    for (int axis = 0; axis < info.extent.rank; ++axis) json["dims"].push_back(info.extent.size[static_cast<std::size_t>(axis)]);
+    json["spacing"] = info.geometry.spacing;
+    json["origin"] = info.geometry.origin;
+    json["direction"] = info.geometry.direction;
+    if (!info.geometry.coordinates[0].empty()) json["coordinates"] = info.geometry.coordinates;
+    json["space"] = info.geometry.space;
+    json["calibration"] = {{"slope", info.calibration.slope}, {"intercept", info.calibration.intercept}};
+    json["notes"] = info.notes;
+    return json;
+}
+
+}  // namespace
+
+Json document(const std::string& name) { return {{"schema", "isoatlas/" + name + "/1"}, {"version", ISOATLAS_VERSION}}; }
+
+Json document(const std::string& name, const VolumeInfo& info) {
+    Json json = document(name);
+    json["volume"] = volume_json(info);
+    json["units"] = {{"length", info.geometry.unit}, {"measure", plain_measure_unit(info)}, {"value", info.value_unit}};
+    return json;
+}
+
+Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, Boundary boundary) {
+    Json json = document(name, info);
+    json["interpolant"] = name_of(interpolant);
+    json["boundary"] = boundary == Boundary::closed ? "closed" : "open";
+    return json;
+}
+
+void print(Terminal& terminal, const Json& json) { terminal.out() << text_of(json, 2) << '\n'; }
+
+void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count, const std::function<Json(std::int64_t)>& item) {
+    std::string text = text_of(head, 2);
+    text.erase(text.find_last_of('}'));
+    text.erase(text.find_last_not_of(" \n") + 1);
+    terminal.out() << text << (head.empty() ? "" : ",") << "\n  \"" << name << "\": [";
+    for (std::int64_t i = 0; i < count; ++i) terminal.out() << (i > 0 ? ",\n    " : "\n    ") << text_of(item(i), -1);
+    terminal.out() << (count > 0 ? "\n  ]\n}\n" : "]\n}\n");
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+}  // namespace isoatlas::cli

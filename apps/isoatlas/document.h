@@ -1,0 +1,30 @@
+// The JSON documents of --json: one object on standard output, long lists one entry a line so that nothing big is built in memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <isoatlas/isoatlas.h>
+
+namespace isoatlas::cli {
+
+class Terminal;
+using Json = nlohmann::ordered_json;
+
+/// {"schema": "isoatlas/NAME/1", "version": ...}
+[[nodiscard]] Json document(const std::string& name);
+/// The same with "volume", "units" and, for results of an analysis, "interpolant" and "boundary".
+[[nodiscard]] Json document(const std::string& name, const VolumeInfo& info);
+[[nodiscard]] Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, Boundary boundary = Boundary::closed);
+
+void print(Terminal& terminal, const Json& json);
+/// Prints `head` with one more member: name: [item(0), ..., item(count - 1)].
+void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count, const std::function<Json(std::int64_t)>& item);
+
+/// Infinite becomes null.
+[[nodiscard]] Json number(double value);
+
+}  // namespace isoatlas::cli

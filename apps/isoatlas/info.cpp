@@ -1,0 +1,138 @@
+// isoatlas info: what the file is, and what an analysis of it would cost.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "document.h"
+#include "interrupt.h"
+#include "session.h"
+#include "terminal.h"
+#include "values.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+/// Above this many bytes of samples the values are not read: `info` must answer at once.
+constexpr double kReadLimit = 2e9;
+
+struct Values {
+    bool known = false;
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();   ///< stored
+    std::int64_t missing = 0;   ///< NaN and infinite samples
+};
+
+template <class T>
+void look_at(std::span<const T> samples, Values& values) {
+    for (const T sample : samples) {
+        const auto value = static_cast<double>(sample);
+        if (!std::isfinite(value)) {
+            ++values.missing;
+            continue;
+        }
+        values.low = std::min(values.low, value);
+        values.high = std::max(values.high, value);
+    }
+}
+
+Values read_values(VolumeReader& reader, Session& session) {
+    const VolumeInfo& info = reader.info();
+    Values values;
+    const auto bytes = static_cast<double>(info.extent.voxels()) * static_cast<double>(size_of(info.type));
+    if (bytes > kReadLimit) return values;
+    const std::int64_t slices = info.extent.size[2];
+    const std::int64_t step = std::max<std::int64_t>(1, (std::int64_t{16} << 20) / std::max<std::int64_t>(1, info.extent.slice()));
+    const Context context = session.context();
+    for (std::int64_t z = 0; z < slices; z += step) {
+        stop_if_interrupted();
+        Volume slab;
+        slab.info.type = info.type;
+        const std::int64_t end = std::min(z + step, slices);
+        slab.bytes.resize(static_cast<std::size_t>((end - z) * info.extent.slice()) * size_of(info.type));
+        reader.read(z, end, slab.bytes);
+        visit_samples(slab, [&](auto samples) { look_at(samples, values); });
+        context.report("read values", 0, 1, static_cast<double>(end) / static_cast<double>(slices));
+    }
+    values.known = values.low <= values.high;
+    return values;
+}
+
+Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
+    Json json = document("info", info);
+    json["file"] = {{"bytes", info.file_bytes}, {"data_file", info.data_file}, {"big_endian", info.big_endian}, {"slab_readable", info.slab_readable}};
+    json["description"] = info.description;
+    json["voxels"] = info.extent.voxels();
+    Json range = nullptr;
+    if (values.known) {
+        const double a = info.calibration.reported(values.low), b = info.calibration.reported(values.high);
+        range = {{"low", std::min(a, b)}, {"high", std::max(a, b)}, {"stored_low", values.low}, {"stored_high", values.high}};
+    }
+    json["values"] = range;
+    json["missing_samples"] = values.known || values.missing > 0 ? Json(values.missing) : Json(nullptr);
+    json["estimate"] = {{"memory_bytes", {cost.memory_smooth, cost.memory_noise}}, {"seconds", {cost.seconds_smooth, cost.seconds_noise}}};
+    return json;
+}
+
+std::string vector_text(const Vec3& v, int rank) {
+    return rank == 2 ? fmt::format("{:.7g}, {:.7g}", v[0], v[1]) : fmt::format("{:.7g}, {:.7g}, {:.7g}", v[0], v[1], v[2]);
+}
+
+void print_geometry(std::ostream& out, const VolumeInfo& info) {
+    const Geometry& geometry = info.geometry;
+    const std::string unit = geometry.unit.empty() ? "  (the file names no unit)" : " " + geometry.unit;
+    Vec3 size{};
+    for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = geometry.spacing[axis] * static_cast<double>(info.extent.size[axis]);
+    if (geometry.coordinates[0].empty()) {
+        out << "spacing      " << vector_text(geometry.spacing, info.extent.rank) << unit << '\n';
+        out << "size         " << vector_text(size, info.extent.rank) << unit << '\n';
+    } else {
+        out << "spacing      rectilinear: one coordinate per sample and axis" << unit << '\n';
+    }
+    out << "origin       " << vector_text(geometry.origin, info.extent.rank) << unit << '\n';
+    out << "space        " << geometry.space << (handedness(geometry) < 0 ? " (mirrored axes)" : "") << '\n';
+}
+
+void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values, const Arguments& arguments) {
+    std::ostream& out = terminal.out();
+    out << terminal.bold(info.path) << '\n';
+    out << "format       " << info.format << ", " << info.encoding << (info.big_endian ? ", big endian" : "")
+        << (info.data_file.empty() ? "" : ", samples in " + info.data_file) << '\n';
+    if (!info.description.empty()) out << "description  " << info.description << '\n';
+    out << "samples      " << extent_text(info.extent) << "  " << name_of(info.type) << "  (" << count_text(info.extent.voxels()) << " voxels, "
+        << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
+    print_geometry(out, info);
+    const Scale scale(info);
+    if (!info.calibration.is_identity()) {
+        out << fmt::format("calibration  value = {:.9g} * stored + {:.9g}\n", info.calibration.slope, info.calibration.intercept);
+    }
+    if (values.known) {
+        const bool reversed = info.calibration.slope < 0;
+        out << "values       " << scale.text(reversed ? values.high : values.low) << " .. " << scale.text(reversed ? values.low : values.high)
+            << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
+    }
+    if (values.missing > 0) out << "missing      " << counted(values.missing, "sample") << " NaN or infinite: analyse with --missing below\n";
+    for (const std::string& note : info.notes) out << "note         " << note << '\n';
+    out << "analysis     " << cost_text(info, arguments.threads) << '\n';
+}
+
+}  // namespace
+
+int run_info(const Arguments& arguments, Terminal& terminal) {
+    Session session(arguments, terminal);
+    const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+    VolumeInfo info = reader->info();
+    if (arguments.voxel_units) info.geometry = Geometry{};
+    const Values values = read_values(*reader, session);
+    if (arguments.json) {
+        print(terminal, to_json(info, values, cost_of_analysis(info, arguments.threads)));
+        return 0;
+    }
+    print_text(terminal, info, values, arguments);
+    terminal.next("isoatlas objects " + shell_word(arguments.file) + reading_options(arguments));
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,59 @@
+#include "interrupt.h"
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+
+#include <unistd.h>
+
+#include <isoatlas/error.h>
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr int kExitCode = static_cast<int>(ErrorKind::cancelled);
+constexpr char kMessage[] = "\nstopped: the unfinished output was removed\n";
+
+std::atomic<int> signals{0};
+std::atomic<bool> writing{false};
+std::array<char, 4096> partial{};   // a fixed buffer: the handler may not allocate
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+void on_signal(int) {
+    const bool again = signals.fetch_add(1) > 0;
+    if (!writing && !again) return;
+    if (writing && partial[0] != '\0') ::unlink(partial.data());
+    [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+    ::_exit(kExitCode);
+}
+
+}  // namespace
+
+void catch_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, nullptr);
+}
+
+bool interrupted() { return signals > 0; }
+
+void stop_if_interrupted() {
+    if (interrupted()) throw Error(ErrorKind::cancelled, {.what = "stopped by the user; nothing was written"});
+}
+
+WritingGuard::WritingGuard(const std::string& path) {
+    const std::string name = path + ".partial";
+    stop_if_interrupted();
+    partial[0] = '\0';
+    if (name.size() < partial.size()) std::memcpy(partial.data(), name.c_str(), name.size() + 1);
+    writing = true;
+}
+
+WritingGuard::~WritingGuard() { writing = false; }
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,25 @@
+// Ctrl-C: the first one asks the running call to stop; while a file is being written it removes the unfinished file and leaves at once.
+#pragma once
+
+#include <string>
+
+namespace isoatlas::cli {
+
+/// SIGINT and SIGTERM interrupt; SIGPIPE becomes an ordinary write error.
+void catch_signals();
+
+[[nodiscard]] bool interrupted();
+
+/// Throws Error{cancelled} when interrupted.
+void stop_if_interrupted();
+
+/// While it lives, `path`.partial is what an interrupt must remove.
+class WritingGuard {
+public:
+    explicit WritingGuard(const std::string& path);
+    ~WritingGuard();
+    WritingGuard(const WritingGuard&) = delete;
+    WritingGuard& operator=(const WritingGuard&) = delete;
+};
+
+}  // namespace isoatlas::cli

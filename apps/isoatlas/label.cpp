@@ -1,0 +1,81 @@
+// isoatlas label: a label volume of the objects at an isovalue, or of the zones.
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "document.h"
+#include "interrupt.h"
+#include "session.h"
+#include "terminal.h"
+#include "values.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+struct Labels {
+    std::vector<std::uint32_t> of_voxel;
+    std::int64_t count = 0;   ///< the largest label
+};
+
+[[noreturn]] void too_many(const Arguments& arguments, std::int64_t count) {
+    throw Error(ErrorKind::unsupported, {.file = arguments.file, .what = count_text(count) + " labels do not fit in 32 bits",
+                                         .next = "label the objects of one isovalue with --tau"});
+}
+
+Labels label_objects(const Arguments& arguments, const Volume& volume, const Context& context) {
+    const Cut at = cut(volume, tau_of(arguments, volume), {.interpolant = arguments.interpolant, .label = true}, context);
+    Labels labels{std::vector<std::uint32_t>(at.label.size()), static_cast<std::int64_t>(at.objects.size())};
+    for (std::size_t i = 0; i < at.label.size(); ++i) labels.of_voxel[i] = static_cast<std::uint32_t>(at.label[i] + 1);
+    return labels;
+}
+
+Labels label_zones(const Arguments& arguments, const Volume& volume, const Context& context) {
+    const Analysis analysis = analyse(volume, {.interpolant = arguments.interpolant}, context);
+    if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
+    const std::int64_t voxels = volume.info.extent.voxels();
+    Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)), analysis.event_count()};
+    for (std::int64_t i = 0; i < voxels; ++i) labels.of_voxel[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(analysis.zone(i) + 1);
+    return labels;
+}
+
+void check_arguments(const Arguments& arguments) {
+    if (arguments.tau.has_value() == arguments.zones) {
+        throw Error(ErrorKind::usage, {.what = arguments.zones ? "--tau and --zones contradict each other" : "what is to be labelled?",
+                                       .expected = "--tau T for the objects at an isovalue, or --zones",
+                                       .next = "isoatlas label --help"});
+    }
+    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
+}
+
+}  // namespace
+
+int run_label(const Arguments& arguments, Terminal& terminal) {
+    check_arguments(arguments);
+    Session session(arguments, terminal);
+    const Volume volume = session.load();
+    const Labels labels = arguments.zones ? label_zones(arguments, volume, session.context()) : label_objects(arguments, volume, session.context());
+    {
+        const WritingGuard guard(arguments.output);
+        write_labels(arguments.output, volume.info, labels.of_voxel);
+    }
+    if (arguments.json) {
+        Json json = document("label", volume.info, arguments.interpolant);
+        json["output"] = arguments.output;
+        json["labels_are"] = arguments.zones ? "zones" : "objects";
+        json["tau"] = arguments.tau ? Json(*arguments.tau) : Json(nullptr);
+        json["labels"] = labels.count;
+        print(terminal, json);
+        return 0;
+    }
+    terminal.out() << arguments.output << ": " << counted(labels.count, arguments.zones ? "zone" : "object")
+                   << (arguments.zones ? " (label = event id + 1)\n" : " (label 1 is the largest, 0 is background)\n");
+    if (arguments.tau) {
+        terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),
+                                  reading_options(arguments), *arguments.tau));
+    }
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,170 @@
+// isoatlas objects: the table people come for, or every object at one isovalue.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "document.h"
+#include "session.h"
+#include "table.h"
+#include "terminal.h"
+#include "values.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr std::int64_t kDefaultTop = 24;
+
+std::string measure_title(const VolumeInfo& info, const MeasureUnit& unit) {
+    return std::string(info.extent.rank == 2 ? "area" : "volume") + " [" + unit.name + "]";
+}
+
+std::string dashed(std::int64_t count) { return count == 0 ? "-" : count_text(count); }
+
+std::string extract_command(const Arguments& arguments, std::int64_t id, const std::string& tau) {
+    return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments), tau, id);
+}
+
+// The table: objects at their own best isovalues.
+
+Json entry_json(const ObjectEntry& entry, const Volume& volume, const Scale& scale) {
+    Json json{{"id", entry.id}, {"event", entry.event}};
+    json["appears"] = number(scale.reported(entry.appears));
+    json["merges"] = number(scale.reported(entry.merges));
+    json["best_tau"] = scale.reported(entry.best_tau);
+    json["chi"] = 1 - entry.tunnels + entry.cavities;
+    json["b1"] = entry.tunnels;
+    json["b2"] = entry.cavities;
+    json["tunnels"] = entry.tunnels;
+    json["cavities"] = entry.cavities;
+    json["voxels"] = entry.voxels;
+    json["measure"] = entry.measure;
+    json["hypervolume"] = entry.hypervolume * volume.info.calibration.slope;
+    json["position"] = entry.position;
+    json["position_physical"] = to_physical(volume.info.geometry, entry.position);
+    json["note"] = entry.note;
+    return json;
+}
+
+void print_table_json(Terminal& terminal, const Volume& volume, const Analysis& analysis, const ObjectTable& table) {
+    const Scale scale(volume.info);
+    Json head = document("objects", volume.info, analysis.interpolant());
+    head["tau"] = nullptr;
+    head["branches"] = table.branches;
+    head["noise"] = table.noise * volume.info.calibration.slope;
+    print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
+          [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], volume, scale); });
+}
+
+std::string best_tau_text(const ObjectEntry& entry, const Analysis& analysis, const Scale& scale) {
+    const ZoneRange zone = analysis.event(entry.event).zone;
+    return scale.text_within(entry.best_tau, zone.tau_low, zone.tau_high);
+}
+
+void print_table_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis, const ObjectTable& table) {
+    const Scale scale(volume.info);
+    double largest = 0;
+    for (const ObjectEntry& entry : table.entries) largest = std::max(largest, entry.measure);
+    const MeasureUnit unit = measure_unit(volume.info, largest);
+    const bool flat = volume.info.extent.rank == 2;
+    Table text({{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}, {"voxels"}, {measure_title(volume.info, unit)},
+                {flat ? "holes" : "tunnels"}, {"cavities"}, {"note", true}});
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        const ObjectEntry& entry = table.entries[i];
+        text.add({fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.text(entry.appears), scale.text(entry.merges),
+                  best_tau_text(entry, analysis, scale), count_text(entry.voxels), fmt::format("{:.4g}", entry.measure * unit.factor),
+                  dashed(entry.tunnels), dashed(entry.cavities), entry.note});
+    }
+    terminal.say(fmt::format("{} in all, {} worth a line{}", counted(table.branches, "object"), count_text(static_cast<std::int64_t>(table.entries.size())),
+                             table.noise > 0 ? fmt::format(" (noise about {:.3g})", table.noise * volume.info.calibration.slope) : ""));
+    text.print(terminal);
+    if (table.entries.empty()) {
+        terminal.say("nothing rises above the noise; --all lists everything");
+        return;
+    }
+    terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], analysis, scale)));
+}
+
+int list_best(const Arguments& arguments, Terminal& terminal) {
+    Session session(arguments, terminal);
+    const Volume volume = session.load();
+    const Context context = session.context();
+    const Analysis analysis = analyse(volume, {.interpolant = arguments.interpolant}, context);
+    const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
+    const ObjectTable table = rank_objects(volume, analysis, {.top = top, .gate = !arguments.all}, context);
+    if (arguments.json) {
+        print_table_json(terminal, volume, analysis, table);
+    } else {
+        print_table_text(terminal, arguments, volume, analysis, table);
+    }
+    return 0;
+}
+
+// One isovalue: every object.
+
+Json object_json(const CutObject& object, const Cut& cut) {
+    Json contours = Json::array();
+    for (std::int64_t i = 0; i < object.contour_count; ++i) {
+        const CutContour& contour = cut.contours[static_cast<std::size_t>(object.first_contour + i)];
+        contours.push_back({{"id", contour.id}, {"genus", contour.genus}, {"shell", contour.shell == Shell::outer ? "outer" : "inner"}});
+    }
+    return {{"id", object.id},         {"chi", object.chi},         {"b1", object.b1},
+            {"b2", object.b2},         {"voxels", object.voxels},   {"measure", object.measure},
+            {"box", {{"low", object.box_low}, {"high", object.box_high}}}, {"contours", std::move(contours)}};
+}
+
+void print_cut_json(Terminal& terminal, const Volume& volume, const Cut& cut, std::int64_t shown, double tau) {
+    Json head = document("objects", volume.info, cut.interpolant);
+    head["tau"] = tau;
+    head["object_count"] = cut.objects.size();
+    head["contour_count"] = cut.contours.size();
+    head["active_cells"] = cut.active_cells;
+    print(terminal, head, "objects", shown, [&](std::int64_t i) { return object_json(cut.objects[static_cast<std::size_t>(i)], cut); });
+}
+
+std::string box_text(const CutObject& object, int rank) {
+    std::string text;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(rank); ++axis) {
+        text += fmt::format("{}{}..{}", axis > 0 ? " x " : "", object.box_low[axis], object.box_high[axis]);
+    }
+    return text;
+}
+
+void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Cut& cut, std::int64_t shown) {
+    double largest = 0;
+    for (const CutObject& object : cut.objects) largest = std::max(largest, object.measure);
+    const MeasureUnit unit = measure_unit(volume.info, largest);
+    const bool flat = volume.info.extent.rank == 2;
+    Table text({{"#"}, {"id"}, {"voxels"}, {measure_title(volume.info, unit)}, {flat ? "holes" : "tunnels"}, {"cavities"}, {"contours"}, {"box", true}});
+    for (std::int64_t i = 0; i < shown; ++i) {
+        const CutObject& object = cut.objects[static_cast<std::size_t>(i)];
+        text.add({fmt::format("{}", i + 1), fmt::format("{}", object.id), count_text(object.voxels), fmt::format("{:.4g}", object.measure * unit.factor),
+                  dashed(object.b1), dashed(object.b2), count_text(object.contour_count), box_text(object, volume.info.extent.rank)});
+    }
+    const auto all = static_cast<std::int64_t>(cut.objects.size());
+    terminal.say(fmt::format("{} with {} at {}", counted(all, "object"), counted(static_cast<std::int64_t>(cut.contours.size()), "contour"), *arguments.tau));
+    text.print(terminal);
+    if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
+    terminal.next(extract_command(arguments, cut.objects[0].id, fmt::format("{}", *arguments.tau)));
+}
+
+int list_at(const Arguments& arguments, Terminal& terminal) {
+    Session session(arguments, terminal);
+    const Volume volume = session.load();
+    const Cut at = cut(volume, tau_of(arguments, volume), {.interpolant = arguments.interpolant}, session.context());
+    const auto all = static_cast<std::int64_t>(at.objects.size());
+    const std::int64_t shown = arguments.top > 0 ? std::min(all, arguments.top) : all;
+    if (arguments.json) {
+        print_cut_json(terminal, volume, at, shown, *arguments.tau);
+    } else {
+        print_cut_text(terminal, arguments, volume, at, shown);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int run_objects(const Arguments& arguments, Terminal& terminal) { return arguments.tau ? list_at(arguments, terminal) : list_best(arguments, terminal); }
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,13 @@
+// How failures reach the user: one clear message on standard error, with --json also a document on standard output, and the exit code.
+#pragma once
+
+#include <isoatlas/error.h>
+
+namespace isoatlas::cli {
+
+class Terminal;
+
+/// Returns the exit code.
+int report(const Error& error, bool json, Terminal& terminal);
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,51 @@
+// Terminal: results go to standard output, talk to standard error. A result that cannot be written is an error, never silence.
+#pragma once
+
+#include <memory>
+#include <ostream>
+#include <string>
+
+namespace isoatlas::cli {
+
+class Terminal {
+public:
+    struct Style {
+        bool quiet = false, no_color = false;
+        int verbose = 0;
+    };
+    Terminal();
+    ~Terminal();
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+
+    void set_style(const Style& style) { style_ = style; }
+    [[nodiscard]] const Style& style() const { return style_; }
+
+    /// Standard output. Throws Error{resource} when writing fails (disk full, pipe closed).
+    [[nodiscard]] std::ostream& out();
+    /// Everything written must have arrived: call before success is claimed.
+    void finish();
+
+    /// One line on standard error unless --quiet.
+    void say(const std::string& line);
+    /// One line on standard error, also with --quiet.
+    void warn(const std::string& line);
+    /// "next: COMMAND" on standard error unless --quiet.
+    void next(const std::string& command);
+    /// One line on standard error with -v.
+    void detail(const std::string& line);
+
+    [[nodiscard]] bool is_interactive() const;   ///< standard error is a terminal that can rewrite a line
+    [[nodiscard]] std::string bold(const std::string& text) const;   ///< of results; plain unless standard output shows colours
+
+private:
+    class Buffer;
+    std::unique_ptr<Buffer> buffer_;
+    std::ostream out_;
+    Style style_;
+};
+
+/// Word as the shell needs it: quoted when it has special characters.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
+}  // namespace isoatlas::cli

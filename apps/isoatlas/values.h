@@ -1,0 +1,52 @@
+// Values as people read them: calibrated sample values, sizes in physical units, bytes, counts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <isoatlas/volume.h>
+
+namespace isoatlas::cli {
+
+/// Between the stored values of a file and the calibrated ones that users give and see.
+class Scale {
+public:
+    explicit Scale(const VolumeInfo& info) : calibration_(info.calibration), type_(info.type) {}
+
+    /// The stored isovalue that the user means. A decimal that names a sample value exactly as text() prints it becomes that sample
+    /// value, bit for bit: High means >=, so a last-digit difference would lose the plateau.
+    [[nodiscard]] double stored(double reported) const;
+    [[nodiscard]] double reported(double stored) const { return calibration_.reported(stored); }
+
+    /// Shortest text that means this value again; infinities: "never".
+    [[nodiscard]] std::string text(double stored) const;
+    /// The shortest text of a value in (low, high] near `stored`: nothing changes between low and high.
+    [[nodiscard]] std::string text_within(double stored, double low, double high) const;
+
+private:
+    Calibration calibration_;
+    ValueType type_;
+};
+
+/// "16,777,216"
+[[nodiscard]] std::string count_text(std::int64_t count);
+/// "1.4 GB"
+[[nodiscard]] std::string bytes_text(double bytes);
+/// "about 40 s", "about 3 min"
+[[nodiscard]] std::string seconds_text(double seconds);
+/// "1 object", "2 objects"
+[[nodiscard]] std::string counted(std::int64_t count, const std::string& noun);
+
+/// The unit of volumes (areas in 2D) that suits numbers up to `largest`: of mm3, cm3, dm3, ... Factor: multiply by it.
+struct MeasureUnit {
+    std::string name;
+    double factor = 1;
+};
+[[nodiscard]] MeasureUnit measure_unit(const VolumeInfo& info, double largest);
+/// The unit of volumes as the file has it: "mm3", "voxels", or "units3" when the file does not say.
+[[nodiscard]] std::string plain_measure_unit(const VolumeInfo& info);
+
+/// "512 x 512 x 420"
+[[nodiscard]] std::string extent_text(const Extent& extent);
+
+}  // namespace isoatlas::cli

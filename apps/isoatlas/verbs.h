@@ -1,0 +1,38 @@
+// The verbs of the command line, one file each. A verb returns the exit code or throws Error.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+
+namespace isoatlas::cli {
+
+class Terminal;
+
+int run_info(const Arguments& arguments, Terminal& terminal);
+int run_tree(const Arguments& arguments, Terminal& terminal);
+int run_objects(const Arguments& arguments, Terminal& terminal);
+int run_extract(const Arguments& arguments, Terminal& terminal);
+int run_label(const Arguments& arguments, Terminal& terminal);
+int run_phantom(const Arguments& arguments, Terminal& terminal);
+int run_verify(const Arguments& arguments, Terminal& terminal);
+int run_completion(const Arguments& arguments, Terminal& terminal);
+
+struct Verb {
+    std::string name, operand, summary;
+    std::vector<std::string> examples;   ///< full command lines
+    int (*run)(const Arguments&, Terminal&);
+};
+
+/// In the order in which people need them.
+[[nodiscard]] const std::vector<Verb>& verbs();
+
+/// nullptr when there is no such verb.
+[[nodiscard]] const Verb* find_verb(const std::string& name);
+
+/// What `isoatlas` alone prints, and what `isoatlas --help` prints.
+[[nodiscard]] std::string greeting();
+[[nodiscard]] std::string overview();
+
+}  // namespace isoatlas::cli

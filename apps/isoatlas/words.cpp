@@ -1,0 +1,98 @@
+#include "words.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "suggest.h"
+
+namespace isoatlas::cli {
+namespace {
+
+template <class T>
+bool read(const std::string& word, T& value) {
+    const char* begin = word.c_str() + (!word.empty() && word[0] == '+' ? 1 : 0);
+    const char* end = word.c_str() + word.size();
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    return error == std::errc{} && stop == end && begin != end;
+}
+
+std::vector<std::string> split(const std::string& word, const std::string& separators) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    while (begin <= word.size()) {
+        const std::size_t end = std::min(word.find_first_of(separators, begin), word.size());
+        parts.push_back(word.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+[[noreturn]] void bad_word(const std::string& option, const std::string& word, const std::string& expected) {
+    throw Error(ErrorKind::usage, {.what = option + " cannot be \"" + word + "\"", .expected = expected, .next = "write it like that"});
+}
+
+}  // namespace
+
+bool is_number(const std::string& word) {
+    double value = 0;
+    return read(word, value);
+}
+
+std::vector<std::int64_t> parse_dims(const std::string& word) {
+    std::vector<std::int64_t> dims;
+    for (const std::string& part : split(word, "x,X")) {
+        std::int64_t size = 0;
+        if (!read(part, size) || size < 1) bad_word("--dims", word, "positive numbers like 512x512x100, or 512x512 for 2D");
+        dims.push_back(size);
+    }
+    if (dims.size() == 1) dims.assign(3, dims[0]);
+    if (dims.size() > 3) bad_word("--dims", word, "two or three numbers like 512x512x100");
+    return dims;
+}
+
+Vec3 parse_vector(const std::string& option, const std::string& word, double rest) {
+    const std::vector<std::string> parts = split(word, option == "--spacing" ? "x,X" : ",");
+    Vec3 values{rest, rest, rest};
+    if (parts.size() > 3) bad_word(option, word, "one, two or three numbers like 0.7,0.7,1.5");
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!read(parts[i], values[i]) || !std::isfinite(values[i])) bad_word(option, word, "numbers like 0.7,0.7,1.5");
+        if (option == "--spacing" && values[i] <= 0) bad_word(option, word, "positive numbers");
+    }
+    if (parts.size() == 1) values = {values[0], values[0], values[0]};
+    return values;
+}
+
+ValueType parse_type(const std::string& word) {
+    static const std::map<std::string, ValueType> names{
+        {"uint8", ValueType::u8},    {"u8", ValueType::u8},      {"uchar", ValueType::u8},   {"int8", ValueType::i8},
+        {"i8", ValueType::i8},       {"uint16", ValueType::u16}, {"u16", ValueType::u16},    {"ushort", ValueType::u16},
+        {"int16", ValueType::i16},   {"i16", ValueType::i16},    {"short", ValueType::i16},  {"uint32", ValueType::u32},
+        {"u32", ValueType::u32},     {"uint", ValueType::u32},   {"int32", ValueType::i32},  {"i32", ValueType::i32},
+        {"int", ValueType::i32},     {"float32", ValueType::f32}, {"f32", ValueType::f32},   {"float", ValueType::f32},
+        {"float64", ValueType::f64}, {"f64", ValueType::f64},    {"double", ValueType::f64}};
+    const auto found = names.find(word);
+    if (found != names.end()) return found->second;
+    bad_choice("--type", word, {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"});
+}
+
+MissingPolicy parse_missing(const std::string& word) {
+    MissingPolicy policy;
+    if (word == "below") {
+        policy.action = MissingPolicy::Action::below;
+    } else if (read(word, policy.value) && std::isfinite(policy.value)) {
+        policy.action = MissingPolicy::Action::replace;
+    } else {
+        bad_word("--missing", word, "a number, or below");
+    }
+    return policy;
+}
+
+void bad_choice(const std::string& option, const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = nearest(word, known);
+    throw Error(ErrorKind::usage, {.what = option + " cannot be \"" + word + "\"",
+                                   .expected = list_of(known),
+                                   .next = near.empty() ? "choose one of them" : "did you mean " + near + "?"});
+}
+
+}  // namespace isoatlas::cli

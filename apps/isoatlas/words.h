@@ -1,0 +1,39 @@
+// From words to values: what the options mean. Every function throws Error{usage} that names the option and what it takes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <isoatlas/isoatlas.h>
+
+namespace isoatlas::cli {
+
+[[nodiscard]] bool is_number(const std::string& word);
+
+/// "512x512x100", "512,512" or "512": 1 to 3 positive numbers; one number means a cube.
+[[nodiscard]] std::vector<std::int64_t> parse_dims(const std::string& word);
+
+/// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
+[[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& word, double rest);
+
+/// uint8, u8, uchar, ..., float, double.
+[[nodiscard]] ValueType parse_type(const std::string& word);
+
+/// A number, or "below".
+[[nodiscard]] MissingPolicy parse_missing(const std::string& word);
+
+[[noreturn]] void bad_choice(const std::string& option, const std::string& word, const std::vector<std::string>& known);
+
+template <class T>
+[[nodiscard]] T parse_choice(const std::string& option, const std::string& word, const std::vector<std::pair<std::string, T>>& choices) {
+    std::vector<std::string> known;
+    for (const auto& [name, value] : choices) {
+        if (name == word) return value;
+        known.push_back(name);
+    }
+    bad_choice(option, word, known);
+}
+
+}  // namespace isoatlas::cli
