@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Renders the tables of docs/performance.md from what the benchmarks wrote.
+
+    report.py FOLDER [PAGE]   FOLDER holds engine.json and, if measured, extract.json; PAGE defaults to docs/performance.md
+"""
+import json
+import platform
+import re
+import sys
+from pathlib import Path
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+    return "\n".join(lines)
+
+
+def thousands(number):
+    return f"{number:,}".replace(",", " ")
+
+
+def dims(record):
+    return "x".join(str(n) for n in record["size"])
+
+
+def processor():
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return platform.machine()
+
+
+GOALS = {"smooth-256": 0.25, "noisy-256": 1.5}
+
+
+def engine_table(engine):
+    rows = []
+    for r in engine["volumes"]:
+        goal = GOALS.get(r["volume"])
+        verdict = "" if goal is None else f"{goal} " + ("met" if r["ratio"] <= goal else "**missed**")
+        memory = "met" if r["peak_over_allowed"] <= 1 else "**missed**"
+        low, high = r["ratio_range"]
+        rows.append([r["volume"], dims(r), r["type"], thousands(r["critical_elements"]), f"{r['sort_seconds']:.3f}", f"{r['seconds']:.3f}",
+                     f"{r['seconds_one_thread']:.3f}", f"{r['ratio']:.3f} ({low:.3f} to {high:.3f})", verdict,
+                     f"{r['peak_bytes_per_voxel']:.1f}", f"{r['peak_over_allowed']:.2f} {memory}"])
+    header = ["volume", "size", "type", "critical elements", "sort, s", f"{engine['threads']} threads, s", "1 thread, s",
+              "ratio to the sort (range)", "goal", "peak bytes a voxel", "peak / allowed"]
+    return f"{processor()}, {engine['pairs']} pairs.\n\n" + table(header, rows)
+
+
+def phases_table(engine):
+    names = []
+    for r in engine["volumes"]:
+        names += [name for name in r.get("phases", {}) if name not in names]
+    rows = [[r["volume"]] + [f"{r['phases'][name]:.3f}" if name in r.get("phases", {}) else "" for name in names] for r in engine["volumes"]]
+    return table(["seconds"] + names, rows)
+
+
+def growth_table(engine):
+    rows, before = [], None
+    for r in engine.get("growth", []):
+        same_field = before is not None and before["volume"].rsplit("-", 1)[0] == r["volume"].rsplit("-", 1)[0]
+        growth = f"{r['seconds'] / before['seconds']:.1f}" if same_field else ""
+        rows.append([r["volume"], dims(r), thousands(r["critical_elements"]), f"{r['seconds']:.3f}", growth,
+                     f"{1e9 * r['seconds'] / r['voxels']:.1f}", f"{r['peak_bytes_per_voxel']:.1f}", f"{r['peak_over_allowed']:.2f}"])
+        before = r
+    header = ["volume", "size", "critical elements", f"{engine['threads']} threads, s", "times the size before", "ns a voxel", "peak bytes a voxel",
+              "peak / allowed"]
+    return table(header, rows) if rows else None
+
+
+def generic_table(document):
+    """A list of flat records, as bench/extract writes it: the keys are the columns."""
+    records = document["results"]
+    header = list(records[0])
+    rows = [[f"{r[key]:.4g}" if isinstance(r.get(key), float) else r.get(key, "") for key in header] for r in records]
+    return table([name.replace("_", " ") for name in header], rows)
+
+
+def replace(page, mark, text):
+    pattern = re.compile(rf"(<!-- {mark}:begin -->\n).*?(<!-- {mark}:end -->)", re.S)
+    if not pattern.search(page):
+        sys.exit(f"report: the page has no marks for '{mark}'")
+    return page if text is None else pattern.sub(lambda match: match.group(1) + text + "\n" + match.group(2), page)
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    folder = Path(sys.argv[1])
+    path = Path(sys.argv[2] if len(sys.argv) == 3 else "docs/performance.md")
+    page = path.read_text()
+    engine = json.loads((folder / "engine.json").read_text())
+    page = replace(page, "engine", engine_table(engine))
+    page = replace(page, "phases", phases_table(engine))
+    page = replace(page, "growth", growth_table(engine))
+    if (folder / "extract.json").exists():
+        page = replace(page, "extract", generic_table(json.loads((folder / "extract.json").read_text())))
+    path.write_text(page)
+    print(f"report: {path} is up to date")
+
+
+if __name__ == "__main__":
+    main()
