@@ -1,0 +1,106 @@
+#include "critical/faces.h"
+
+#include <algorithm>
+
+namespace isoatlas {
+namespace {
+
+// Voxel numbers ascend a < b < d < c, hence which comparisons are strict (field/face.h). No branches: vector code.
+template <class T>
+inline std::uint8_t diagonals(T a, T b, T c, T d) {
+    const bool ac = (a > b) & (a > d) & (c >= b) & (c >= d);
+    const bool bd = (b >= a) & (b > c) & (d >= a) & (d > c);
+    return static_cast<std::uint8_t>(ac | bd << 1);
+}
+
+template <class T>
+void faces_of_row(const T* r00, const T* r10, const T* r01, const T* r11, std::int64_t n, std::uint8_t* __restrict faces) {
+    // r<dy><dz>: rows of the cell row; missing rows repeat r00, which makes no face ambiguous.
+    for (std::int64_t x = 0; x + 1 < n; ++x) {
+        faces[x] = static_cast<std::uint8_t>(diagonals(r00[x], r00[x + 1], r10[x + 1], r10[x]) |
+                                             diagonals(r00[x], r00[x + 1], r01[x + 1], r01[x]) << 2 |
+                                             diagonals(r00[x], r10[x], r11[x], r01[x]) << 4);
+    }
+    faces[n - 1] = static_cast<std::uint8_t>(diagonals(r00[n - 1], r10[n - 1], r11[n - 1], r01[n - 1]) << 4);
+}
+
+bool any_set(std::span<const std::uint8_t> bytes) {
+    std::uint8_t all = 0;
+    for (const std::uint8_t byte : bytes) all |= byte;
+    return all != 0;
+}
+
+/// Second part of the key of face f of a cell (field/order.h).
+std::int64_t second_key(const CellElements& cell, int f) {
+    const std::array<int, 4>& c = kFaceCorners[f];
+    const int low = cell.diagonal[f] == Diagonal::ac ? 1 : 0;
+    std::int64_t key = -1;
+    for (const int corner : {c[low], c[low + 2]}) {
+        if (cell.value[corner] == cell.face_value[f]) key = std::max(key, 2 * cell.voxel[corner] + 1);
+    }
+    return key;
+}
+
+std::int64_t face_number(const CellElements& cell, int f) { return 3 * cell.voxel[kFaceCorners[f][0]] + f / 2; }
+
+bool face_above_face(const CellElements& cell, int g, int f) {
+    if (cell.face_value[g] != cell.face_value[f]) return cell.face_value[g] > cell.face_value[f];
+    const std::int64_t g2 = second_key(cell, g), f2 = second_key(cell, f);
+    return g2 != f2 ? g2 > f2 : face_number(cell, g) > face_number(cell, f);
+}
+
+int corners_above_face(const CellElements& cell, int f) {
+    const double s = cell.face_value[f];
+    int above = 0, equal = 0;
+    for (int k = 0; k < 8; ++k) {
+        above |= (cell.value[k] > s) << k;
+        equal |= (cell.value[k] == s) << k;
+    }
+    if (equal == 0) return above;
+    const std::int64_t key = second_key(cell, f);
+    for (int k = 0; k < 8; ++k) {
+        if (equal >> k & 1 && 2 * cell.voxel[k] > key) above |= 1 << k;
+    }
+    return above;
+}
+
+}  // namespace
+
+template <class T>
+bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std::span<std::uint8_t> faces) {
+    const std::int64_t n = grid.extent.size[0], rows = grid.extent.size[1];
+    for (std::int64_t y = 0; y < rows; ++y) {
+        const bool last = y + 1 == rows;
+        const T* r00 = grid.row(y, z);
+        const T* r10 = last ? r00 : grid.row(y + 1, z);
+        const T* r01 = with_next ? grid.row(y, z + 1) : r00;
+        const T* r11 = !with_next ? r10 : last ? r01 : grid.row(y + 1, z + 1);
+        faces_of_row(r00, r10, r01, r11, n, faces.data() + y * n);
+    }
+    return any_set(faces);
+}
+
+std::uint8_t default_face_types(const CellElements& cell) {
+    std::uint8_t types = 0;
+    for (int f = 0; f < 6; ++f) {
+        if (cell.diagonal[f] == Diagonal::none) continue;
+        const int above = corners_above_face(cell, f);
+        int joined = 0;
+        for (int g = 0; g < 6; ++g) {
+            if (g != f && cell.diagonal[g] != Diagonal::none && face_is_split(above, g) && face_above_face(cell, g, f)) joined |= 1 << g;
+        }
+        types |= static_cast<std::uint8_t>(highs_joined(above, joined) & 1 << f);
+    }
+    return types;
+}
+
+template bool faces_of_slice(const GridView<std::uint8_t>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<std::int8_t>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<std::uint16_t>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<std::int16_t>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<std::uint32_t>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<std::int32_t>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<float>&, std::int64_t, bool, std::span<std::uint8_t>);
+template bool faces_of_slice(const GridView<double>&, std::int64_t, bool, std::span<std::uint8_t>);
+
+}  // namespace isoatlas

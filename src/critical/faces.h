@@ -1,0 +1,41 @@
+// Ambiguous faces of a slice, as one byte per voxel, and the type of an ambiguous face inside one of its cells.
+//
+// Byte of voxel a: bits 2o, 2o+1 for the face of orientation o whose corner a is the voxel: bit 2o when a, c are the Highs, 2o+1 when b, d are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "field/cell.h"
+#include "field/face.h"
+#include "field/grid.h"
+#include "field/order.h"
+
+namespace isoatlas {
+
+inline constexpr std::uint8_t kFaceBits[3] = {0b000011, 0b001100, 0b110000};
+
+constexpr Diagonal diagonal_of(std::uint8_t faces, int orientation) {
+    const int bits = faces >> (2 * orientation) & 3;
+    return bits == 1 ? Diagonal::ac : bits == 2 ? Diagonal::bd : Diagonal::none;
+}
+
+/// Writes the face bytes of slice z. The xz and yz faces need slice z+1: they are left out when with_next is false.
+/// Returns false when no face of the slice is ambiguous.
+template <class T>
+bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std::span<std::uint8_t> faces);
+
+/// A cell with all it takes to classify its ambiguous faces: corner values and voxels, face values.
+struct CellElements {
+    std::array<double, 8> value;        ///< of corner k
+    std::array<std::int64_t, 8> voxel;  ///< of corner k
+    std::array<Diagonal, 6> diagonal;   ///< Highs of face f; none: not ambiguous
+    std::array<double, 6> face_value;   ///< disambiguation value of an ambiguous face
+};
+
+/// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this
+/// cell by elements above F; clear = type L, the Lows are joined below.
+std::uint8_t default_face_types(const CellElements& cell);
+
+}  // namespace isoatlas

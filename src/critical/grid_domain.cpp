@@ -1,0 +1,189 @@
+#include "critical/grid_domain.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/parallel_sort.h"
+#include "critical/links.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr int kPhases = 5;  // of analyse(): classify, basins, sort, trees, zones
+
+void stop_if_cancelled(const Context& context) {
+    if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+}
+
+/// Critical elements in raster order with what they lead to: {up_a, up_b, low_a, low_b}.
+template <class Id>
+struct RasterElements {
+    std::vector<KeyedElement> element;
+    std::vector<std::array<Id, 4>> leads_to;
+};
+
+/// Where the surroundings of a critical element lead (theory.md section 4, step 2).
+template <class Id>
+class Representatives {
+public:
+    Representatives(const Extent& extent, std::span<const std::uint8_t> links, std::span<const Id> up, std::span<const Id> down)
+        : extent_(extent), steps_(extent), links_(links), up_(up), down_(down) {}
+
+    [[nodiscard]] std::array<Id, 4> of(ElementCode code) const { return code.kind() == CodeKind::vertex ? vertex(code) : face(code); }
+
+private:
+    [[nodiscard]] Id high(std::int64_t v) const { return Basins<Id>::number(up_[v]); }
+    [[nodiscard]] Id low(std::int64_t v) const { return Basins<Id>::number(down_[v]); }
+
+    [[nodiscard]] std::array<Id, 4> vertex(ElementCode code) const {
+        const std::int64_t v = code.index();
+        std::array<Id, 4> leads{high(v), high(v), low(v), low(v)};
+        const std::array<std::int64_t, 3> position = extent_.voxel(v);
+        for (int axis = 0; axis < extent_.rank; ++axis) {
+            const int above = links_[v] >> (2 * axis) & 3;
+            const std::int64_t step = steps_.axis[axis];
+            if (above == 3 && code.h0() == 2) {
+                leads[0] = high(v - step), leads[1] = high(v + step);
+            } else if (above == 0 && code.l0() == 2) {  // outside the grid lies the outside
+                leads[2] = position[axis] > 0 ? low(v - step) : Id{0};
+                leads[3] = position[axis] + 1 < extent_.size[axis] ? low(v + step) : Id{0};
+            }
+        }
+        return leads;
+    }
+
+    [[nodiscard]] std::array<Id, 4> face(ElementCode code) const {
+        const int first_high = code.bd_high() ? 1 : 0, first_low = 1 - first_high;
+        const auto corner = [&](int i) { return steps_.face_voxel(code.index(), i); };
+        const Id high_a = high(corner(first_high)), low_a = low(corner(first_low));
+        return {high_a, code.h0() == 2 ? high(corner(first_high + 2)) : high_a, low_a, code.l0() == 2 ? low(corner(first_low + 2)) : low_a};
+    }
+
+    const Extent& extent_;
+    GridSteps steps_;
+    std::span<const std::uint8_t> links_;
+    std::span<const Id> up_, down_;
+};
+
+template <class Id>
+std::vector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
+                               const std::vector<std::int64_t>& first_number, int threads) {
+    std::vector<Id> basin(static_cast<std::size_t>(extent.voxels()));
+    const auto slabs = static_cast<std::int64_t>(first_number.size());
+    Basins<Id> basins(extent, height, direction, links, basin);
+    for_each_block(threads, slabs, [&](std::int64_t slab) { basins.forward(slab, first_number[slab]); });
+    if (slabs > 1) {
+        basins.exits();
+        for_each_block(threads, slabs, [&](std::int64_t slab) { basins.finish(slab); });
+    }
+    return basin;
+}
+
+/// Sorts and takes the arrays apart; the raster arrays are given back as soon as they are not needed.
+template <class Id>
+CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int threads) {
+    struct Entry {
+        double value;
+        Id raster;
+    };
+    const std::size_t n = raster.element.size();
+    std::vector<Entry> order(n);
+    constexpr std::size_t kBlock = 1 << 16;
+    const auto blocks = static_cast<std::int64_t>((n + kBlock - 1) / kBlock);
+    const auto for_each = [&](auto&& work) {
+        for_each_block(threads, blocks, [&](std::int64_t b) {
+            for (std::size_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) work(i);
+        });
+    };
+    for_each([&](std::size_t i) { order[i] = {raster.element[i].value, static_cast<Id>(i)}; });
+    parallel_sort(threads, std::span<Entry>(order), [&](const Entry& p, const Entry& q) {
+        if (p.value != q.value) return p.value > q.value;
+        return above(raster.element[p.raster], raster.element[q.raster]);
+    });
+    CriticalSet<Id> set;
+    set.value.resize(n);
+    set.code.resize(n);
+    for_each([&](std::size_t i) {
+        set.value[i] = order[i].value;
+        set.code[i] = raster.element[order[i].raster].code.bits;
+    });
+    raster.element = {};
+    for (std::vector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
+    for_each([&](std::size_t i) {
+        const std::array<Id, 4>& leads = raster.leads_to[order[i].raster];
+        set.up_a[i] = leads[0], set.up_b[i] = leads[1], set.low_a[i] = leads[2], set.low_b[i] = leads[3];
+    });
+    return set;
+}
+
+}  // namespace
+
+std::int64_t slab_height(const Extent& extent, const Context& context) {
+    if (context.slab_slices > 0) return std::min(context.slab_slices, extent.size[2]);
+    const std::int64_t slabs = std::int64_t{4} * thread_count(context.threads);
+    return std::max<std::int64_t>({1, std::min<std::int64_t>(8, extent.size[2]), (extent.size[2] + slabs - 1) / slabs});
+}
+
+template <class T, class IdType>
+Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const {
+    const Extent& extent = grid_.extent;
+    const std::int64_t height = slab_height(extent, context), slabs = (extent.size[2] + height - 1) / height;
+    std::vector<std::uint8_t> links(static_cast<std::size_t>(extent.voxels()));
+    std::vector<SlabScan> scans(slabs);
+    context.report("classify", 0, kPhases, 0);
+    for_each_block(context.threads, slabs, [&](std::int64_t i) {
+        stop_if_cancelled(context);
+        const Slab slab = slab_at(i, height, extent.size[2]);
+        const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
+        scans[i] = scan_slab(grid_, slab, std::span(links).subspan(first, count));
+    });
+
+    Criticals<Id> result;
+    std::vector<std::int64_t> first_maximum(slabs), first_minimum(slabs), first_element(slabs);
+    std::int64_t elements = 0;
+    for (std::int64_t i = 0; i < slabs; ++i) {
+        first_maximum[i] = result.set.maxima, first_minimum[i] = result.set.minima, first_element[i] = elements;
+        result.set.maxima += scans[i].maxima, result.set.minima += scans[i].minima;
+        elements += static_cast<std::int64_t>(scans[i].elements.size());
+    }
+    stop_if_cancelled(context);
+    context.report("basins", 1, kPhases, 0);
+    result.basin = resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
+    std::vector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
+
+    RasterElements<Id> raster{std::vector<KeyedElement>(elements), std::vector<std::array<Id, 4>>(elements)};
+    const Representatives<Id> representatives(extent, links, result.basin, down);
+    for_each_block(context.threads, slabs, [&](std::int64_t slab) {
+        std::int64_t i = first_element[slab];
+        for (const KeyedElement& element : scans[slab].elements) {
+            raster.element[i] = element;
+            raster.leads_to[i++] = representatives.of(element.code);
+        }
+        scans[slab].elements = {};
+    });
+    links = {};
+    down = {};
+    stop_if_cancelled(context);
+    context.report("sort", 2, kPhases, 0);
+    const std::int64_t maxima = result.set.maxima, minima = result.set.minima;
+    result.set = sort_elements(std::move(raster), above_, context.threads);
+    result.set.maxima = maxima, result.set.minima = minima, result.set.rank = extent.rank;
+    return result;
+}
+
+#define ISOATLAS_GRID(T)                           \
+    template class GridDomain<T, std::uint32_t>; \
+    template class GridDomain<T, std::uint64_t>;
+ISOATLAS_GRID(std::uint8_t)
+ISOATLAS_GRID(std::int8_t)
+ISOATLAS_GRID(std::uint16_t)
+ISOATLAS_GRID(std::int16_t)
+ISOATLAS_GRID(std::uint32_t)
+ISOATLAS_GRID(std::int32_t)
+ISOATLAS_GRID(float)
+ISOATLAS_GRID(double)
+#undef ISOATLAS_GRID
+static_assert(Domain<GridDomain<float, std::uint32_t>>);
+
+}  // namespace isoatlas

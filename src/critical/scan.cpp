@@ -1,0 +1,172 @@
+#include "critical/scan.h"
+
+#include <bit>
+#include <cstring>
+
+#include "critical/faces.h"
+#include "critical/links.h"
+
+namespace isoatlas {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Offsets from the first corner of a cell to its corners, in voxels.
+std::array<std::int64_t, 8> corner_offsets(const GridSteps& steps) {
+    std::array<std::int64_t, 8> offsets{};
+    for (int k = 0; k < 8; ++k) offsets[k] = (k & 1) * steps.axis[0] + (k >> 1 & 1) * steps.axis[1] + (k >> 2) * steps.axis[2];
+    return offsets;
+}
+
+/// The cells between slices z and z+1: adds the types of their ambiguous faces to the slice buffers.
+/// A slice buffer counts, per voxel and orientation (2 bits each), the cells in which the face has type H.
+template <class T>
+class LayerTypes {
+public:
+    LayerTypes(const GridView<T>& grid) : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), any_(grid.extent.size[0] + 8) {}
+
+    void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next) {
+        const std::int64_t n = grid_.extent.size[0];
+        for (std::int64_t y = 0; y + 1 < grid_.extent.size[1]; ++y) {
+            const std::int64_t base = y * n;
+            gather_row(faces.data() + base, faces_next.data() + base, n);
+            for (std::int64_t x = 0; x + 1 < n; x += 8) {
+                std::uint64_t block;
+                std::memcpy(&block, any_.data() + x, 8);
+                while (block != 0) {
+                    const int byte = std::countr_zero(block) / 8;
+                    block &= ~(std::uint64_t{0xff} << (8 * byte));
+                    if (x + byte + 1 < n) add_cell(base + x + byte, z, faces, faces_next, high, high_next);
+                }
+            }
+        }
+    }
+
+private:
+    void gather_row(const std::uint8_t* faces, const std::uint8_t* next, std::int64_t n) {
+        for (std::int64_t x = 0; x + 1 < n; ++x) {
+            any_[x] = static_cast<std::uint8_t>(faces[x] | (faces[x + n] & kFaceBits[1]) | (faces[x + 1] & kFaceBits[2]) | (next[x] & kFaceBits[0]));
+        }
+    }
+
+    void add_cell(std::int64_t i, std::int64_t z, const Bytes& faces, const Bytes& next, Bytes& high, Bytes& high_next) {
+        const std::int64_t n = grid_.extent.size[0];
+        const T* corner = grid_.slice(z) + i;
+        CellElements cell;
+        for (int k = 0; k < 8; ++k) {
+            cell.value[k] = static_cast<double>(corner[offset_[k]]);
+            cell.voxel[k] = z * grid_.extent.slice() + i + offset_[k];
+        }
+        cell.diagonal = {diagonal_of(faces[i], 0),     diagonal_of(next[i], 0),  diagonal_of(faces[i], 1),
+                         diagonal_of(faces[i + n], 1), diagonal_of(faces[i], 2), diagonal_of(faces[i + 1], 2)};
+        for (int f = 0; f < 6; ++f) {
+            if (cell.diagonal[f] == Diagonal::none) continue;
+            const std::array<int, 4>& c = kFaceCorners[f];
+            cell.face_value[f] =
+                disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], cell.diagonal[f]);
+        }
+        const int types = default_face_types(cell);
+        high[i] += static_cast<std::uint8_t>((types & 1) | (types >> 2 & 1) << 2 | (types >> 4 & 1) << 4);
+        high_next[i] += static_cast<std::uint8_t>(types >> 1 & 1);
+        high[i + n] += static_cast<std::uint8_t>((types >> 3 & 1) << 2);
+        high[i + 1] += static_cast<std::uint8_t>((types >> 5 & 1) << 4);
+    }
+
+    const GridView<T>& grid_;
+    GridSteps steps_;
+    std::array<std::int64_t, 8> offset_;
+    Bytes any_;
+};
+
+/// Appends the critical elements of one slice.
+template <class T>
+class Emitter {
+public:
+    explicit Emitter(const GridView<T>& grid) : grid_(grid), steps_(grid.extent) {}
+
+    void slice(std::int64_t z, std::span<const std::uint8_t> links, const Bytes& faces, const Bytes& high, SlabScan& out) const {
+        const std::array<VertexType, 64>& types = kVertexTypes[grid_.extent.rank];
+        const std::int64_t first = z * grid_.extent.slice();
+        for (std::size_t i = 0; i < links.size(); ++i) {
+            const VertexType type = types[links[i]];
+            if (type.critical) vertex(first + static_cast<std::int64_t>(i), type, out);
+            if (faces[i] != 0) faces_of_voxel(first + static_cast<std::int64_t>(i), faces[i], high[i], out);
+        }
+    }
+
+private:
+    void vertex(std::int64_t voxel, VertexType type, SlabScan& out) const {
+        out.maxima += type.h0 == 0;
+        out.minima += type.l0 == 0;
+        out.elements.push_back({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0)});
+    }
+
+    void faces_of_voxel(std::int64_t voxel, std::uint8_t faces, std::uint8_t high, SlabScan& out) const {
+        for (int orientation = 0; orientation < 3; ++orientation) {
+            const Diagonal diagonal = diagonal_of(faces, orientation);
+            if (diagonal == Diagonal::none) continue;
+            const int types_h = high >> (2 * orientation) & 3;
+            if (grid_.is_3d() && types_h == 1) continue;  // one side joins the Highs, the other the Lows: regular
+            const int h0 = !grid_.is_3d() ? 2 : types_h == 0 ? 2 : 1;
+            const int l0 = !grid_.is_3d() ? 2 : 3 - h0;
+            face(voxel, orientation, diagonal, h0, l0, out);
+        }
+    }
+
+    void face(std::int64_t voxel, int orientation, Diagonal diagonal, int h0, int l0, SlabScan& out) const {
+        std::array<T, 4> v;
+        for (int i = 0; i < 4; ++i) v[i] = grid_.samples[voxel + steps_.face_corner(orientation, i)];
+        const double s = disambiguation_value(v[0], v[1], v[2], v[3], diagonal);
+        const bool bd_high = diagonal == Diagonal::bd;
+        // Highest Low of the same value: voxel numbers ascend a < b < d < c.
+        int tie = 0;
+        for (const int low : bd_high ? std::array{0, 2} : std::array{1, 3}) {
+            if (static_cast<double>(v[low]) == s) tie = low + 1;
+        }
+        if (!bd_high && static_cast<double>(v[1]) == s && static_cast<double>(v[3]) == s) tie = 4;  // d lies behind b
+        out.elements.push_back({s, ElementCode::face(3 * voxel + orientation, tie, bd_high, h0, l0)});
+    }
+
+    const GridView<T>& grid_;
+    GridSteps steps_;
+};
+
+}  // namespace
+
+template <class T>
+SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links) {
+    const std::int64_t slice = grid.extent.slice(), slices = grid.extent.size[2];
+    Bytes faces(slice), faces_next(slice), high(slice), high_next(slice);
+    LayerTypes<T> layer(grid);
+    const Emitter<T> emit(grid);
+    SlabScan out;
+    // The layer below the slab decides one side of the xy faces of the first slice.
+    const std::int64_t first_layer = slab.z_begin > 0 ? slab.z_begin - 1 : 0;
+    bool any = faces_of_slice(grid, first_layer, first_layer + 1 < slices, faces);
+    for (std::int64_t z = first_layer; z < slab.z_end; ++z) {
+        const bool has_next = z + 1 < slices;
+        const bool any_next = has_next && faces_of_slice(grid, z + 1, z + 1 < slab.z_end && z + 2 < slices, faces_next);
+        if (has_next && (any || any_next)) layer.add(z, faces, faces_next, high, high_next);
+        if (z >= slab.z_begin) {
+            const std::span<std::uint8_t> slice_links = links.subspan((z - slab.z_begin) * slice, slice);
+            links_of_slice(grid, z, slice_links);
+            emit.slice(z, slice_links, faces, high, out);
+        }
+        faces.swap(faces_next);
+        high.swap(high_next);
+        std::fill(high_next.begin(), high_next.end(), std::uint8_t{0});
+        any = any_next;
+    }
+    return out;
+}
+
+template SlabScan scan_slab(const GridView<std::uint8_t>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<std::int8_t>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<std::uint16_t>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<std::int16_t>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<std::uint32_t>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<std::int32_t>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<float>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<double>&, Slab, std::span<std::uint8_t>);
+
+}  // namespace isoatlas

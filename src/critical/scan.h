@@ -1,0 +1,32 @@
+// The slab pass: samples in, links of the voxels and critical elements out (theory.md sections 3 and 9).
+//
+// Everything is decided from three slices: a vertex by its neighbours, an ambiguous face by the two cells that share it.
+// The owner of a face is the slab of its corner a. Elements come out in raster order of their owner voxel, the vertex first, then faces xy, xz, yz.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/grid.h"
+#include "field/order.h"
+
+namespace isoatlas {
+
+struct SlabScan {
+    std::vector<KeyedElement> elements;  ///< critical elements owned by the slab
+    std::int64_t maxima = 0, minima = 0; ///< how many of them have no upper / no lower link
+};
+
+/// links: one byte per voxel of the slab (critical/links.h). Reads the slices [z_begin - 1, z_end] that exist.
+/// Cost: O(voxels + ambiguous faces) time, O(slice + critical elements) memory.
+template <class T>
+SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links);
+
+/// Change of the Euler characteristic of the High set when an element passes: l0 - h0 in 3D; in 2D a saddle (2,2) gives -1.
+constexpr int delta_chi(ElementCode code, int rank) {
+    if (rank == 3) return code.l0() - code.h0();
+    return code.h0() == 2 ? -1 : 1;
+}
+
+}  // namespace isoatlas

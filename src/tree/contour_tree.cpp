@@ -1,0 +1,99 @@
+#include "tree/contour_tree.h"
+
+#include <utility>
+
+#include "base/check.h"
+
+namespace isoatlas {
+namespace {
+
+// One of the two trees while leaves are removed: parent, and the xor of the children (the child itself once only one is left).
+template <class Id>
+struct ShrinkingTree {
+    std::vector<Id> parent;
+    std::vector<Id> children_xor;
+
+    explicit ShrinkingTree(std::vector<Id> parents) : parent(std::move(parents)), children_xor(parent.size(), Id{0}) {
+        for (std::size_t x = 0; x < parent.size(); ++x) {
+            if (!is_root(x)) children_xor[parent[x]] ^= static_cast<Id>(x);
+        }
+    }
+    [[nodiscard]] bool is_root(std::size_t x) const { return parent[x] == static_cast<Id>(x); }
+
+    void remove_leaf(std::size_t x) { children_xor[parent[x]] ^= static_cast<Id>(x); }
+    /// x has exactly one child: it takes the place of x.
+    void splice(std::size_t x) {
+        const Id child = children_xor[x];
+        if (is_root(x)) {
+            parent[child] = child;
+        } else {
+            parent[child] = parent[x];
+            children_xor[parent[x]] ^= static_cast<Id>(x) ^ child;
+        }
+    }
+};
+
+/// Numbers of children in both trees, packed: low two bits join (from above), next two split (from below).
+template <class Id>
+std::vector<std::uint8_t> child_counts(const ShrinkingTree<Id>& join, const ShrinkingTree<Id>& split) {
+    std::vector<std::uint8_t> count(join.parent.size(), 0);
+    for (std::size_t x = 0; x < count.size(); ++x) {
+        if (!join.is_root(x)) count[join.parent[x]] += 1;
+        if (!split.is_root(x)) count[split.parent[x]] += 4;
+    }
+    return count;
+}
+
+constexpr std::uint8_t kUpperLeaf = 4;  // nothing above, one below
+constexpr std::uint8_t kLowerLeaf = 1;
+
+}  // namespace
+
+template <class Id>
+ContourTree<Id> contour_tree(std::vector<Id> join_parents, std::vector<Id> split_parents, std::span<const std::int8_t> delta_chi) {
+    using Signed = typename ContourTree<Id>::Signed;
+    ShrinkingTree<Id> join(std::move(join_parents)), split(std::move(split_parents));
+    const std::size_t nodes = join.parent.size();
+    std::vector<std::uint8_t> count = child_counts(join, split);
+    ContourTree<Id> tree;
+    tree.other.resize(nodes);
+    tree.half_chi.resize(nodes);  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
+    for (std::size_t x = 0; x + 1 < nodes; ++x) tree.half_chi[x] = delta_chi[x];
+    tree.half_chi[nodes - 1] = -1;  // the outside closes every contour like a minimum
+
+    std::size_t arcs = 0;
+    Id last = static_cast<Id>(nodes - 1);
+    for (std::size_t seed = 0; seed < nodes; ++seed) {
+        // Follow the chain of leaves that this one uncovers; earlier seeds that become leaves are taken by the chain itself.
+        for (std::size_t x = seed; count[x] == kUpperLeaf || count[x] == kLowerLeaf;) {
+            const bool upper = count[x] == kUpperLeaf;
+            ShrinkingTree<Id>& leaf_tree = upper ? join : split;
+            ShrinkingTree<Id>& other_tree = upper ? split : join;
+            const Id y = leaf_tree.parent[x];
+            leaf_tree.remove_leaf(x);
+            other_tree.splice(x);
+            tree.other[x] = y;
+            if (upper) {
+                tree.half_chi[y] += tree.half_chi[x];
+                count[y] = static_cast<std::uint8_t>(count[y] - 1);
+            } else {
+                tree.half_chi[x] = static_cast<Signed>(-tree.half_chi[x]);
+                tree.half_chi[y] -= tree.half_chi[x];
+                count[y] = static_cast<std::uint8_t>(count[y] - 4);
+            }
+            count[x] = 0xff;  // gone
+            ++arcs;
+            last = y;
+            x = y;
+        }
+    }
+    ISOATLAS_CHECK(arcs + 1 == nodes);
+    tree.other[last] = last;
+    ISOATLAS_CHECK(tree.half_chi[last] == 0 || nodes == 1);
+    return tree;
+}
+
+template ContourTree<std::uint32_t> contour_tree(std::vector<std::uint32_t>, std::vector<std::uint32_t>, std::span<const std::int8_t>);
+template ContourTree<std::uint64_t> contour_tree(std::vector<std::uint64_t>, std::vector<std::uint64_t>, std::span<const std::int8_t>);
+
+}  // namespace isoatlas

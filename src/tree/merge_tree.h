@@ -1,0 +1,21 @@
+// Join and split tree by one union-find sweep over the sorted critical elements (theory.md T3).
+//
+// Join tree: sweep down; parent[p] = the first critical element below p that p's object meets. Split tree: sweep up, symmetric, where the
+// outside (node `size`) is the lowest leaf. In the join tree the outside is the last node: the parent of the root.
+#pragma once
+
+#include <vector>
+
+#include "critical/critical_set.h"
+
+namespace isoatlas {
+
+/// parent.size() == size + 1; parent[size] (the outside) is size itself: nothing lies below it. Cost: O(n alpha).
+template <class Id>
+std::vector<Id> join_tree(const CriticalSet<Id>& critical);
+
+/// parent.size() == size + 1; the highest element is its own parent.
+template <class Id>
+std::vector<Id> split_tree(const CriticalSet<Id>& critical);
+
+}  // namespace isoatlas

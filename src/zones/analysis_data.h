@@ -1,0 +1,72 @@
+// What an Analysis holds: the arrays of the engine for one width of ids, and the indices that accessors build on first use.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include "isoatlas/analysis.h"
+#include "tree/criticality_tree.h"
+
+namespace isoatlas {
+
+template <class Id>
+struct AnalysisArrays {
+    // per critical element, descending
+    std::vector<double> value;
+    std::vector<std::uint64_t> code;
+    std::vector<Id> level;           ///< highest element of its level
+    ContourTree<Id> contours;        ///< n + 1 nodes, the last is the outside
+    CriticalityTree<Id> tree;
+    // per event
+    std::vector<Id> voxels;          ///< of its zone; empty without zones
+    std::vector<Id> object_voxels;   ///< of its object at the low end of the zone
+    // per voxel
+    std::vector<Id> zone;
+};
+
+/// Compressed lists: the items of i are item[first[i]] .. item[first[i + 1]].
+template <class Id>
+struct Lists {
+    std::vector<Id> first, item;
+};
+
+/// Built on first use from the arrays.
+template <class Id>
+struct AnalysisIndex {
+    std::vector<Id> arcs;                    ///< nodes whose arc has a length, by (upper, lower)
+    std::vector<Id> levels;                  ///< roots of the non-trivial levels, descending
+    Lists<Id> level_in, level_out;           ///< genera, sorted, by position in `levels`
+    Lists<Id> event_levels;                  ///< positions in `levels`, by event
+    std::vector<std::int64_t> first_child;   ///< by event
+    std::vector<std::int64_t> children;
+};
+
+template <class Id>
+AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays);
+
+template <class Id>
+struct IndexedArrays {
+    AnalysisArrays<Id> arrays;
+    mutable std::once_flag once{};
+    mutable AnalysisIndex<Id> lazy{};
+
+    [[nodiscard]] const AnalysisIndex<Id>& index() const {
+        std::call_once(once, [this] { lazy = index_analysis(arrays); });
+        return lazy;
+    }
+};
+
+struct Analysis::Data {
+    Extent extent;
+    Interpolant interpolant = Interpolant::faces;
+    std::variant<std::unique_ptr<IndexedArrays<std::uint32_t>>, std::unique_ptr<IndexedArrays<std::uint64_t>>> arrays;
+
+    template <class Function>
+    decltype(auto) visit(Function&& function) const {
+        return std::visit([&](const auto& held) -> decltype(auto) { return function(*held); }, arrays);
+    }
+};
+
+}  // namespace isoatlas

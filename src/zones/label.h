@@ -1,0 +1,17 @@
+// The zone of every voxel, slab by slab.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "zones/paths.h"
+
+namespace isoatlas {
+
+/// Replaces the basin entries of `samples.size()` consecutive voxels by their zones and counts them. start: place of the event of each maximum.
+/// counts (per event, shared by all slabs) is added to atomically. Cost: O(1) expected a voxel.
+template <class T, class Id>
+void label_zones(std::span<const T> samples, const HeavyPaths<Id>& paths, std::span<const typename HeavyPaths<Id>::Place> start,
+                 std::span<Id> basin_to_zone, std::span<Id> counts);
+
+}  // namespace isoatlas
