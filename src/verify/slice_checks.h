@@ -1,0 +1,47 @@
+// Checks at single isovalues: three independent ways to the same answer must agree. tree (Analysis), cut (flood of the volume), mesh (extract).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "isoatlas/cut.h"
+#include "isoatlas/verify.h"
+#include "verify/checks.h"
+
+namespace isoatlas {
+
+/// Isovalues spread over the samples: by turns a data value and the middle between two neighbouring ones; the lowest and highest value are in.
+/// At most `count`, ascending, distinct.
+[[nodiscard]] std::vector<double> isovalues_to_check(const Volume& volume, int count);
+
+/// What the tree says is there at some isovalues. Built in one walk, because the genera of all events together can be huge.
+class TreeAtLevels {
+public:
+    struct Object {
+        std::int64_t event, chi, b1, b2;
+        std::vector<std::int64_t> genera;   ///< sorted
+    };
+    TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues);
+
+    /// The objects at isovalue number i, by event id.
+    [[nodiscard]] const std::vector<Object>& objects(std::size_t i) const { return objects_[i]; }
+    /// For every event: the event of the object at isovalue number i that it has become part of, -1 when its zones lie below.
+    [[nodiscard]] std::vector<std::int64_t> owner(const Analysis& analysis, std::size_t i) const;
+
+private:
+    std::vector<std::vector<Object>> objects_;
+};
+
+/// Each object of the cut is exactly one of the tree: found through the zone of the voxel it is named by, with the same Betti numbers and genera.
+void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, Check& check);
+
+/// The genera of the contour tree's arcs that pass tau are the genera of the cut's contours.
+void compare_arcs_and_cut(const Analysis& analysis, const Cut& cut, Check& check);
+
+/// One component of the surface per contour of the cut, each with Euler number 2 - 2 genus. 3D.
+void compare_cut_and_mesh(const Cut& cut, const Surface& surface, const SurfaceReport& report, Check& check);
+
+/// 2D: closed oriented curves, one per contour.
+void compare_cut_and_curves(const Cut& cut, const Surface& surface, Check& check);
+
+}  // namespace isoatlas
