@@ -1,0 +1,9 @@
+// The name and version every file of ours carries.
+#pragma once
+
+namespace isoatlas {
+
+inline constexpr const char* kVersion = "0.1.0";
+inline constexpr const char* kGenerator = "isoatlas 0.1.0";
+
+}  // namespace isoatlas

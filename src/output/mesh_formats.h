@@ -1,0 +1,56 @@
+// The mesh formats behind write_surface and read_mesh: one writer and one parser each. docs/formats.md says what each keeps.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "isoatlas/surface.h"
+#include "output/atomic_file.h"
+
+namespace isoatlas::output {
+
+using Warnings = std::vector<std::string>;
+
+// Each writes the whole surface and commits. The surface is consistent (check_surface). STL and GLB take no segments.
+void write_ply(AtomicFile& file, const Surface& surface, Warnings& warnings);
+void write_stl(AtomicFile& file, const Surface& surface, Warnings& warnings);
+void write_obj(AtomicFile& file, const Surface& surface, Warnings& warnings);
+void write_vtp(AtomicFile& file, const Surface& surface, Warnings& warnings);
+void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings);
+
+// Each parses a whole file. `file` is its name for messages. Throws Error: input, unsupported. The result is well-formed (check_mesh).
+// Allocates in proportion to bytes.size() only.
+[[nodiscard]] Mesh parse_ply(std::string_view bytes, const std::string& file);
+[[nodiscard]] Mesh parse_stl(std::string_view bytes, const std::string& file);
+[[nodiscard]] Mesh parse_obj(std::string_view bytes, const std::string& file);
+[[nodiscard]] Mesh parse_vtp(std::string_view bytes, const std::string& file);
+[[nodiscard]] Mesh parse_glb(std::string_view bytes, const std::string& file);
+
+/// Throws Error{usage} when arrays of different length or indices out of range would make a broken file.
+void check_surface(const Surface& surface, const std::string& file);
+/// Throws Error{input} for a point that is not finite or a triangle that names a point that is not there.
+void check_mesh(const Mesh& mesh, const std::string& file);
+/// Adds the triangles of a polygon: a fan around its first corner. Fewer than 3 corners add nothing.
+void add_polygon(Mesh& mesh, const std::vector<std::int64_t>& corners);
+/// Adds the triangles of a strip; every second one runs the other way.
+void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners);
+
+/// Triangles (or segments) in runs of one object: `order` lists them grouped by the object of their first point, objects in ascending
+/// order, the surface's order kept inside. Without ids there is one group, and has_ids is false.
+struct ObjectGroups {
+    struct Group {
+        std::int64_t object;
+        std::int64_t first, count;   ///< range of order
+    };
+    std::vector<Group> groups;
+    std::vector<std::int64_t> order;
+    bool has_ids = false;
+};
+[[nodiscard]] ObjectGroups group_by_object(const Surface& surface);
+/// Whether some object has more than one contour, so that object ids alone do not say which contour a point lies on.
+[[nodiscard]] bool has_inner_contours(const Surface& surface);
+
+}  // namespace isoatlas::output

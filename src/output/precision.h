@@ -1,0 +1,25 @@
+// Float32 or float64 positions? Files are read by index, but people and repair tools weld points by position.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "isoatlas/surface.h"
+
+namespace isoatlas::output {
+
+enum class Real : std::uint8_t { f32, f64 };
+
+/// f32 when rounding to float32 merges no two points, leaves every triangle an area, and still knows at least 2^12 positions along an
+/// edge of mean length (largest coordinate <= 2^11 mean edges); f64 otherwise. Cost: O(n log n) time, 8 bytes a point.
+[[nodiscard]] Real position_precision(const Surface& surface);
+
+/// How many points become equal to another one by rounding to float32. Distinct positions are told apart by 64-bit hashes.
+[[nodiscard]] std::int64_t points_merged_by_float32(std::span<const std::array<double, 3>> points);
+
+[[nodiscard]] inline std::array<float, 3> to_float(const std::array<double, 3>& point) {
+    return {static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2])};
+}
+
+}  // namespace isoatlas::output

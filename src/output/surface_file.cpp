@@ -1,0 +1,69 @@
+// write_surface and read_mesh: the extension chooses the format.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "io/file_access.h"
+#include "isoatlas/surface.h"
+#include "output/mesh_formats.h"
+
+namespace isoatlas {
+
+namespace {
+
+using output::Warnings;
+
+struct MeshFormat {
+    const char* extension;
+    void (*write)(AtomicFile&, const Surface&, Warnings&);
+    Mesh (*parse)(std::string_view, const std::string&);
+    bool curves;   ///< holds segments too
+};
+
+constexpr MeshFormat kFormats[] = {{".ply", output::write_ply, output::parse_ply, true},
+                                   {".stl", output::write_stl, output::parse_stl, false},
+                                   {".obj", output::write_obj, output::parse_obj, true},
+                                   {".vtp", output::write_vtp, output::parse_vtp, true},
+                                   {".glb", output::write_glb, output::parse_glb, false}};
+
+const MeshFormat& format_of(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const MeshFormat& format : kFormats) {
+        if (extension == format.extension) return format;
+    }
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = extension.empty() ? "the name has no extension, so the mesh format is unknown"
+                                                             : "unknown mesh format \"" + extension + "\"",
+                                   .expected = ".ply, .stl, .obj, .vtp or .glb",
+                                   .next = "give the file one of these extensions"});
+}
+
+}  // namespace
+
+std::vector<std::string> write_surface(const std::string& path, const Surface& surface) {
+    const MeshFormat& format = format_of(path);
+    if (!surface.segments.empty() && !format.curves) {
+        throw Error(ErrorKind::usage, {.file = path,
+                                       .what = std::string(format.extension) + " holds triangles only, and the contours of a 2D image are curves",
+                                       .next = "write .ply, .obj or .vtp"});
+    }
+    output::check_surface(surface, path);
+    Warnings warnings;
+    AtomicFile file(path);
+    format.write(file, surface, warnings);
+    return warnings;
+}
+
+Mesh read_mesh(const std::string& path) {
+    const MeshFormat& format = format_of(path);
+    std::string bytes;
+    {
+        const std::unique_ptr<io::FileHandle> file = io::open_file(path);
+        bytes.resize(static_cast<std::size_t>(file->size()));
+        io::read_fully(*file, path, 0, std::as_writable_bytes(std::span(bytes.data(), bytes.size())));
+    }
+    return format.parse(bytes, path);
+}
+
+}  // namespace isoatlas
