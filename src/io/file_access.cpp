@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "isoatlas/error.h"
 
@@ -59,6 +60,27 @@ std::unique_ptr<FileHandle> open_system_file(const std::string& path) {
 std::unique_ptr<FileHandle> open_file(const std::string& path) {
     const FileOpener& opener = current_opener();
     return opener ? opener(path) : open_system_file(path);
+}
+
+bool file_exists(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+
+bool is_directory(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+}
+
+std::vector<std::string> directory_entries(const std::string& path, std::size_t most) {
+    std::vector<std::string> names;
+    std::error_code error;
+    std::filesystem::directory_iterator at(path, error);
+    while (!error && at != std::filesystem::directory_iterator() && names.size() < most) {
+        names.push_back(at->path().filename().string());
+        at.increment(error);
+    }
+    return names;
 }
 
 void replace_file_opener(FileOpener opener) { current_opener() = std::move(opener); }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace isoatlas::io {
 
@@ -26,6 +27,12 @@ using FileOpener = std::function<std::unique_ptr<FileHandle>(const std::string& 
 [[nodiscard]] std::unique_ptr<FileHandle> open_file(const std::string& path);
 /// The opener that talks to the operating system.
 [[nodiscard]] std::unique_ptr<FileHandle> open_system_file(const std::string& path);
+/// Whether there is a regular file of that name. Never throws.
+[[nodiscard]] bool file_exists(const std::string& path);
+/// Whether there is a directory of that name. Never throws.
+[[nodiscard]] bool is_directory(const std::string& path);
+/// Names of at most `most` entries of a directory, in no order; nothing when it cannot be read. Never throws.
+[[nodiscard]] std::vector<std::string> directory_entries(const std::string& path, std::size_t most);
 /// For tests: from now on open_file uses `opener` (empty: the operating system again). Not thread safe.
 void replace_file_opener(FileOpener opener);
 

@@ -1,0 +1,49 @@
+// Missing samples: NaN, infinities and, if the caller names one, a no-data value. Found while slabs are read, replaced at the end.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "isoatlas/volume.h"
+
+namespace isoatlas::io {
+
+/// Usage: look() at every slab in any order, then replace() once.
+/// MissingPolicy::value and no_data are stored values (before the calibration), as info and the file show them.
+class MissingScan {
+public:
+    /// Throws Error{usage} when the replacement value cannot be stored in the type, is not finite, or is the no-data value.
+    MissingScan(const VolumeInfo& info, const MissingPolicy& policy, bool calibrated);
+
+    /// Counts missing samples and keeps the smallest other one; `first` is the index of samples[0].
+    /// Throws Error{input} that names the first missing voxel of the slab under Action::error.
+    void look(ValueType type, std::span<const std::byte> samples, std::int64_t first);
+
+    /// out[i] = calibrated samples[i]; missing samples become NaN (look() is then to be called with f64).
+    void calibrate(ValueType type, std::span<const std::byte> samples, const Calibration& calibration, std::span<double> out) const;
+
+    /// Puts the replacement for every missing sample and notes how many there were.
+    /// Throws Error{input} under Action::below when every sample is missing or the type has nothing below the smallest one.
+    void replace(Volume& volume) const;
+
+private:
+    template <class T>
+    [[nodiscard]] bool is_missing(T sample) const;
+    template <class T>
+    void look_at(std::span<const T> samples, std::int64_t first);
+    template <class T>
+    [[nodiscard]] T replacement() const;
+    template <class T>
+    void replace_in(std::span<T> samples) const;
+    [[noreturn]] void report(std::int64_t index, double value, bool is_no_data) const;
+
+    const VolumeInfo info_;        // of the file
+    const MissingPolicy policy_;
+    const bool calibrated_;        // samples are looked at after the calibration: no-data values are NaN by then
+    double value_ = 0;             // of the replacement, in the units of the samples looked at
+    std::int64_t count_ = 0;
+    double smallest_ = std::numeric_limits<double>::infinity();  // exact: every sample type fits in double
+};
+
+}  // namespace isoatlas::io
