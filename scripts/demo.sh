@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# The first five minutes: installs what is missing, builds, analyses a volume, writes its objects to demo/.
+#   VOLUME=file   your own volume; otherwise one is generated
+#   ARGS="..."    options for reading it, e.g. ARGS="--dims 256 256 128 --type uint8" for RAW files
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+surfaces=5   # of that many objects
+out=demo
+read -r -a options <<<"${ARGS:-}"
+
+say() { printf '\n== %s\n' "$*"; }
+
+volume=${VOLUME:-}
+if [[ -n $volume && ! -e $volume ]]; then
+    echo "demo: $volume does not exist; give the path of a volume with VOLUME=" >&2
+    exit 2
+fi
+scripts/bootstrap.sh demo
+say "building (the first time takes a minute or two)"
+scripts/build.sh release isoatlas_cli
+isoatlas=build/release/bin/isoatlas
+
+mkdir -p "$out"
+rm -f "$out"/object_*.ply "$out"/object_*.vtp "$out"/tree.json "$out"/objects.json
+if [[ -z $volume ]]; then
+    volume=$out/demo.nrrd
+    say "generating a demonstration volume"
+    "$isoatlas" phantom demo -o "$volume"
+fi
+
+say "what is in $volume?"
+"$isoatlas" objects "$volume" "${options[@]}"
+"$isoatlas" objects "$volume" "${options[@]}" --top "$surfaces" --json --quiet >"$out/objects.json"
+"$isoatlas" tree "$volume" "${options[@]}" --quiet -o "$out/tree.json" >/dev/null
+
+# One object a line in the JSON document; a slice has curves, which PLY does not hold.
+extension=ply
+if "$isoatlas" info "$volume" "${options[@]}" --json --quiet | tr -d ' \n' | grep -q '"rank":2'; then extension=vtp; fi
+say "writing a surface for each of the first $surfaces, and proving that it is closed, manifold and oriented"
+number=0
+while read -r id tau; do
+    number=$((number + 1))
+    file=$out/object_$number.$extension
+    "$isoatlas" extract "$volume" "${options[@]}" --tau="$tau" --object "$id" --quiet -o "$file"
+    if [[ $extension == ply ]]; then "$isoatlas" verify "$file" --quiet; fi
+done < <(sed -nE 's/.*"id": ?([0-9]+),.*"best_tau": ?([^,]+),.*/\1 \2/p' "$out/objects.json")
+if [[ $number == 0 ]]; then
+    echo "nothing in this volume rises above the noise; $isoatlas objects $volume --all lists everything"
+fi
+
+say "done"
+cat <<TEXT
+$out/objects.json      the table as JSON
+$out/tree.json         the criticality tree: every topological change, with its zone
+$out/object_N.$extension      the surface of object N at its best isovalue (any mesh viewer opens it)
+
+Next:
+  make demo VOLUME=your_file              the same for your data (NRRD, NIfTI, MHA, NPY, VTI, TIFF, RAW)
+  $isoatlas --help           everything else
+  make install PREFIX=~/.local            puts isoatlas and the C++ library there
+TEXT
