@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "suggest.h"
 #include "verbs.h"
@@ -22,7 +22,7 @@ namespace {
 /// Options as typed; converted after the parse so that every message is ours.
 struct Typed {
     std::string dims, type, endian, spacing, origin, missing, interpolant = "faces", shell = "all", style = "compact", boundary = "closed",
-        detail = "events";
+                                                              detail = "events";
     double no_data = 0;
     double tau = 0;
     std::int64_t skip = 0, time_step = 0;
@@ -34,29 +34,40 @@ void add_talking(CLI::App& app, Arguments& arguments) {
     app.add_flag("-v,--verbose", arguments.verbose, "Say more (time, memory)")->group("Talking");
     app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Talking");
     app.add_option("--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
-        ->check(CLI::Range(0, 4096))->type_name("N")->group("Talking");
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N")
+        ->group("Talking");
 }
 
 void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
     const char* group = "Reading";
     app.add_option("--dims", typed.dims, "Samples per axis of a RAW file, x fastest: 512x512x100")->type_name("NX[xNY[xNZ]]")->group(group);
-    app.add_option("--type", typed.type, "Sample type of a RAW file: uint8 int8 uint16 int16 uint32 int32 float32 float64")->type_name("T")->group(group);
+    app.add_option("--type", typed.type, "Sample type of a RAW file: uint8 int8 uint16 int16 uint32 int32 float32 float64")
+        ->type_name("T")
+        ->group(group);
     app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
     app.add_option("--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
     app.add_option("--spacing", typed.spacing, "Distance of samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
     app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
     app.add_option("--time-step", typed.time_step, "Which volume of a 4D file, from 0")->type_name("N")->group(group);
-    app.add_option("--missing", typed.missing, "Put VALUE for NaN and infinite samples; below: less than every value")->type_name("VALUE|below")->group(group);
-    app.add_option("--no-data", typed.no_data, "Samples of this stored value are missing too (with --missing)")->type_name("VALUE")->group(group);
+    app.add_option("--missing", typed.missing, "Put VALUE for NaN and infinite samples; below: less than every value")
+        ->type_name("VALUE|below")
+        ->group(group);
+    app.add_option("--no-data", typed.no_data, "Samples of this stored value are missing too (with --missing)")
+        ->type_name("VALUE")
+        ->group(group);
     app.add_flag("--voxel", arguments.voxel_units, "Lengths in voxels, not in the file's units")->group(group);
 }
 
 void add_interpolant(CLI::App& app, Typed& typed) {
-    app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces")->type_name("NAME")->group("Reading");
+    app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces")
+        ->type_name("NAME")
+        ->group("Reading");
 }
 
 void add_output(CLI::App& app, Arguments& arguments, const std::string& formats, bool required) {
-    CLI::Option* option = app.add_option("-o,--output", arguments.output, "Write to FILE (" + formats + "); an existing file is overwritten");
+    CLI::Option* option =
+        app.add_option("-o,--output", arguments.output, "Write to FILE (" + formats + "); an existing file is overwritten");
     option->type_name("FILE");
     if (required) option->required();
 }
@@ -71,14 +82,18 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".json .graphml .csv .vtu", false);
     } else if (verb == "objects") {
         add_tau(app, typed, "List every object at this isovalue");
-        app.add_option("--top", arguments.top, "At most N objects (without --tau: 24)")->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))->type_name("N");
+        app.add_option("--top", arguments.top, "At most N objects (without --tau: 24)")
+            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))
+            ->type_name("N");
         app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
     } else if (verb == "extract") {
         add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
-        app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID...");
+        app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")
+            ->type_name("ID...");
         app.add_option("--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID...");
         app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
-        app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
+        app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")
+            ->type_name("STYLE");
         app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
         app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
         add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
@@ -88,7 +103,9 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
-        app.add_option("--size", arguments.phantom.size, "Samples per axis")->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 20))->type_name("N");
+        app.add_option("--size", arguments.phantom.size, "Samples per axis")
+            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 20))
+            ->type_name("N");
         app.add_option("--seed", arguments.phantom.seed, "Seed of random phantoms")->type_name("N");
         app.add_option("--genus", arguments.phantom.genus, "Number of handles (torus-chain)")->type_name("N");
         app.add_option("--shells", arguments.phantom.shells, "Number of shells (nested-shells)")->type_name("N");
@@ -96,7 +113,9 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--quantise", arguments.phantom.quantise, "Number of grey levels, 2..65536")->type_name("N");
         add_output(app, arguments, ".nrrd .npy .raw .mha .nii", false);
     } else if (verb == "verify") {
-        app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")->check(CLI::Range(1, 100000))->type_name("N");
+        app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
+            ->check(CLI::Range(1, 100000))
+            ->type_name("N");
     }
 }
 
@@ -153,17 +172,21 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) arguments.missing.no_data = typed.no_data;
     if (given("--tau")) {
-        if (!std::isfinite(typed.tau)) usage("--tau is not a finite number", "give an isovalue inside the range that `isoatlas info` prints");
+        if (!std::isfinite(typed.tau))
+            usage("--tau is not a finite number", "give an isovalue inside the range that `isoatlas info` prints");
         arguments.tau = typed.tau;
     }
     arguments.interpolant = parse_choice<Interpolant>("--interpolant", typed.interpolant, {{"faces", Interpolant::faces}});
     arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
                                                 {{"all", ShellChoice::all}, {"outer", ShellChoice::outer}, {"inner", ShellChoice::inner}});
-    arguments.style = parse_choice<SurfaceStyle>("--style", typed.style, {{"compact", SurfaceStyle::compact}, {"full", SurfaceStyle::full}});
+    arguments.style =
+        parse_choice<SurfaceStyle>("--style", typed.style, {{"compact", SurfaceStyle::compact}, {"full", SurfaceStyle::full}});
     arguments.boundary = parse_choice<Boundary>("--boundary", typed.boundary, {{"closed", Boundary::closed}, {"open", Boundary::open}});
     arguments.detail = parse_choice<TreeDetail>("--detail", typed.detail,
-                                                {{"events", TreeDetail::events}, {"levels", TreeDetail::levels},
-                                                 {"elements", TreeDetail::elements}, {"contours", TreeDetail::contours}});
+                                                {{"events", TreeDetail::events},
+                                                 {"levels", TreeDetail::levels},
+                                                 {"elements", TreeDetail::elements},
+                                                 {"contours", TreeDetail::contours}});
 }
 
 [[noreturn]] void explain(const CLI::App& app, const std::string& verb, const std::vector<std::string>& words, const std::string& message) {
@@ -246,7 +269,7 @@ Parsed parse(const std::vector<std::string>& given) {
     const auto parser = make_parser(*verb, parsed.arguments, typed);
     if (std::count(words.begin(), words.end(), "--version") > 0) return parse_without_verb({"--version"});
     try {
-        std::vector<std::string> reversed(words.rbegin(), words.rend());   // CLI11 takes words from the back
+        std::vector<std::string> reversed(words.rbegin(), words.rend());  // CLI11 takes words from the back
         parser->parse(std::move(reversed));
     } catch (const CLI::CallForHelp&) {
         parsed.text = parser->help();

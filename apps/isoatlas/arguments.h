@@ -12,13 +12,13 @@ namespace isoatlas::cli {
 
 struct Arguments {
     std::string verb;
-    std::string file;     ///< VOLUME, MESH, or the name of a phantom, verb or shell
-    std::string output;   ///< -o; empty: none
+    std::string file;    ///< VOLUME, MESH, or the name of a phantom, verb or shell
+    std::string output;  ///< -o; empty: none
 
     // Reading
     OpenOptions open;
     MissingPolicy missing;
-    bool voxel_units = false;   ///< lengths in voxels, whatever the file says
+    bool voxel_units = false;  ///< lengths in voxels, whatever the file says
 
     // Running and talking
     Interpolant interpolant = Interpolant::faces;
@@ -27,10 +27,10 @@ struct Arguments {
     int verbose = 0;
 
     // Choosing
-    std::optional<double> tau;   ///< in reported (calibrated) units, as typed
+    std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
     bool best = false, all = false, zones = false, list = false;
-    std::int64_t top = 0;        ///< 0: not given
+    std::int64_t top = 0;  ///< 0: not given
     int levels = 8;
 
     // Shaping the output
@@ -44,7 +44,7 @@ struct Arguments {
 /// What to do with a command line: run a verb, or print a text (help, version) and stop.
 struct Parsed {
     Arguments arguments;
-    std::string text;   ///< not empty: print it and exit 0
+    std::string text;  ///< not empty: print it and exit 0
 };
 
 /// Throws Error{usage} with a next step (did you mean ...?) for everything it does not understand.

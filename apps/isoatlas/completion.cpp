@@ -8,7 +8,9 @@ namespace isoatlas::cli {
 
 int run_completion(const Arguments& arguments, Terminal& terminal) {
     if (arguments.file != "bash") {
-        throw Error(ErrorKind::usage, {.what = "no completion for the shell \"" + arguments.file + "\"", .expected = "bash", .next = "isoatlas completion bash"});
+        throw Error(
+            ErrorKind::usage,
+            {.what = "no completion for the shell \"" + arguments.file + "\"", .expected = "bash", .next = "isoatlas completion bash"});
     }
     std::string names, cases;
     for (const Verb& verb : verbs()) {

@@ -12,7 +12,11 @@ namespace {
 std::string text_of(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
 
 Json volume_json(const VolumeInfo& info) {
-    Json json{{"path", info.path}, {"format", info.format}, {"encoding", info.encoding}, {"type", name_of(info.type)}, {"rank", info.extent.rank}};
+    Json json{{"path", info.path},
+              {"format", info.format},
+              {"encoding", info.encoding},
+              {"type", name_of(info.type)},
+              {"rank", info.extent.rank}};
     json["dims"] = Json::array();
     for (int axis = 0; axis < info.extent.rank; ++axis) json["dims"].push_back(info.extent.size[static_cast<std::size_t>(axis)]);
     json["spacing"] = info.geometry.spacing;
@@ -45,7 +49,8 @@ Json document(const std::string& name, const VolumeInfo& info, Interpolant inter
 
 void print(Terminal& terminal, const Json& json) { terminal.out() << text_of(json, 2) << '\n'; }
 
-void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count, const std::function<Json(std::int64_t)>& item) {
+void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count,
+           const std::function<Json(std::int64_t)>& item) {
     std::string text = text_of(head, 2);
     text.erase(text.find_last_of('}'));
     text.erase(text.find_last_not_of(" \n") + 1);

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 void print(Terminal& terminal, const Json& json);
 /// Prints `head` with one more member: name: [item(0), ..., item(count - 1)].
-void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count, const std::function<Json(std::int64_t)>& item);
+void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count,
+           const std::function<Json(std::int64_t)>& item);
 
 /// Infinite becomes null.
 [[nodiscard]] Json number(double value);

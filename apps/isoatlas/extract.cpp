@@ -19,8 +19,9 @@ const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
 }
 
 [[noreturn]] void no_such_entry(const Arguments& arguments, const std::string& what) {
-    throw Error(ErrorKind::not_found, {.file = arguments.file, .what = what,
-                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists them; or give --tau"});
+    throw Error(
+        ErrorKind::not_found,
+        {.file = arguments.file, .what = what, .next = "isoatlas objects " + shell_word(arguments.file) + " lists them; or give --tau"});
 }
 
 /// The best isovalue of the objects asked for. With --best and no --object, the first line of the table is the object.
@@ -40,8 +41,9 @@ double best_tau(const Arguments& arguments, const Volume& volume, ExtractOptions
         const ObjectEntry* entry = find(table, options.objects[i]);
         if (entry == nullptr) no_such_entry(arguments, fmt::format("no object of the table has the id {}", options.objects[i]));
         if (i > 0 && entry->best_tau != tau) {
-            throw Error(ErrorKind::usage, {.what = fmt::format("objects {} and {} have different best isovalues", options.objects[0], options.objects[i]),
-                                           .next = "give one isovalue for all with --tau, or extract them one by one"});
+            throw Error(ErrorKind::usage,
+                        {.what = fmt::format("objects {} and {} have different best isovalues", options.objects[0], options.objects[i]),
+                         .next = "give one isovalue for all with --tau, or extract them one by one"});
         }
         tau = entry->best_tau;
     }
@@ -50,8 +52,10 @@ double best_tau(const Arguments& arguments, const Volume& volume, ExtractOptions
 
 void check_arguments(const Arguments& arguments) {
     if (!arguments.tau && !arguments.best && arguments.objects.empty()) {
-        throw Error(ErrorKind::usage, {.what = "which isovalue?", .expected = "--tau T, --object ID or --best",
-                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists the isovalues that show something"});
+        throw Error(ErrorKind::usage,
+                    {.what = "which isovalue?",
+                     .expected = "--tau T, --object ID or --best",
+                     .next = "isoatlas objects " + shell_word(arguments.file) + " lists the isovalues that show something"});
     }
     if (arguments.tau && arguments.best) {
         throw Error(ErrorKind::usage, {.what = "--tau and --best contradict each other", .next = "leave one of them out"});
@@ -70,11 +74,16 @@ std::int64_t distinct(std::vector<std::int64_t> ids) {
 }
 
 Counts count(const Surface& surface) {
-    return {static_cast<std::int64_t>(surface.points.size()), static_cast<std::int64_t>(surface.triangles.size()),
-            static_cast<std::int64_t>(surface.segments.size()), distinct(surface.object), distinct(surface.contour), surface.closed};
+    return {static_cast<std::int64_t>(surface.points.size()),
+            static_cast<std::int64_t>(surface.triangles.size()),
+            static_cast<std::int64_t>(surface.segments.size()),
+            distinct(surface.object),
+            distinct(surface.contour),
+            surface.closed};
 }
 
-Json to_json(const Arguments& arguments, const Volume& volume, const Surface& surface, const Counts& counts, const std::vector<std::string>& warnings) {
+Json to_json(const Arguments& arguments, const Volume& volume, const Surface& surface, const Counts& counts,
+             const std::vector<std::string>& warnings) {
     Json json = document("extract", volume.info, arguments.interpolant, arguments.boundary);
     json["tau"] = surface.reported_tau;
     json["style"] = arguments.style == SurfaceStyle::compact ? "compact" : "full";
@@ -106,12 +115,17 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     Session session(arguments, terminal);
     const Volume volume = session.load();
     const Context context = session.context();
-    ExtractOptions options{.interpolant = arguments.interpolant, .boundary = arguments.boundary, .style = arguments.style,
-                           .objects = arguments.objects, .contours = arguments.contours, .shell = arguments.shell};
+    ExtractOptions options{.interpolant = arguments.interpolant,
+                           .boundary = arguments.boundary,
+                           .style = arguments.style,
+                           .objects = arguments.objects,
+                           .contours = arguments.contours,
+                           .shell = arguments.shell};
     const double tau = arguments.tau ? tau_of(arguments, volume) : best_tau(arguments, volume, options, context);
     const Surface surface = extract(volume, tau, options, context);
     if (surface.points.empty()) {
-        throw Error(ErrorKind::not_found, {.file = arguments.file, .what = "there is no such surface at this isovalue; nothing was written",
+        throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                           .what = "there is no such surface at this isovalue; nothing was written",
                                            .next = "isoatlas objects " + shell_word(arguments.file) + " --tau T lists the contours"});
     }
     const Counts counts = count(surface);

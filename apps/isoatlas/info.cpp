@@ -21,8 +21,8 @@ constexpr double kReadLimit = 2e9;
 
 struct Values {
     bool known = false;
-    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();   ///< stored
-    std::int64_t missing = 0;   ///< NaN and infinite samples
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();  ///< stored
+    std::int64_t missing = 0;                                                                               ///< NaN and infinite samples
 };
 
 template <class T>
@@ -62,7 +62,8 @@ Values read_values(VolumeReader& reader, Session& session) {
 
 Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
     Json json = document("info", info);
-    json["file"] = {{"bytes", info.file_bytes}, {"data_file", info.data_file}, {"big_endian", info.big_endian}, {"slab_readable", info.slab_readable}};
+    json["file"] = {
+        {"bytes", info.file_bytes}, {"data_file", info.data_file}, {"big_endian", info.big_endian}, {"slab_readable", info.slab_readable}};
     json["description"] = info.description;
     json["voxels"] = info.extent.voxels();
     Json range = nullptr;
@@ -101,8 +102,8 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
     out << "format       " << info.format << ", " << info.encoding << (info.big_endian ? ", big endian" : "")
         << (info.data_file.empty() ? "" : ", samples in " + info.data_file) << '\n';
     if (!info.description.empty()) out << "description  " << info.description << '\n';
-    out << "samples      " << extent_text(info.extent) << "  " << name_of(info.type) << "  (" << count_text(info.extent.voxels()) << " voxels, "
-        << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
+    out << "samples      " << extent_text(info.extent) << "  " << name_of(info.type) << "  (" << count_text(info.extent.voxels())
+        << " voxels, " << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
     print_geometry(out, info);
     const Scale scale(info);
     if (!info.calibration.is_identity()) {
@@ -110,10 +111,11 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
     }
     if (values.known) {
         const bool reversed = info.calibration.slope < 0;
-        out << "values       " << scale.text(reversed ? values.high : values.low) << " .. " << scale.text(reversed ? values.low : values.high)
-            << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
+        out << "values       " << scale.text(reversed ? values.high : values.low) << " .. "
+            << scale.text(reversed ? values.low : values.high) << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
     }
-    if (values.missing > 0) out << "missing      " << counted(values.missing, "sample") << " NaN or infinite: analyse with --missing below\n";
+    if (values.missing > 0)
+        out << "missing      " << counted(values.missing, "sample") << " NaN or infinite: analyse with --missing below\n";
     for (const std::string& note : info.notes) out << "note         " << note << '\n';
     out << "analysis     " << cost_text(info, arguments.threads) << '\n';
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 
 #include <unistd.h>
 
@@ -17,7 +18,7 @@ constexpr char kMessage[] = "\nstopped: the unfinished output was removed\n";
 
 std::atomic<int> signals{0};
 std::atomic<bool> writing{false};
-std::array<char, 4096> partial{};   // a fixed buffer: the handler may not allocate
+std::array<char, 4096> partial{};  // a fixed buffer: the handler may not allocate
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 void on_signal(int) {
@@ -47,8 +48,10 @@ void stop_if_interrupted() {
 }
 
 WritingGuard::WritingGuard(const std::string& path) {
-    const std::string name = path + ".partial";
     stop_if_interrupted();
+    std::error_code ignored;
+    const std::filesystem::path target = std::filesystem::weakly_canonical(path, ignored);   // writers follow links
+    const std::string name = (target.empty() ? path : target.string()) + ".partial";
     partial[0] = '\0';
     if (name.size() < partial.size()) std::memcpy(partial.data(), name.c_str(), name.size() + 1);
     writing = true;

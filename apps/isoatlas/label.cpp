@@ -16,11 +16,12 @@ namespace {
 
 struct Labels {
     std::vector<std::uint32_t> of_voxel;
-    std::int64_t count = 0;   ///< the largest label
+    std::int64_t count = 0;  ///< the largest label
 };
 
 [[noreturn]] void too_many(const Arguments& arguments, std::int64_t count) {
-    throw Error(ErrorKind::unsupported, {.file = arguments.file, .what = count_text(count) + " labels do not fit in 32 bits",
+    throw Error(ErrorKind::unsupported, {.file = arguments.file,
+                                         .what = count_text(count) + " labels do not fit in 32 bits",
                                          .next = "label the objects of one isovalue with --tau"});
 }
 
@@ -36,7 +37,8 @@ Labels label_zones(const Arguments& arguments, const Volume& volume, const Conte
     if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
     const std::int64_t voxels = volume.info.extent.voxels();
     Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)), analysis.event_count()};
-    for (std::int64_t i = 0; i < voxels; ++i) labels.of_voxel[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(analysis.zone(i) + 1);
+    for (std::int64_t i = 0; i < voxels; ++i)
+        labels.of_voxel[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(analysis.zone(i) + 1);
     return labels;
 }
 
@@ -55,7 +57,8 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Session session(arguments, terminal);
     const Volume volume = session.load();
-    const Labels labels = arguments.zones ? label_zones(arguments, volume, session.context()) : label_objects(arguments, volume, session.context());
+    const Labels labels =
+        arguments.zones ? label_zones(arguments, volume, session.context()) : label_objects(arguments, volume, session.context());
     {
         const WritingGuard guard(arguments.output);
         write_labels(arguments.output, volume.info, labels.of_voxel);

@@ -39,9 +39,10 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
     } catch (const Error& error) {
         return report(error, json, terminal);
     } catch (const std::bad_alloc&) {
-        return report(Error(ErrorKind::resource, {.what = "not enough memory",
-                                                  .next = "isoatlas info FILE tells what an analysis needs; use a machine with more memory"}),
-                      json, terminal);
+        return report(
+            Error(ErrorKind::resource,
+                  {.what = "not enough memory", .next = "isoatlas info FILE tells what an analysis needs; use a machine with more memory"}),
+            json, terminal);
     } catch (const std::exception& error) {
         return report(Error(ErrorKind::internal, {.what = std::string("a bug of isoatlas: ") + error.what(),
                                                   .next = "please report it with the command line and, if you may share it, the file"}),

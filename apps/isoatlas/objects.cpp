@@ -23,7 +23,8 @@ std::string measure_title(const VolumeInfo& info, const MeasureUnit& unit) {
 std::string dashed(std::int64_t count) { return count == 0 ? "-" : count_text(count); }
 
 std::string extract_command(const Arguments& arguments, std::int64_t id, const std::string& tau) {
-    return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments), tau, id);
+    return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
+                       tau, id);
 }
 
 // The table: objects at their own best isovalues.
@@ -62,21 +63,31 @@ std::string best_tau_text(const ObjectEntry& entry, const Analysis& analysis, co
     return scale.text_within(entry.best_tau, zone.tau_low, zone.tau_high);
 }
 
-void print_table_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis, const ObjectTable& table) {
+void print_table_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis,
+                      const ObjectTable& table) {
     const Scale scale(volume.info);
     double largest = 0;
     for (const ObjectEntry& entry : table.entries) largest = std::max(largest, entry.measure);
     const MeasureUnit unit = measure_unit(volume.info, largest);
     const bool flat = volume.info.extent.rank == 2;
-    Table text({{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}, {"voxels"}, {measure_title(volume.info, unit)},
-                {flat ? "holes" : "tunnels"}, {"cavities"}, {"note", true}});
+    Table text({{"#"},
+                {"id"},
+                {"appears"},
+                {"merges"},
+                {"best tau"},
+                {"voxels"},
+                {measure_title(volume.info, unit)},
+                {flat ? "holes" : "tunnels"},
+                {"cavities"},
+                {"note", true}});
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
         text.add({fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.text(entry.appears), scale.text(entry.merges),
                   best_tau_text(entry, analysis, scale), count_text(entry.voxels), fmt::format("{:.4g}", entry.measure * unit.factor),
                   dashed(entry.tunnels), dashed(entry.cavities), entry.note});
     }
-    terminal.say(fmt::format("{} in all, {} worth a line{}", counted(table.branches, "object"), count_text(static_cast<std::int64_t>(table.entries.size())),
+    terminal.say(fmt::format("{} in all, {} worth a line{}", counted(table.branches, "object"),
+                             count_text(static_cast<std::int64_t>(table.entries.size())),
                              table.noise > 0 ? fmt::format(" (noise about {:.3g})", table.noise * volume.info.calibration.slope) : ""));
     text.print(terminal);
     if (table.entries.empty()) {
@@ -109,9 +120,14 @@ Json object_json(const CutObject& object, const Cut& cut) {
         const CutContour& contour = cut.contours[static_cast<std::size_t>(object.first_contour + i)];
         contours.push_back({{"id", contour.id}, {"genus", contour.genus}, {"shell", contour.shell == Shell::outer ? "outer" : "inner"}});
     }
-    return {{"id", object.id},         {"chi", object.chi},         {"b1", object.b1},
-            {"b2", object.b2},         {"voxels", object.voxels},   {"measure", object.measure},
-            {"box", {{"low", object.box_low}, {"high", object.box_high}}}, {"contours", std::move(contours)}};
+    return {{"id", object.id},
+            {"chi", object.chi},
+            {"b1", object.b1},
+            {"b2", object.b2},
+            {"voxels", object.voxels},
+            {"measure", object.measure},
+            {"box", {{"low", object.box_low}, {"high", object.box_high}}},
+            {"contours", std::move(contours)}};
 }
 
 void print_cut_json(Terminal& terminal, const Volume& volume, const Cut& cut, std::int64_t shown, double tau) {
@@ -136,14 +152,23 @@ void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume
     for (const CutObject& object : cut.objects) largest = std::max(largest, object.measure);
     const MeasureUnit unit = measure_unit(volume.info, largest);
     const bool flat = volume.info.extent.rank == 2;
-    Table text({{"#"}, {"id"}, {"voxels"}, {measure_title(volume.info, unit)}, {flat ? "holes" : "tunnels"}, {"cavities"}, {"contours"}, {"box", true}});
+    Table text({{"#"},
+                {"id"},
+                {"voxels"},
+                {measure_title(volume.info, unit)},
+                {flat ? "holes" : "tunnels"},
+                {"cavities"},
+                {"contours"},
+                {"box", true}});
     for (std::int64_t i = 0; i < shown; ++i) {
         const CutObject& object = cut.objects[static_cast<std::size_t>(i)];
-        text.add({fmt::format("{}", i + 1), fmt::format("{}", object.id), count_text(object.voxels), fmt::format("{:.4g}", object.measure * unit.factor),
-                  dashed(object.b1), dashed(object.b2), count_text(object.contour_count), box_text(object, volume.info.extent.rank)});
+        text.add({fmt::format("{}", i + 1), fmt::format("{}", object.id), count_text(object.voxels),
+                  fmt::format("{:.4g}", object.measure * unit.factor), dashed(object.b1), dashed(object.b2),
+                  count_text(object.contour_count), box_text(object, volume.info.extent.rank)});
     }
     const auto all = static_cast<std::int64_t>(cut.objects.size());
-    terminal.say(fmt::format("{} with {} at {}", counted(all, "object"), counted(static_cast<std::int64_t>(cut.contours.size()), "contour"), *arguments.tau));
+    terminal.say(fmt::format("{} with {} at {}", counted(all, "object"), counted(static_cast<std::int64_t>(cut.contours.size()), "contour"),
+                             *arguments.tau));
     text.print(terminal);
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
     terminal.next(extract_command(arguments, cut.objects[0].id, fmt::format("{}", *arguments.tau)));
@@ -165,6 +190,8 @@ int list_at(const Arguments& arguments, Terminal& terminal) {
 
 }  // namespace
 
-int run_objects(const Arguments& arguments, Terminal& terminal) { return arguments.tau ? list_at(arguments, terminal) : list_best(arguments, terminal); }
+int run_objects(const Arguments& arguments, Terminal& terminal) {
+    return arguments.tau ? list_at(arguments, terminal) : list_best(arguments, terminal);
+}
 
 }  // namespace isoatlas::cli

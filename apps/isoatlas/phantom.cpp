@@ -32,10 +32,11 @@ void list(const Arguments& arguments, Terminal& terminal) {
 void check_arguments(const Arguments& arguments) {
     if (arguments.file.empty()) throw Error(ErrorKind::usage, {.what = "which phantom?", .next = "isoatlas phantom --list"});
     if (arguments.output.empty()) {
-        throw Error(ErrorKind::usage, {.what = "where should the phantom go?", .expected = "-o FILE", .next = "add -o " + arguments.file + ".nrrd"});
+        throw Error(ErrorKind::usage,
+                    {.what = "where should the phantom go?", .expected = "-o FILE", .next = "add -o " + arguments.file + ".nrrd"});
     }
     Arguments generated = arguments;
-    generated.file.clear();   // a name, not an input file that the output could overwrite
+    generated.file.clear();  // a name, not an input file that the output could overwrite
     check_output(generated, {".nrrd", ".npy", ".raw", ".mha", ".nii"});
 }
 
@@ -62,8 +63,8 @@ int run_phantom(const Arguments& arguments, Terminal& terminal) {
         return 0;
     }
     const Scale scale(volume.info);
-    terminal.out() << arguments.output << ": " << arguments.file << ", " << extent_text(volume.info.extent) << ' ' << name_of(volume.info.type)
-                   << ", values " << scale.text(range.low) << " .. " << scale.text(range.high) << '\n';
+    terminal.out() << arguments.output << ": " << arguments.file << ", " << extent_text(volume.info.extent) << ' '
+                   << name_of(volume.info.type) << ", values " << scale.text(range.low) << " .. " << scale.text(range.high) << '\n';
     terminal.next("isoatlas objects " + shell_word(arguments.output));
     return 0;
 }

@@ -12,12 +12,10 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr double kQuietStart = 0.5;   // short jobs show no bar
+constexpr double kQuietStart = 0.5;  // short jobs show no bar
 constexpr double kRedraw = 0.1, kLineEvery = 10;
 
-void to_stderr(const std::string& text) {
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-}
+void to_stderr(const std::string& text) { [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size()); }
 
 }  // namespace
 

@@ -13,7 +13,7 @@ class Terminal;
 class ProgressBar {
 public:
     explicit ProgressBar(Terminal& terminal);
-    ~ProgressBar();   ///< clears the line
+    ~ProgressBar();  ///< clears the line
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 

@@ -8,14 +8,22 @@ namespace {
 
 const char* kind_name(ErrorKind kind) {
     switch (kind) {
-        case ErrorKind::internal: return "internal";
-        case ErrorKind::usage: return "usage";
-        case ErrorKind::input: return "input";
-        case ErrorKind::unsupported: return "unsupported";
-        case ErrorKind::resource: return "resource";
-        case ErrorKind::not_found: return "not_found";
-        case ErrorKind::verification: return "verification";
-        case ErrorKind::cancelled: return "cancelled";
+        case ErrorKind::internal:
+            return "internal";
+        case ErrorKind::usage:
+            return "usage";
+        case ErrorKind::input:
+            return "input";
+        case ErrorKind::unsupported:
+            return "unsupported";
+        case ErrorKind::resource:
+            return "resource";
+        case ErrorKind::not_found:
+            return "not_found";
+        case ErrorKind::verification:
+            return "verification";
+        case ErrorKind::cancelled:
+            return "cancelled";
     }
     return "internal";
 }
@@ -31,9 +39,14 @@ int report(const Error& error, bool json, Terminal& terminal) {
     if (!json) return code;
     const ErrorText& text = error.text();
     Json document_of_error = document("error");
-    document_of_error["error"] = {{"kind", kind_name(error.kind())}, {"exit_code", code},         {"message", error.what()},
-                                  {"file", text.file},               {"where", text.where},       {"what", text.what},
-                                  {"expected", text.expected},       {"next", text.next}};
+    document_of_error["error"] = {{"kind", kind_name(error.kind())},
+                                  {"exit_code", code},
+                                  {"message", error.what()},
+                                  {"file", text.file},
+                                  {"where", text.where},
+                                  {"what", text.what},
+                                  {"expected", text.expected},
+                                  {"next", text.next}};
     try {
         print(terminal, document_of_error);
         terminal.finish();

@@ -60,7 +60,8 @@ void check_file_system(const std::string& output) {
                     {.file = output, .what = "the folder does not exist", .next = "mkdir -p " + shell_word(folder.string())});
     }
     if (::access(folder.c_str(), W_OK) != 0) {
-        throw Error(ErrorKind::resource, {.file = output, .what = "the folder may not be written to", .next = "choose another folder with -o"});
+        throw Error(ErrorKind::resource,
+                    {.file = output, .what = "the folder may not be written to", .next = "choose another folder with -o"});
     }
 }
 
@@ -87,12 +88,14 @@ Volume Session::load() {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments_.file, arguments_.open);
         const double least = cost_of_analysis(reader->info(), arguments_.threads).memory_smooth;
         if (least > machine_memory()) {
-            terminal_.warn(fmt::format("{} needs {} or more, this machine has {}", arguments_.file, bytes_text(least), bytes_text(machine_memory())));
+            terminal_.warn(
+                fmt::format("{} needs {} or more, this machine has {}", arguments_.file, bytes_text(least), bytes_text(machine_memory())));
         }
         try {
             volume = load_volume(*reader, arguments_.missing, context());
         } catch (const std::bad_alloc&) {
-            throw Error(ErrorKind::resource, {.file = arguments_.file, .what = "not enough memory to load the volume",
+            throw Error(ErrorKind::resource, {.file = arguments_.file,
+                                              .what = "not enough memory to load the volume",
                                               .expected = cost_text(reader->info(), arguments_.threads),
                                               .next = "use a machine with more memory, or a smaller part of the volume"});
         }
@@ -120,8 +123,8 @@ Cost cost_of_analysis(const VolumeInfo& info, int threads) {
 
 std::string cost_text(const VolumeInfo& info, int threads) {
     const Cost cost = cost_of_analysis(info, threads);
-    return fmt::format("memory about {} (smooth data) to {} (noise), time {} to {}", bytes_text(cost.memory_smooth), bytes_text(cost.memory_noise),
-                       seconds_text(cost.seconds_smooth), seconds_text(cost.seconds_noise));
+    return fmt::format("memory about {} (smooth data) to {} (noise), time {} to {}", bytes_text(cost.memory_smooth),
+                       bytes_text(cost.memory_noise), seconds_text(cost.seconds_smooth), seconds_text(cost.seconds_noise));
 }
 
 double tau_of(const Arguments& arguments, const Volume& volume) {
@@ -129,15 +132,17 @@ double tau_of(const Arguments& arguments, const Volume& volume) {
     const double tau = scale.stored(*arguments.tau);
     const ValueRange range = range_of(volume);
     if (tau >= range.low && tau <= range.high) return tau;
-    throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                       .what = fmt::format("the isovalue {} is {} every sample", *arguments.tau, tau > range.high ? "above" : "below"),
-                                       .expected = fmt::format("{} .. {}", scale.text(range.low), scale.text(range.high)),
-                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists isovalues that show something"});
+    throw Error(ErrorKind::not_found,
+                {.file = arguments.file,
+                 .what = fmt::format("the isovalue {} is {} every sample", *arguments.tau, tau > range.high ? "above" : "below"),
+                 .expected = fmt::format("{} .. {}", scale.text(range.low), scale.text(range.high)),
+                 .next = "isoatlas objects " + shell_word(arguments.file) + " lists isovalues that show something"});
 }
 
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions) {
     const std::string name = lower(fs::path(arguments.output).filename().string());
-    const bool known = std::any_of(extensions.begin(), extensions.end(), [&](const std::string& end) { return name.size() > end.size() && ends_with(name, end); });
+    const bool known = std::any_of(extensions.begin(), extensions.end(),
+                                   [&](const std::string& end) { return name.size() > end.size() && ends_with(name, end); });
     if (!known) {
         const std::string extension = fs::path(name).extension().string();
         const std::string near = nearest(extension, extensions);
@@ -149,7 +154,8 @@ void check_output(const Arguments& arguments, const std::vector<std::string>& ex
     check_file_system(arguments.output);
     std::error_code ignored;
     if (!arguments.file.empty() && fs::equivalent(arguments.output, arguments.file, ignored)) {
-        throw Error(ErrorKind::usage, {.file = arguments.output, .what = "the output would overwrite the input", .next = "choose another name with -o"});
+        throw Error(ErrorKind::usage,
+                    {.file = arguments.output, .what = "the output would overwrite the input", .next = "choose another name with -o"});
     }
 }
 
@@ -157,7 +163,8 @@ std::string reading_options(const Arguments& arguments) {
     std::string text;
     if (arguments.open.dims) {
         text += " --dims ";
-        for (std::size_t i = 0; i < arguments.open.dims->size(); ++i) text += fmt::format("{}{}", i > 0 ? "x" : "", (*arguments.open.dims)[i]);
+        for (std::size_t i = 0; i < arguments.open.dims->size(); ++i)
+            text += fmt::format("{}{}", i > 0 ? "x" : "", (*arguments.open.dims)[i]);
     }
     if (arguments.open.type) text += fmt::format(" --type {}", name_of(*arguments.open.type));
     if (arguments.open.big_endian) text += *arguments.open.big_endian ? " --endian big" : " --endian little";

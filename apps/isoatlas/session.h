@@ -15,7 +15,7 @@ namespace isoatlas::cli {
 class Terminal;
 
 struct ValueRange {
-    double low, high;   ///< stored values
+    double low, high;  ///< stored values
 };
 [[nodiscard]] ValueRange range_of(const Volume& volume);
 

@@ -7,7 +7,8 @@
 namespace isoatlas::cli {
 namespace {
 
-std::string line_of(const std::vector<std::string>& cells, const std::vector<Table::Column>& columns, const std::vector<std::size_t>& widths) {
+std::string line_of(const std::vector<std::string>& cells, const std::vector<Table::Column>& columns,
+                    const std::vector<std::size_t>& widths) {
     std::string line;
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const std::string space(widths[i] - std::min(widths[i], cells[i].size()), ' ');

@@ -12,7 +12,7 @@ class Table {
 public:
     struct Column {
         std::string title;
-        bool left = false;   ///< words: aligned to the left
+        bool left = false;  ///< words: aligned to the left
     };
     explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
     void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }

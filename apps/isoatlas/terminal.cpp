@@ -69,7 +69,7 @@ private:
 };
 
 Terminal::Terminal() : buffer_(std::make_unique<Buffer>()), out_(buffer_.get()) {
-    out_.exceptions(std::ios::badbit);   // so that the Error of Buffer::flush comes through
+    out_.exceptions(std::ios::badbit);  // so that the Error of Buffer::flush comes through
 }
 
 Terminal::~Terminal() = default;

@@ -35,8 +35,8 @@ public:
     /// One line on standard error with -v.
     void detail(const std::string& line);
 
-    [[nodiscard]] bool is_interactive() const;   ///< standard error is a terminal that can rewrite a line
-    [[nodiscard]] std::string bold(const std::string& text) const;   ///< of results; plain unless standard output shows colours
+    [[nodiscard]] bool is_interactive() const;                      ///< standard error is a terminal that can rewrite a line
+    [[nodiscard]] std::string bold(const std::string& text) const;  ///< of results; plain unless standard output shows colours
 
 private:
     class Buffer;

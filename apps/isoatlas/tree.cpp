@@ -34,37 +34,39 @@ void print_counts(Terminal& terminal, const Analysis& analysis) {
     table.print(terminal);
     terminal.out() << '\n'
                    << counted(analysis.event_count(), "event") << " from " << counted(analysis.level_count(), "level") << ", "
-                   << counted(analysis.contour_arc_count(), "contour") << " (arcs), " << counted(analysis.element_count(), "critical element") << "\n\n";
+                   << counted(analysis.contour_arc_count(), "contour") << " (arcs), "
+                   << counted(analysis.element_count(), "critical element") << "\n\n";
 }
 
 /// The largest zones, each indented below its nearest ancestor that is shown too.
 void print_largest_zones(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     const Scale scale(volume.info);
-    std::vector<std::pair<std::int64_t, std::int64_t>> largest;   // (-voxels, id)
+    std::vector<std::pair<std::int64_t, std::int64_t>> largest;  // (-voxels, id)
     for (std::int64_t id = 0; id < analysis.event_count(); ++id) largest.emplace_back(-analysis.event(id).zone.voxels, id);
     const auto shown = std::min<std::ptrdiff_t>(kShown, static_cast<std::ptrdiff_t>(largest.size()));
     std::partial_sort(largest.begin(), largest.begin() + shown, largest.end());
     std::vector<std::int64_t> ids;
     for (std::ptrdiff_t i = 0; i < shown; ++i) ids.push_back(largest[static_cast<std::size_t>(i)].second);
-    std::sort(ids.rbegin(), ids.rend());   // parents first
+    std::sort(ids.rbegin(), ids.rend());  // parents first
 
     std::unordered_map<std::int64_t, int> depth;
-    std::unordered_map<std::int64_t, std::vector<std::int64_t>> below;   // shown children of a shown event; -1: top
+    std::unordered_map<std::int64_t, std::vector<std::int64_t>> below;  // shown children of a shown event; -1: top
     for (const std::int64_t id : ids) {
         std::int64_t ancestor = analysis.event(id).parent;
         while (ancestor >= 0 && depth.count(ancestor) == 0) ancestor = analysis.event(ancestor).parent;
         depth[id] = ancestor < 0 ? 0 : depth[ancestor] + 1;
         below[ancestor].push_back(id);
     }
-    Table table({{"zones with most voxels", true}, {"from"}, {"down to"}, {"voxels in zone"}, {"object voxels"}, {"tunnels"}, {"cavities"}});
+    Table table(
+        {{"zones with most voxels", true}, {"from"}, {"down to"}, {"voxels in zone"}, {"object voxels"}, {"tunnels"}, {"cavities"}});
     std::vector<std::int64_t> stack(below[-1].rbegin(), below[-1].rend());
     while (!stack.empty()) {
         const std::int64_t id = stack.back();
         stack.pop_back();
         const Event event = analysis.event(id);
         table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(event.kind), id),
-                   scale.text(event.zone.tau_high), event.parent < 0 ? "bottom" : scale.text(event.zone.tau_low), count_text(event.zone.voxels),
-                   count_text(event.object_voxels), count_text(event.b1), count_text(event.b2)});
+                   scale.text(event.zone.tau_high), event.parent < 0 ? "bottom" : scale.text(event.zone.tau_low),
+                   count_text(event.zone.voxels), count_text(event.object_voxels), count_text(event.b1), count_text(event.b2)});
         const auto& children = below[id];
         stack.insert(stack.end(), children.rbegin(), children.rend());
     }
@@ -81,7 +83,8 @@ void print_levels(Terminal& terminal, const Volume& volume, const Analysis& anal
     const std::int64_t shown = std::min(kShown, analysis.level_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const Level level = analysis.level(id);
-        table.add({fmt::format("{}", id), scale.text(level.value), fmt::format("{}", level.event), genera_text(level.in), genera_text(level.out)});
+        table.add({fmt::format("{}", id), scale.text(level.value), fmt::format("{}", level.event), genera_text(level.in),
+                   genera_text(level.out)});
     }
     table.print(terminal);
     print_rest(terminal, analysis.level_count(), shown);
@@ -93,7 +96,8 @@ void print_elements(Terminal& terminal, const Volume& volume, const Analysis& an
     const std::int64_t shown = std::min(kShown, analysis.element_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const Element element = analysis.element(id);
-        table.add({fmt::format("{}", id), scale.text(element.value), position_text(element.position), fmt::format("{}", element.h0), fmt::format("{}", element.l0)});
+        table.add({fmt::format("{}", id), scale.text(element.value), position_text(element.position), fmt::format("{}", element.h0),
+                   fmt::format("{}", element.l0)});
     }
     table.print(terminal);
     print_rest(terminal, analysis.element_count(), shown);
@@ -105,8 +109,8 @@ void print_contours(Terminal& terminal, const Volume& volume, const Analysis& an
     const std::int64_t shown = std::min(kShown, analysis.contour_arc_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const ContourArc arc = analysis.contour_arc(id);
-        table.add({fmt::format("{}", id), scale.text(arc.value_high), arc.lower == analysis.element_count() ? "bottom" : scale.text(arc.value_low),
-                   fmt::format("{}", arc.genus)});
+        table.add({fmt::format("{}", id), scale.text(arc.value_high),
+                   arc.lower == analysis.element_count() ? "bottom" : scale.text(arc.value_low), fmt::format("{}", arc.genus)});
     }
     table.print(terminal);
     print_rest(terminal, analysis.contour_arc_count(), shown);
@@ -115,10 +119,18 @@ void print_contours(Terminal& terminal, const Volume& volume, const Analysis& an
 void print_summary(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
     print_counts(terminal, analysis);
     switch (arguments.detail) {
-        case TreeDetail::events: print_largest_zones(terminal, volume, analysis); break;
-        case TreeDetail::levels: print_levels(terminal, volume, analysis); break;
-        case TreeDetail::elements: print_elements(terminal, volume, analysis); break;
-        case TreeDetail::contours: print_contours(terminal, volume, analysis); break;
+        case TreeDetail::events:
+            print_largest_zones(terminal, volume, analysis);
+            break;
+        case TreeDetail::levels:
+            print_levels(terminal, volume, analysis);
+            break;
+        case TreeDetail::elements:
+            print_elements(terminal, volume, analysis);
+            break;
+        case TreeDetail::contours:
+            print_contours(terminal, volume, analysis);
+            break;
     }
     const std::string file = shell_word(arguments.file) + reading_options(arguments);
     terminal.next("isoatlas objects " + file + "    # which of them matter");
@@ -127,10 +139,14 @@ void print_summary(Terminal& terminal, const Arguments& arguments, const Volume&
 
 const char* detail_name(TreeDetail detail) {
     switch (detail) {
-        case TreeDetail::events: return "events";
-        case TreeDetail::levels: return "levels";
-        case TreeDetail::elements: return "elements";
-        case TreeDetail::contours: return "contours";
+        case TreeDetail::events:
+            return "events";
+        case TreeDetail::levels:
+            return "levels";
+        case TreeDetail::elements:
+            return "elements";
+        case TreeDetail::contours:
+            return "contours";
     }
     return "events";
 }
@@ -141,7 +157,8 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
         write_tree(arguments.output, volume, analysis, {.detail = arguments.detail});
     }
     if (!arguments.json) {
-        terminal.out() << arguments.output << ": " << counted(analysis.event_count(), "event") << ", detail " << detail_name(arguments.detail) << '\n';
+        terminal.out() << arguments.output << ": " << counted(analysis.event_count(), "event") << ", detail "
+                       << detail_name(arguments.detail) << '\n';
         return;
     }
     Json json = document("tree-file", volume.info, analysis.interpolant());

@@ -6,31 +6,48 @@ namespace isoatlas::cli {
 
 const std::vector<Verb>& verbs() {
     static const std::vector<Verb> list{
-        {"info", "VOLUME", "Say what a file is and what an analysis would cost.",
-         {"isoatlas info scan.nii.gz", "isoatlas info head.raw --dims 256x256x128 --type uint16 --endian big", "isoatlas info scan.nrrd --json"},
+        {"info",
+         "VOLUME",
+         "Say what a file is and what an analysis would cost.",
+         {"isoatlas info scan.nii.gz", "isoatlas info head.raw --dims 256x256x128 --type uint16 --endian big",
+          "isoatlas info scan.nrrd --json"},
          run_info},
-        {"objects", "VOLUME", "List the objects of a volume and the isovalues that show them.",
+        {"objects",
+         "VOLUME",
+         "List the objects of a volume and the isovalues that show them.",
          {"isoatlas objects scan.nii.gz", "isoatlas objects scan.nii.gz --tau 300", "isoatlas objects scan.nii.gz --top 5 --json"},
          run_objects},
-        {"extract", "VOLUME", "Write the surface at an isovalue: everything, some objects, or some shells.",
+        {"extract",
+         "VOLUME",
+         "Write the surface at an isovalue: everything, some objects, or some shells.",
          {"isoatlas extract scan.nii.gz --tau 300 -o bone.ply", "isoatlas extract scan.nii.gz --object 81275 -o part.stl",
           "isoatlas extract scan.nii.gz --tau 300 --shell outer -o skin.glb"},
          run_extract},
-        {"tree", "VOLUME", "Show or write the criticality tree: every topological change of the volume.",
+        {"tree",
+         "VOLUME",
+         "Show or write the criticality tree: every topological change of the volume.",
          {"isoatlas tree scan.nii.gz", "isoatlas tree scan.nii.gz -o tree.graphml", "isoatlas tree scan.nii.gz --detail levels --json"},
          run_tree},
-        {"label", "VOLUME", "Write a label volume: the objects at an isovalue, or the zone of every voxel.",
+        {"label",
+         "VOLUME",
+         "Write a label volume: the objects at an isovalue, or the zone of every voxel.",
          {"isoatlas label scan.nii.gz --tau 300 -o objects.nii.gz", "isoatlas label scan.nii.gz --zones -o zones.nrrd",
           "isoatlas label stack.tif --tau 90 -o labels.tif"},
          run_label},
-        {"phantom", "NAME", "Generate a volume with known answers.",
+        {"phantom",
+         "NAME",
+         "Generate a volume with known answers.",
          {"isoatlas phantom --list", "isoatlas phantom torus-chain --genus 4 -o chain.nrrd",
-          "isoatlas phantom nested-shells --shells 5 --size 64 --quantise 256 -o shells.mha"},
+          "isoatlas phantom nested-shells --shells 5 --size 96 --quantise 256 -o shells.mha"},
          run_phantom},
-        {"verify", "MESH|VOLUME", "Prove the guarantees for a surface file or a volume; exit code 7 when one fails.",
+        {"verify",
+         "MESH|VOLUME",
+         "Prove the guarantees for a surface file or a volume; exit code 7 when one fails.",
          {"isoatlas verify bone.ply", "isoatlas verify scan.nii.gz --levels 20", "isoatlas verify part.stl --json"},
          run_verify},
-        {"completion", "SHELL", "Print a completion script for bash.",
+        {"completion",
+         "SHELL",
+         "Print a completion script for bash.",
          {"isoatlas completion bash", "source <(isoatlas completion bash)",
           "isoatlas completion bash > ~/.local/share/bash-completion/completions/isoatlas"},
          run_completion},
@@ -46,7 +63,8 @@ const Verb* find_verb(const std::string& name) {
 }
 
 std::string greeting() {
-    return "isoatlas " ISOATLAS_VERSION ": which objects are in a volume, and at which isovalues?\n"
+    return "isoatlas " ISOATLAS_VERSION
+           ": which objects are in a volume, and at which isovalues?\n"
            "\n"
            "  isoatlas objects scan.nii.gz                          list them\n"
            "  isoatlas extract scan.nii.gz --tau 300 -o bone.ply    write a watertight surface\n"
@@ -58,11 +76,12 @@ std::string greeting() {
 std::string overview() {
     std::string text = greeting() + "\nVerbs:\n";
     for (const Verb& verb : verbs()) text += fmt::format("  {:<11} {:<12} {}\n", verb.name, verb.operand, verb.summary);
-    text += "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
-            "Results go to standard output, talk and progress to standard error.\n"
-            "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti, TIFF files and folders of TIFF slices.\n"
-            "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
-            "6 no such object or isovalue, 7 a guarantee does not hold, 130 stopped.\n";
+    text +=
+        "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
+        "Results go to standard output, talk and progress to standard error.\n"
+        "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti, TIFF files and folders of TIFF slices.\n"
+        "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
+        "6 no such object or isovalue, 7 a guarantee does not hold, 130 stopped.\n";
     return text;
 }
 

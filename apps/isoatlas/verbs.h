@@ -21,7 +21,7 @@ int run_completion(const Arguments& arguments, Terminal& terminal);
 
 struct Verb {
     std::string name, operand, summary;
-    std::vector<std::string> examples;   ///< full command lines
+    std::vector<std::string> examples;  ///< full command lines
     int (*run)(const Arguments&, Terminal&);
 };
 

@@ -28,7 +28,8 @@ void print_checks(Terminal& terminal, const Arguments& arguments, Json head, con
     if (arguments.json) {
         head["holds"] = exit_code(checks) == 0;
         head["checks"] = Json::array();
-        for (const CheckResult& check : checks) head["checks"].push_back({{"name", check.name}, {"holds", check.holds}, {"detail", check.detail}});
+        for (const CheckResult& check : checks)
+            head["checks"].push_back({{"name", check.name}, {"holds", check.holds}, {"detail", check.detail}});
         print(terminal, head);
     } else {
         for (const CheckResult& check : checks) {
@@ -37,7 +38,8 @@ void print_checks(Terminal& terminal, const Arguments& arguments, Json head, con
     }
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const CheckResult& check) { return !check.holds; });
     if (failed > 0) {
-        terminal.warn(fmt::format("{}: {} of {} do not hold", arguments.file, failed, counted(static_cast<std::int64_t>(checks.size()), "guarantee")));
+        terminal.warn(fmt::format("{}: {} of {} do not hold", arguments.file, failed,
+                                  counted(static_cast<std::int64_t>(checks.size()), "guarantee")));
     } else {
         terminal.say(fmt::format("{}: all {} hold", arguments.file, counted(static_cast<std::int64_t>(checks.size()), "guarantee")));
     }

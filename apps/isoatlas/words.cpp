@@ -65,12 +65,12 @@ Vec3 parse_vector(const std::string& option, const std::string& word, double res
 
 ValueType parse_type(const std::string& word) {
     static const std::map<std::string, ValueType> names{
-        {"uint8", ValueType::u8},    {"u8", ValueType::u8},      {"uchar", ValueType::u8},   {"int8", ValueType::i8},
-        {"i8", ValueType::i8},       {"uint16", ValueType::u16}, {"u16", ValueType::u16},    {"ushort", ValueType::u16},
-        {"int16", ValueType::i16},   {"i16", ValueType::i16},    {"short", ValueType::i16},  {"uint32", ValueType::u32},
-        {"u32", ValueType::u32},     {"uint", ValueType::u32},   {"int32", ValueType::i32},  {"i32", ValueType::i32},
+        {"uint8", ValueType::u8},    {"u8", ValueType::u8},       {"uchar", ValueType::u8},  {"int8", ValueType::i8},
+        {"i8", ValueType::i8},       {"uint16", ValueType::u16},  {"u16", ValueType::u16},   {"ushort", ValueType::u16},
+        {"int16", ValueType::i16},   {"i16", ValueType::i16},     {"short", ValueType::i16}, {"uint32", ValueType::u32},
+        {"u32", ValueType::u32},     {"uint", ValueType::u32},    {"int32", ValueType::i32}, {"i32", ValueType::i32},
         {"int", ValueType::i32},     {"float32", ValueType::f32}, {"f32", ValueType::f32},   {"float", ValueType::f32},
-        {"float64", ValueType::f64}, {"f64", ValueType::f64},    {"double", ValueType::f64}};
+        {"float64", ValueType::f64}, {"f64", ValueType::f64},     {"double", ValueType::f64}};
     const auto found = names.find(word);
     if (found != names.end()) return found->second;
     bad_choice("--type", word, {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"});

@@ -32,7 +32,8 @@ std::vector<double> sampled_values(const Volume& volume) {
 
 std::vector<std::int64_t> genera_of(const Cut& cut, const CutObject& object) {
     std::vector<std::int64_t> genera;
-    for (std::int64_t i = 0; i < object.contour_count; ++i) genera.push_back(cut.contours[static_cast<std::size_t>(object.first_contour + i)].genus);
+    for (std::int64_t i = 0; i < object.contour_count; ++i)
+        genera.push_back(cut.contours[static_cast<std::size_t>(object.first_contour + i)].genus);
     std::sort(genera.begin(), genera.end());
     return genera;
 }
@@ -47,7 +48,7 @@ std::vector<double> isovalues_to_check(const Volume& volume, int count) {
         const auto i = static_cast<std::size_t>(count == 1 ? last / 2 : last * k / (count - 1));
         const bool between = k % 2 == 1 && i + 1 < values.size();
         const double middle = between ? values[i] / 2 + values[i + 1] / 2 : values[i];
-        chosen.push_back(middle > values[i] ? middle : values[i]);   // neighbours may have nothing between them
+        chosen.push_back(middle > values[i] ? middle : values[i]);  // neighbours may have nothing between them
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
@@ -61,7 +62,8 @@ TreeAtLevels::TreeAtLevels(const Analysis& analysis, const std::vector<double>& 
         const auto end = std::upper_bound(begin, isovalues.end(), event.zone.tau_high);
         if (begin == end) return;
         Object object{id, event.chi, event.b1, event.b2, {}};
-        for (const GenusCount& entry : histogram) object.genera.insert(object.genera.end(), static_cast<std::size_t>(entry.count), entry.genus);
+        for (const GenusCount& entry : histogram)
+            object.genera.insert(object.genera.end(), static_cast<std::size_t>(entry.count), entry.genus);
         for (auto tau = begin; tau != end; ++tau) objects_[static_cast<std::size_t>(tau - isovalues.begin())].push_back(object);
     });
 }
@@ -69,9 +71,10 @@ TreeAtLevels::TreeAtLevels(const Analysis& analysis, const std::vector<double>& 
 std::vector<std::int64_t> TreeAtLevels::owner(const Analysis& analysis, std::size_t i) const {
     std::vector<std::int64_t> owner(static_cast<std::size_t>(analysis.event_count()), -1);
     for (const Object& object : objects_[i]) owner[static_cast<std::size_t>(object.event)] = object.event;
-    for (std::int64_t id = analysis.event_count() - 1; id >= 0; --id) {   // parents first
+    for (std::int64_t id = analysis.event_count() - 1; id >= 0; --id) {  // parents first
         const std::int64_t parent = analysis.event(id).parent;
-        if (owner[static_cast<std::size_t>(id)] < 0 && parent >= 0) owner[static_cast<std::size_t>(id)] = owner[static_cast<std::size_t>(parent)];
+        if (owner[static_cast<std::size_t>(id)] < 0 && parent >= 0)
+            owner[static_cast<std::size_t>(id)] = owner[static_cast<std::size_t>(parent)];
     }
     return owner;
 }
@@ -79,7 +82,8 @@ std::vector<std::int64_t> TreeAtLevels::owner(const Analysis& analysis, std::siz
 void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, Check& check) {
     const auto& objects = tree.objects(i);
     if (objects.size() != cut.objects.size()) {
-        check.fail(at(cut.tau) + std::to_string(objects.size()) + " objects in the tree, " + std::to_string(cut.objects.size()) + " in the volume");
+        check.fail(at(cut.tau) + std::to_string(objects.size()) + " objects in the tree, " + std::to_string(cut.objects.size()) +
+                   " in the volume");
         return;
     }
     const std::vector<std::int64_t> owner = tree.owner(analysis, i);
@@ -87,13 +91,15 @@ void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, st
     for (const CutObject& object : cut.objects) {
         const std::string name = at(cut.tau) + "object " + std::to_string(object.id);
         const std::int64_t event = owner[static_cast<std::size_t>(analysis.zone(object.id))];
-        const auto found = std::lower_bound(objects.begin(), objects.end(), event, [](const auto& entry, std::int64_t id) { return entry.event < id; });
+        const auto found =
+            std::lower_bound(objects.begin(), objects.end(), event, [](const auto& entry, std::int64_t id) { return entry.event < id; });
         if (event < 0 || found == objects.end() || found->event != event || taken[static_cast<std::size_t>(found - objects.begin())]) {
             check.fail(name + " has no event of its own in the tree");
             continue;
         }
         taken[static_cast<std::size_t>(found - objects.begin())] = true;
-        if (found->chi != object.chi || found->b1 != object.b1 || found->b2 != object.b2) check.fail(name + " has other Betti numbers in the tree");
+        if (found->chi != object.chi || found->b1 != object.b1 || found->b2 != object.b2)
+            check.fail(name + " has other Betti numbers in the tree");
         if (found->genera != genera_of(cut, object)) check.fail(name + " has contours of other genera in the tree");
     }
 }
@@ -108,7 +114,8 @@ void compare_arcs_and_cut(const Analysis& analysis, const Cut& cut, Check& check
     std::sort(promised.begin(), promised.end());
     std::sort(found.begin(), found.end());
     if (promised.size() != found.size()) {
-        check.fail(at(cut.tau) + std::to_string(promised.size()) + " contours in the contour tree, " + std::to_string(found.size()) + " in the volume");
+        check.fail(at(cut.tau) + std::to_string(promised.size()) + " contours in the contour tree, " + std::to_string(found.size()) +
+                   " in the volume");
     } else if (promised != found) {
         check.fail(at(cut.tau) + "the contours have other genera in the contour tree");
     }
@@ -116,10 +123,11 @@ void compare_arcs_and_cut(const Analysis& analysis, const Cut& cut, Check& check
 
 void compare_cut_and_mesh(const Cut& cut, const Surface& surface, const SurfaceReport& report, Check& check) {
     if (report.component_chi.size() != cut.contours.size()) {
-        check.fail(at(cut.tau) + std::to_string(report.component_chi.size()) + " surface components for " + std::to_string(cut.contours.size()) + " contours");
+        check.fail(at(cut.tau) + std::to_string(report.component_chi.size()) + " surface components for " +
+                   std::to_string(cut.contours.size()) + " contours");
         return;
     }
-    std::unordered_map<std::int64_t, std::int64_t> twice_chi;   // of a closed surface: 2 V - F, because 2 E = 3 F
+    std::unordered_map<std::int64_t, std::int64_t> twice_chi;  // of a closed surface: 2 V - F, because 2 E = 3 F
     for (const std::int64_t contour : surface.contour) twice_chi[contour] += 2;
     for (const auto& triangle : surface.triangles) twice_chi[surface.contour[static_cast<std::size_t>(triangle[0])]] -= 1;
     if (twice_chi.size() != cut.contours.size()) check.fail(at(cut.tau) + "the surface names contours that the volume does not have");
@@ -128,7 +136,8 @@ void compare_cut_and_mesh(const Cut& cut, const Surface& surface, const SurfaceR
         if (found == twice_chi.end()) {
             check.fail(at(cut.tau) + "contour " + std::to_string(contour.id) + " has no surface");
         } else if (found->second != 2 * (2 - 2 * contour.genus)) {
-            check.fail(at(cut.tau) + "the surface of contour " + std::to_string(contour.id) + " does not have genus " + std::to_string(contour.genus));
+            check.fail(at(cut.tau) + "the surface of contour " + std::to_string(contour.id) + " does not have genus " +
+                       std::to_string(contour.genus));
         }
     }
 }
@@ -138,7 +147,8 @@ void compare_cut_and_curves(const Cut& cut, const Surface& surface, Check& check
     std::vector<std::int64_t> next(surface.points.size(), none);
     std::vector<bool> entered(surface.points.size(), false);
     for (const auto& [from, to] : surface.segments) {
-        if (next[static_cast<std::size_t>(from)] != none || entered[static_cast<std::size_t>(to)]) check.fail(at(cut.tau) + "a point has more than two segments or they run against each other");
+        if (next[static_cast<std::size_t>(from)] != none || entered[static_cast<std::size_t>(to)])
+            check.fail(at(cut.tau) + "a point has more than two segments or they run against each other");
         next[static_cast<std::size_t>(from)] = to;
         entered[static_cast<std::size_t>(to)] = true;
     }
@@ -157,7 +167,8 @@ void compare_cut_and_curves(const Cut& cut, const Surface& surface, Check& check
             point = static_cast<std::size_t>(next[point]);
         }
     }
-    if (curves != cut.contours.size()) check.fail(at(cut.tau) + std::to_string(curves) + " curves for " + std::to_string(cut.contours.size()) + " contours");
+    if (curves != cut.contours.size())
+        check.fail(at(cut.tau) + std::to_string(curves) + " curves for " + std::to_string(cut.contours.size()) + " contours");
 }
 
 }  // namespace isoatlas

@@ -1,4 +1,5 @@
-// Checks at single isovalues: three independent ways to the same answer must agree. tree (Analysis), cut (flood of the volume), mesh (extract).
+// Checks at single isovalues: three independent ways to the same answer must agree. tree (Analysis), cut (flood of the volume), mesh
+// (extract).
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 
 namespace isoatlas {
 
-/// Isovalues spread over the samples: by turns a data value and the middle between two neighbouring ones; the lowest and highest value are in.
-/// At most `count`, ascending, distinct.
+/// Isovalues spread over the samples: by turns a data value and the middle between two neighbouring ones; the lowest and highest value are
+/// in. At most `count`, ascending, distinct.
 [[nodiscard]] std::vector<double> isovalues_to_check(const Volume& volume, int count);
 
 /// What the tree says is there at some isovalues. Built in one walk, because the genera of all events together can be huge.
@@ -19,7 +20,7 @@ class TreeAtLevels {
 public:
     struct Object {
         std::int64_t event, chi, b1, b2;
-        std::vector<std::int64_t> genera;   ///< sorted
+        std::vector<std::int64_t> genera;  ///< sorted
     };
     TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues);
 
@@ -32,7 +33,8 @@ private:
     std::vector<std::vector<Object>> objects_;
 };
 
-/// Each object of the cut is exactly one of the tree: found through the zone of the voxel it is named by, with the same Betti numbers and genera.
+/// Each object of the cut is exactly one of the tree: found through the zone of the voxel it is named by, with the same Betti numbers and
+/// genera.
 void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, Check& check);
 
 /// The genera of the contour tree's arcs that pass tau are the genera of the cut's contours.

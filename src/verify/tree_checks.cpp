@@ -61,7 +61,8 @@ CheckResult join_tree_is_valid(const Analysis& analysis) {
         check_children(analysis, event, check);
         check_parent(analysis, event, check);
         const double low = event.parent < 0 ? -INFINITY : analysis.event(event.parent).value;
-        if (event.zone.tau_high != event.value || event.zone.tau_low != low) check.fail("the zone of " + event_name(id) + " is not between it and its parent");
+        if (event.zone.tau_high != event.value || event.zone.tau_low != low)
+            check.fail("the zone of " + event_name(id) + " is not between it and its parent");
     }
     if (count > 0 && children != count - 1) check.fail("an event is child of nobody or of two");
     return check.result(std::to_string(count) + " events");
@@ -83,7 +84,8 @@ CheckResult zones_partition_voxels(const Analysis& analysis, const Volume& volum
             const ZoneRange& range = ranges[static_cast<std::size_t>(zone)];
             const auto value = static_cast<double>(samples[i]);
             if (!(value > range.tau_low && value <= range.tau_high)) {
-                check.fail("voxel " + std::to_string(i) + " with value " + number(value) + " lies outside the interval of its zone " + std::to_string(zone));
+                check.fail("voxel " + std::to_string(i) + " with value " + number(value) + " lies outside the interval of its zone " +
+                           std::to_string(zone));
             }
             ++voxels[static_cast<std::size_t>(zone)];
         }
@@ -112,7 +114,8 @@ CheckResult euler_sums_hold(const Analysis& analysis) {
         if (chi != event.chi) check.fail("the Euler number of " + event_name(id) + " is not the sum of its children's and its own change");
         if (event.chi != 1 - event.b1 + event.b2) check.fail(event_name(id) + ": chi is not 1 - b1 + b2");
         if (voxels != event.object_voxels) check.fail(event_name(id) + ": the voxels of children and zone are not those of the object");
-        if (contours != event.contours || contours != 1 + (flat ? event.b1 : event.b2)) check.fail(event_name(id) + " miscounts its contours");
+        if (contours != event.contours || contours != 1 + (flat ? event.b1 : event.b2))
+            check.fail(event_name(id) + " miscounts its contours");
         if (!flat && genus != event.b1) check.fail(event_name(id) + ": the genera of its contours do not add up to b1");
     });
     if (analysis.event_count() > 0) {
@@ -137,7 +140,8 @@ CheckResult contour_tree_is_a_tree(const Analysis& analysis) {
         }
         to_outside += arc.lower == elements ? 1 : 0;
         const double low = arc.lower == elements ? -INFINITY : analysis.element(arc.lower).value;
-        if (arc.value_high != analysis.element(arc.upper).value || arc.value_low != low) check.fail(name + " has other values than its ends");
+        if (arc.value_high != analysis.element(arc.upper).value || arc.value_low != low)
+            check.fail(name + " has other values than its ends");
         if (!(arc.value_low < arc.value_high)) check.fail(name + " has no length");
         if (arc.genus < 0) check.fail(name + " has a negative genus");
         if (joined.find(arc.upper) == joined.find(arc.lower)) check.fail(name + " closes a cycle");
@@ -162,11 +166,13 @@ CheckResult levels_match_events(const Analysis& analysis) {
             check.fail(name + " belongs to no event of its value");
             continue;
         }
-        if (!std::is_sorted(level.in.begin(), level.in.end()) || !std::is_sorted(level.out.begin(), level.out.end())) check.fail(name + " is not sorted");
+        if (!std::is_sorted(level.in.begin(), level.in.end()) || !std::is_sorted(level.out.begin(), level.out.end()))
+            check.fail(name + " is not sorted");
         if (level.in.size() == 1 && level.in == level.out) check.fail(name + " is trivial");
         ++own[static_cast<std::size_t>(level.event)];
         change[static_cast<std::size_t>(level.event)] += surface_chi(level.out) - surface_chi(level.in);
-        more[static_cast<std::size_t>(level.event)] += static_cast<std::int64_t>(level.out.size()) - static_cast<std::int64_t>(level.in.size());
+        more[static_cast<std::size_t>(level.event)] +=
+            static_cast<std::int64_t>(level.out.size()) - static_cast<std::int64_t>(level.in.size());
     }
     for (std::int64_t id = 0; id < events; ++id) {
         const auto i = static_cast<std::size_t>(id);
@@ -175,7 +181,8 @@ CheckResult levels_match_events(const Analysis& analysis) {
         for (const std::int64_t child : event.children) contours += analysis.event(child).contours;
         if (own[i] == 0) check.fail(event_name(id) + " has no level");
         if (contours != event.contours) check.fail("the levels of " + event_name(id) + " do not explain its number of contours");
-        if (!flat && change[i] != 2 * event.delta_chi) check.fail("the levels of " + event_name(id) + " do not explain its change of Euler number");
+        if (!flat && change[i] != 2 * event.delta_chi)
+            check.fail("the levels of " + event_name(id) + " do not explain its change of Euler number");
     }
     return check.result(std::to_string(levels) + " levels in " + std::to_string(events) + " events");
 }

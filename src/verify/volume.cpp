@@ -26,7 +26,8 @@ void check_surface(const Volume& volume, const Cut& cut, SurfaceChecks& checks, 
     const std::string where = "at " + std::to_string(cut.tau) + ": ";
     if (!report.is_closed()) checks.closed.fail(where + std::to_string(report.boundary_edges) + " open edges");
     if (!report.is_manifold()) {
-        checks.manifold.fail(where + std::to_string(report.non_manifold_edges) + " edges and " + std::to_string(report.non_manifold_points) + " points");
+        checks.manifold.fail(where + std::to_string(report.non_manifold_edges) + " edges and " +
+                             std::to_string(report.non_manifold_points) + " points");
     }
     if (!report.is_oriented()) checks.oriented.fail(where + std::to_string(report.misoriented_edges) + " edges");
     if (!report.has_no_zero_area()) checks.no_zero_area.fail(where + std::to_string(report.zero_area_triangles) + " triangles");
@@ -45,7 +46,7 @@ std::vector<CheckResult> verify_volume(const Volume& volume, int levels, const C
     const TreeAtLevels tree(analysis, isovalues);
     Check tree_equals_cut("tree_equals_cut"), arcs_equal_cut("contour_tree_equals_cut");
     SurfaceChecks surface;
-    Context silent = context;   // the parts would run the bar back and forth
+    Context silent = context;  // the parts would run the bar back and forth
     silent.progress = nullptr;
     std::int64_t objects = 0, contours = 0;
     for (std::size_t i = 0; i < isovalues.size(); ++i) {
@@ -63,7 +64,8 @@ std::vector<CheckResult> verify_volume(const Volume& volume, int levels, const C
     results.push_back(surface.equals.result(std::to_string(contours) + " contours" + seen));
     if (volume.info.extent.rank == 2) return results;
     const std::string triangles = std::to_string(surface.triangles) + " triangles" + seen;
-    for (const Check* check : {&surface.closed, &surface.manifold, &surface.oriented, &surface.no_zero_area}) results.push_back(check->result(triangles));
+    for (const Check* check : {&surface.closed, &surface.manifold, &surface.oriented, &surface.no_zero_area})
+        results.push_back(check->result(triangles));
     return results;
 }
 

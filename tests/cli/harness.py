@@ -1,0 +1,71 @@
+"""Runs the command line in a folder of its own and looks at exit code, standard output and standard error."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+CLI = os.environ["ISOATLAS_CLI"]
+MESHES = [".ply", ".stl", ".obj", ".vtp", ".glb"]
+
+
+class CliTest(unittest.TestCase):
+    """Phantoms are made once per class in `self.folder`."""
+
+    phantoms = {}   # file name -> arguments of `isoatlas phantom`
+
+    @classmethod
+    def setUpClass(cls):
+        cls.held = tempfile.TemporaryDirectory(prefix="isoatlas-cli-")
+        cls.folder = pathlib.Path(cls.held.name)
+        for name, arguments in cls.phantoms.items():
+            done = cls.start(["phantom", *arguments, "-o", name])
+            assert done.returncode == 0, done.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.held.cleanup()
+
+    @classmethod
+    def start(cls, arguments, **options):
+        options.setdefault("stdout", subprocess.PIPE)
+        environment = dict(os.environ, **options.pop("environment", {}))
+        return subprocess.run([CLI, *map(str, arguments)], cwd=cls.folder, stderr=subprocess.PIPE, text=True, env=environment,
+                              timeout=300, **options)
+
+    def run_ok(self, *arguments):
+        done = self.start(arguments)
+        self.assertEqual(done.returncode, 0, f"{arguments}: {done.stderr}")
+        return done
+
+    def run_json(self, *arguments, code=0):
+        done = self.start([*arguments, "--json"])
+        self.assertEqual(done.returncode, code, f"{arguments}: {done.stderr}")
+        return json.loads(done.stdout, parse_constant=lambda word: self.fail(f"{word} is not JSON"))
+
+    def run_error(self, code, *arguments, says="", next_says=""):
+        """The failure is told once on standard error, nothing on standard output; with --json it is a document. Returns its error."""
+        plain = self.start(arguments)
+        self.assertEqual(plain.returncode, code, f"{arguments}: {plain.stdout}{plain.stderr}")
+        self.assertEqual(plain.stdout, "", arguments)
+        messages = [line for line in plain.stderr.splitlines() if line.startswith("isoatlas: ")]
+        self.assertEqual(len(messages), 1, plain.stderr)
+        self.assertIn(says, messages[0])
+        document = self.run_json(*arguments, code=code)
+        self.assertEqual(document["schema"], "isoatlas/error/1")
+        error = document["error"]
+        self.assertEqual(error["exit_code"], code)
+        self.assertEqual(set(error), {"kind", "exit_code", "message", "file", "where", "what", "expected", "next"})
+        self.assertEqual("isoatlas: " + error["message"], messages[0])
+        self.assertIn(next_says, error["next"])
+        self.assertNotEqual(error["what"], "")
+        self.assertNotEqual(error["next"], "", f"no next step: {messages[0]}")
+        return error
+
+    def assert_no_partial(self):
+        self.assertEqual([str(path) for path in self.folder.rglob("*.partial")], [])
+
+
+def main():
+    unittest.main(verbosity=2)
