@@ -58,8 +58,10 @@ ContourTree<Id> contour_tree(std::vector<Id> join_parents, std::vector<Id> split
     ContourTree<Id> tree;
     tree.other.resize(nodes);
     tree.half_chi.resize(nodes);  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
-    for (std::size_t x = 0; x + 1 < nodes; ++x) tree.half_chi[x] = delta_chi[x];
-    tree.half_chi[nodes - 1] = -1;  // the outside closes every contour like a minimum
+    if (!delta_chi.empty()) {
+        for (std::size_t x = 0; x + 1 < nodes; ++x) tree.half_chi[x] = delta_chi[x];
+        tree.half_chi[nodes - 1] = -1;  // the outside closes every contour like a minimum
+    }
 
     std::size_t arcs = 0;
     Id last = static_cast<Id>(nodes - 1);

@@ -26,7 +26,8 @@ struct ContourTree {
     [[nodiscard]] Id lower(std::size_t x) const { return other[x] < static_cast<Id>(x) ? static_cast<Id>(x) : other[x]; }
 };
 
-/// join, split: parents as made by merge_tree.h, n + 1 entries; both are consumed. delta_chi(x) for x < n.
+/// join, split: parents as made by merge_tree.h, n + 1 entries; both are consumed. delta_chi(x) for x < n;
+/// empty: Euler numbers are not wanted (2D), half_chi is 0.
 /// Cost: O(n) time; 14 bytes a node beyond input and output for 32-bit ids.
 template <class Id>
 ContourTree<Id> contour_tree(std::vector<Id> join, std::vector<Id> split, std::span<const std::int8_t> delta_chi);
