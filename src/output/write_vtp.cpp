@@ -72,8 +72,10 @@ void write_vtp(AtomicFile& file, const Surface& surface, Warnings&) {
     out.text("<Piece NumberOfPoints=\"" + std::to_string(surface.points.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
              std::to_string(surface.segments.size()) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(triangles.size()) +
              "\">\n");
-    out.text(point_data(arrays, surface) + "<Points>\n" + points_element(arrays, surface) + "</Points>\n");
-    out.text(cells(arrays, "Lines", surface.segments) + cells(arrays, "Polys", triangles));
+    out.text(point_data(arrays, surface));
+    out.text("<Points>\n" + points_element(arrays, surface) + "</Points>\n");
+    out.text(cells(arrays, "Lines", surface.segments));
+    out.text(cells(arrays, "Polys", triangles));
     out.text("</Piece>\n</PolyData>\n");
     arrays.write(out);
     out.text("</VTKFile>\n");
