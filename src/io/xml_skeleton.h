@@ -1,0 +1,22 @@
+// The tags of a VTK XML file without the data between them, so that an XML parser never sees samples.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace isoatlas::io {
+
+/// Names of attributes that the skeleton adds to each DataArray with content: where its text lies in the file.
+inline constexpr const char* kContentBegin = "content-begin";
+inline constexpr const char* kContentEnd = "content-end";
+
+struct XmlSkeleton {
+    std::string text;                    ///< well formed when the file is; text, comments and instructions are left out
+    std::int64_t appended = -1;          ///< offset of the first byte behind the '_' of AppendedData; -1: no such section
+};
+
+/// Scans the file up to its AppendedData section, or to its end. Cost: one pass with a fixed buffer; memory: the tags, at most 16 MiB.
+/// Throws Error{input}: a tag is not closed, tags beyond that limit, an AppendedData section without '_'.
+[[nodiscard]] XmlSkeleton read_xml_skeleton(const std::string& path);
+
+}  // namespace isoatlas::io
