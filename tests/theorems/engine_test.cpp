@@ -1,0 +1,97 @@
+// The engine equals the brute-force oracle on random small volumes, piece by piece.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "oracle/compare.h"
+#include "oracle/flooding.h"
+#include "oracle/volumes.h"
+
+namespace oracle {
+namespace {
+
+struct Both {
+    Elements elements;
+    Result expected;
+    isoatlas::Analysis actual;
+    explicit Both(const Grid& grid, const isoatlas::Context& context = {})
+        : elements(grid), expected(analyse(elements)), actual(isoatlas::analyse(to_volume(grid), {}, context)) {
+        RC_ASSERT(expected.consistent);
+    }
+};
+
+isoatlas::Context odd_context() {
+    isoatlas::Context context;
+    context.threads = *rc::gen::inRange(1, 4);
+    context.slab_slices = *rc::gen::inRange(1, 4);
+    return context;
+}
+
+#define EXPECT_SAME(text)                  \
+    do {                                   \
+        const std::string difference = text; \
+        RC_ASSERT(difference == "");       \
+    } while (false)
+
+RC_GTEST_PROP(Engine, Elements, ()) {
+    const Both both(*arbitrary_grid(), odd_context());
+    EXPECT_SAME(compare_elements(both.expected, both.actual));
+}
+
+RC_GTEST_PROP(Engine, ContourArcsAndGenus, ()) {
+    const Both both(*arbitrary_grid(), odd_context());
+    EXPECT_SAME(compare_arcs(both.expected, both.actual));
+}
+
+RC_GTEST_PROP(Engine, Levels, ()) {
+    const Both both(*arbitrary_grid());
+    EXPECT_SAME(compare_levels(both.expected, both.actual));
+}
+
+// Value, position, kind, parent, children, lows, chi, b1, b2, contour genera, zone interval and voxels of every event.
+RC_GTEST_PROP(Engine, Events, ()) {
+    const Both both(*arbitrary_grid());
+    EXPECT_SAME(compare_events(both.expected, both.actual));
+}
+
+RC_GTEST_PROP(Engine, ZoneOfEveryVoxel, ()) {
+    const Both both(*arbitrary_grid(), odd_context());
+    EXPECT_SAME(compare_zones(both.expected, both.actual));
+}
+
+RC_GTEST_PROP(Engine, EverythingOnLargerVolumes, ()) {
+    if (*rc::gen::inRange(0, 5) != 0) return;  // a fifth of the trials: each costs as much as ten small ones
+    const Both both(*arbitrary_grid(7, 343), odd_context());
+    EXPECT_SAME(compare(both.expected, both.actual));
+}
+
+RC_GTEST_PROP(Engine, EventTreeWithoutTiesIsTheFloodingTree, ()) {
+    const Both both(without_ties(*arbitrary_grid()));
+    if (has_ties(both.elements)) return;
+    const Flooding flooding = flood(both.elements, both.expected.critical);
+    RC_ASSERT(both.actual.event_count() == static_cast<Index>(flooding.parent.size()));
+    for (Index e = 0; e < both.actual.event_count(); ++e) RC_ASSERT(both.actual.event(e).parent == flooding.parent[e]);
+    for (Index v = 0; v < both.elements.grid.voxels(); ++v) RC_ASSERT(both.actual.zone(v) == flooding.label[v]);
+}
+
+RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
+    const Grid grid = as_integers(*arbitrary_grid(7, 200));
+    const std::string expected = canonical_text(isoatlas::analyse(to_volume(grid)));
+    for (const auto& [order, mirror] : turns(grid.rank)) {
+        RC_ASSERT(canonical_text(isoatlas::analyse(to_volume(turned(grid, order, mirror)))) == expected);
+    }
+}
+
+RC_GTEST_PROP(Engine, WithoutZonesTheTreesAreTheSame, ()) {
+    const Grid grid = *arbitrary_grid();
+    isoatlas::AnalysisOptions options;
+    options.zones = false;
+    const isoatlas::Analysis bare = isoatlas::analyse(to_volume(grid), options);
+    const Result expected = analyse(Elements(grid));
+    EXPECT_SAME(compare_elements(expected, bare));
+    EXPECT_SAME(compare_levels(expected, bare));
+    RC_ASSERT(bare.event_count() == static_cast<Index>(expected.events.size()));
+    RC_ASSERT_THROWS_AS(static_cast<void>(bare.zone(0)), isoatlas::Error);
+}
+
+}  // namespace
+}  // namespace oracle
