@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/axes.h"
 #include "io/byte_source.h"
 #include "io/formats.h"
 #include "io/nifti_geometry.h"
@@ -146,13 +147,6 @@ std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std
     return static_cast<std::int64_t>(offset);
 }
 
-Calibration calibration_of(const NiftiHeader& header, std::vector<std::string>& notes) {
-    if (header.slope == 0 || !std::isfinite(header.slope)) return {};   // 0 means: no scaling
-    if (std::isfinite(header.intercept)) return {.slope = header.slope, .intercept = header.intercept};
-    notes.push_back("scl_inter of the file is not a number: taken as 0");
-    return {.slope = header.slope, .intercept = 0};
-}
-
 NiftiHeader read_header(const std::string& path) {
     const std::vector<std::byte> bytes = header_bytes(path);
     const NiftiKind kind = nifti_kind(bytes);
@@ -218,7 +212,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     info.extent = shape.extent;
     const TimeStep step = choose_time_step(path, options, shape.volumes);
     info.geometry = nifti_geometry(header, shape.extent.rank, info.notes);
-    info.calibration = calibration_of(header, info.notes);
+    if (header.slope != 0) set_calibration(info, header.slope, header.intercept);   // 0: no scaling
     info.description = header.description;
     info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
     const std::int64_t offset = data_offset(header_path, header, info.notes);

@@ -1,6 +1,6 @@
 // VTK XML: ImageData (.vti) and RectilinearGrid (.vtr), one piece, one scalar array.
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <pugixml.hpp>
 #include <string_view>
 
@@ -190,7 +190,7 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     info.extent = points.samples(choice.cells);
     (void)sample_bytes(path, info.extent, info.type);
     if (is_element(grid, "ImageData")) {
-        info.geometry = image_geometry(path, grid, points, choice.cells, info.notes);
+        set_image_geometry(grid, points, choice.cells, info);
     } else {
         const auto open_coordinates = [&](const pugi::xml_node& node, std::int64_t count) { return read_doubles(file, describe_array(path, node), count); };
         info.geometry = rectilinear_geometry(path, piece, points, choice.cells, open_coordinates);

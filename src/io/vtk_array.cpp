@@ -8,9 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "io/decoding_source.h"
+#include "io/base64_source.h"
 #include "io/sample_reader.h"
 #include "io/text.h"
+#include "io/text_source.h"
 
 namespace isoatlas::io {
 
@@ -172,7 +173,9 @@ std::unique_ptr<ByteSource> open_encoded(const VtkFile& file, const VtkArray& ar
 }  // namespace
 
 std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, std::int64_t count) {
-    if (array.format == VtkFormat::ascii) return open_ascii_source(file.path, array.begin, array.end, array.type);
+    if (array.format == VtkFormat::ascii) {
+        return open_text_source(open_file_source(file.path, array.begin, array.end - array.begin), array.type);
+    }
     const std::int64_t wanted = count * static_cast<std::int64_t>(size_of(array.type));
     std::unique_ptr<ByteSource> source = open_encoded(file, array);
     std::int64_t length = 0;

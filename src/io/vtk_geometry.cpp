@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 #include <string_view>
 
+#include "io/axes.h"
 #include "io/sample_reader.h"
 #include "io/text.h"
 
@@ -52,27 +53,6 @@ std::array<double, N> numbers(const std::string& path, const pugi::xml_node& nod
     return values;
 }
 
-/// Moves lengths of the direction columns and signs of the spacing to where they belong.
-void normalise(const std::string& path, Geometry& geometry, std::vector<std::string>& notes) {
-    for (int axis = 0; axis < 3; ++axis) {
-        Mat3& m = geometry.direction;
-        double length = std::hypot(m[0][axis], m[1][axis], m[2][axis]);
-        if (!(length > 0) || !std::isfinite(length)) bad_field(path, "ImageData Direction", "an axis has no length", "unit vectors");
-        double& spacing = geometry.spacing[axis];
-        if (spacing == 0) {
-            notes.push_back("the spacing of axis " + std::to_string(axis) + " is 0: taken as 1");
-            spacing = 1;
-        }
-        if (std::abs(length - 1) > 1e-12) spacing *= length;
-        else length = 1;
-        const double sign = spacing < 0 ? -1 : 1;
-        spacing *= sign;
-        if (!(spacing > 0) || !std::isfinite(spacing)) bad_field(path, "ImageData Spacing", "the size of a voxel is not a number", "positive numbers");
-        if (length == 1 && sign > 0) continue;
-        for (Vec3& row : m) row[axis] *= sign / length;
-    }
-}
-
 std::vector<double> cell_centres(const std::vector<double>& points) {
     if (points.size() < 2) return points;
     std::vector<double> centres;
@@ -103,27 +83,22 @@ VtkExtent read_vtk_extent(const std::string& path, const pugi::xml_node& grid, c
     return part;
 }
 
-Geometry image_geometry(const std::string& path, const pugi::xml_node& grid, const VtkExtent& points, bool cells,
-                        std::vector<std::string>& notes) {
-    Geometry geometry;
-    geometry.spacing = numbers<3>(path, grid, "Spacing", {1, 1, 1});
-    geometry.origin = numbers<3>(path, grid, "Origin", {0, 0, 0});
-    const std::array<double, 9> direction = numbers<9>(path, grid, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
-    for (std::size_t i = 0; i < 9; ++i) geometry.direction[i / 3][i % 3] = direction[i];
-    Vec3 first{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        first[axis] = static_cast<double>(points.low[axis]) + (cells && points.size[axis] > 1 ? 0.5 : 0.0);
+void set_image_geometry(const pugi::xml_node& grid, const VtkExtent& points, bool cells, VolumeInfo& info) {
+    const std::array<double, 3> spacing = numbers<3>(info.path, grid, "Spacing", {1, 1, 1});
+    const std::array<double, 9> direction = numbers<9>(info.path, grid, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    Geometry& geometry = info.geometry;
+    geometry.origin = numbers<3>(info.path, grid, "Origin", {0, 0, 0});
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 step{};
+        for (int row = 0; row < 3; ++row) step[row] = direction[3 * row + axis] * spacing[axis];
+        set_axis_step(info, axis, step);
+        const double first = static_cast<double>(points.low[axis]) + (cells && points.size[axis] > 1 ? 0.5 : 0.0);
+        for (int row = 0; row < 3 && first != 0; ++row) geometry.origin[row] += step[row] * first;
     }
-    normalise(path, geometry, notes);
-    // The index of the first sample counts along VTK's axes; a flipped axis has the same direction * spacing.
-    const std::array<double, 3> spacing = numbers<3>(path, grid, "Spacing", {1, 1, 1});
-    for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (first[axis] != 0) geometry.origin[row] += direction[3 * row + axis] * spacing[axis] * first[axis];
-        }
-        if (!std::isfinite(geometry.origin[row])) bad_field(path, "ImageData Origin", "the first sample is not at a finite place", "numbers");
+    require_frame(info);
+    for (const double place : geometry.origin) {
+        if (!std::isfinite(place)) bad_field(info.path, "ImageData Origin", "the first sample is not at a finite place", "smaller numbers");
     }
-    return geometry;
 }
 
 Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& piece, const VtkExtent& points, bool cells,

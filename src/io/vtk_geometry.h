@@ -28,8 +28,7 @@ struct VtkExtent {
                                         std::vector<std::string>& notes);
 
 /// Origin, Spacing and Direction of ImageData; the origin is moved to the first sample.
-[[nodiscard]] Geometry image_geometry(const std::string& path, const pugi::xml_node& grid, const VtkExtent& points, bool cells,
-                                      std::vector<std::string>& notes);
+void set_image_geometry(const pugi::xml_node& grid, const VtkExtent& points, bool cells, VolumeInfo& info);
 
 using CoordinateReader = std::function<std::vector<double>(const pugi::xml_node& array, std::int64_t count)>;
 /// Coordinates of RectilinearGrid; they must ascend. Throws Error: input, unsupported.

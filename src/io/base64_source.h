@@ -1,4 +1,4 @@
-// Sources that turn text into bytes: base64 and ASCII numbers. Forward only; going back starts again.
+// Base64 text as bytes. Forward only; going back starts again.
 #pragma once
 
 #include <cstdint>
@@ -6,16 +6,11 @@
 #include <string>
 
 #include "io/byte_source.h"
-#include "isoatlas/volume.h"
 
 namespace isoatlas::io {
 
 /// Decodes base64 in the bytes [begin, end) of a file, up to `<` or the end. White space is skipped; padding may stand in the
 /// middle (several encodings one after the other). Throws Error{input} at a character that is no base64.
 [[nodiscard]] std::unique_ptr<ByteSource> open_base64_source(const std::string& path, std::int64_t begin, std::int64_t end);
-
-/// Numbers separated by white space in the bytes [begin, end) of a file, as samples of a type in host byte order.
-/// Throws Error{input} at a word that is no number of the type.
-[[nodiscard]] std::unique_ptr<ByteSource> open_ascii_source(const std::string& path, std::int64_t begin, std::int64_t end, ValueType type);
 
 }  // namespace isoatlas::io
