@@ -1,11 +1,20 @@
 #include "io/axes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace isoatlas::io {
 namespace {
 
 bool usable(double length) { return std::isfinite(length) && length > 0; }
+
+/// Exact for axis-aligned steps, which std::hypot is not.
+double length_of(const Vec3& step) {
+    const double largest = std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])});
+    if (!usable(largest)) return largest;
+    const double x = step[0] / largest, y = step[1] / largest, z = step[2] / largest;
+    return largest * std::sqrt(x * x + y * y + z * z);
+}
 
 void note_unusable(VolumeInfo& info, int axis) {
     info.notes.push_back("the spacing of axis " + std::string(1, "xyz"[axis]) + " is zero or not a number: 1 was assumed");
@@ -14,7 +23,7 @@ void note_unusable(VolumeInfo& info, int axis) {
 }  // namespace
 
 void set_axis_step(VolumeInfo& info, int axis, const Vec3& step) {
-    const double length = std::hypot(step[0], step[1], step[2]);
+    const double length = length_of(step);
     if (!usable(length)) return note_unusable(info, axis);
     info.geometry.spacing[axis] = length;
     for (int row = 0; row < 3; ++row) info.geometry.direction[row][axis] = step[row] / length;
@@ -43,7 +52,7 @@ void require_frame(VolumeInfo& info) {
 void complete_normal(Geometry& geometry) {
     Mat3& m = geometry.direction;
     const Vec3 normal{m[1][0] * m[2][1] - m[2][0] * m[1][1], m[2][0] * m[0][1] - m[0][0] * m[2][1], m[0][0] * m[1][1] - m[1][0] * m[0][1]};
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    const double length = length_of(normal);
     if (!usable(length)) return;
     for (int row = 0; row < 3; ++row) m[row][2] = normal[row] / length;
 }

@@ -82,7 +82,7 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
     const std::int64_t offset = plan.skip > kMost - begin ? kMost : begin + std::max<std::int64_t>(0, plan.skip);
     if (plan.encoding == Encoding::raw) return open_file_source(path, offset);
     if (plan.encoding == Encoding::text) return open_text_source(open_file_source(path, offset), plan.type);
-    std::unique_ptr<ByteSource> inflated = open_inflate_source(path, offset, plan.compressed_bytes);
+    std::unique_ptr<ByteSource> inflated = open_inflate_source(path, offset);
     if (plan.inflated_skip == 0) return inflated;
     return std::make_unique<SkippedSource>(std::move(inflated), plan.inflated_skip);
 }

@@ -38,7 +38,6 @@ struct PayloadPlan {
     std::int64_t line_skip = 0;         ///< then this many lines are passed over
     std::int64_t skip = 0;              ///< then this many bytes; -1: as many as leave exactly the samples (raw only)
     std::int64_t inflated_skip = 0;     ///< then this many decompressed bytes
-    std::int64_t compressed_bytes = -1; ///< of a deflate payload, when the header says
     ValueType type = ValueType::u8;
     std::int64_t sample_bytes = 0;      ///< of all files together, decoded
 };

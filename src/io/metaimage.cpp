@@ -146,10 +146,22 @@ PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType 
         if (plan.skip < header.data_offset) header.fail(ErrorKind::input, "HeaderSize", "lies inside this header", "the start of the samples");
         plan.skip -= header.data_offset;
     }
-    const std::int64_t compressed = header.integer("compresseddatasize", 0);
-    if (compressed < 0) header.fail(ErrorKind::input, "CompressedDataSize", "is negative", "the size of the compressed samples");
-    if (encoding == Encoding::deflate && compressed > 0 && plan.files.count() <= 1) plan.compressed_bytes = compressed;
     return plan;
+}
+
+/// CompressedDataSize is not needed, as streams know their end, and real files have it wrong: a larger file is read with a note.
+void check_compressed_size(const MetaHeader& header, const PayloadPlan& plan, VolumeInfo& info) {
+    const std::int64_t claimed = header.integer("compresseddatasize", 0);
+    if (claimed < 0) header.fail(ErrorKind::input, "CompressedDataSize", "is negative", "the size of the compressed samples");
+    if (claimed == 0 || plan.encoding != Encoding::deflate || plan.files.count() > 1) return;
+    const std::int64_t begin = plan.offset + plan.skip;
+    const std::int64_t present = file_size(info.data_file.empty() ? header.path : info.data_file) - begin;
+    if (claimed == present) return;
+    const std::string sizes = "is " + std::to_string(claimed) + ", but there are " + std::to_string(present) + " bytes";
+    if (claimed > present) {
+        header.fail(ErrorKind::input, "CompressedDataSize", sizes, "all compressed samples", "the file is truncated: get it again");
+    }
+    info.notes.push_back("CompressedDataSize " + sizes + ": all were read");
 }
 
 void refuse_other_objects(const MetaHeader& header) {
@@ -196,8 +208,9 @@ std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const Open
     info.description = header.text("comment");
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
     const PayloadPlan plan = payload_plan(header, encoding, info.type, sample_bytes(path, info.extent, info.type, step.count));
-    std::unique_ptr<ByteSource> source = open_payload(plan);
     if (plan.files.count() > 0) info.data_file = beside(path, plan.files.name(0));
+    check_compressed_size(header, plan, info);
+    std::unique_ptr<ByteSource> source = open_payload(plan);
     info.file_bytes = bytes_on_disk(plan);
     return make_sample_reader(std::move(info), std::move(source), step);
 }

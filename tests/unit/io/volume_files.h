@@ -1,0 +1,130 @@
+// Little helpers to make volume files and to look at what reading them gives.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "isoatlas/volume.h"
+
+namespace isoatlas::test {
+
+/// A folder of its own for one test, removed at the end.
+class TestFolder {
+public:
+    TestFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "isoatlas_io_XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
+        path_ = name;
+    }
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+    ~TestFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    std::string write(const std::string& name, const std::string& content) const {
+        std::ofstream file(path_ / name, std::ios::binary);
+        file.write(content.data(), static_cast<std::streamsize>(content.size()));
+        file.close();
+        if (!file) throw std::runtime_error("cannot write " + name);
+        return *this / name;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// zlib's windowBits: 15 for zlib, 31 for gzip.
+inline std::string compress(const std::string& plain, int window_bits) {
+    z_stream stream{};
+    if (deflateInit2(&stream, 6, Z_DEFLATED, window_bits, 8, Z_DEFAULT_STRATEGY) != Z_OK) throw std::runtime_error("deflateInit2 failed");
+    std::string out(deflateBound(&stream, static_cast<uLong>(plain.size())) + 64, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
+    stream.avail_in = static_cast<uInt>(plain.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    if (deflate(&stream, Z_FINISH) != Z_STREAM_END) throw std::runtime_error("deflate failed");
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+inline std::string gzip(const std::string& plain) { return compress(plain, 31); }
+inline std::string zlib(const std::string& plain) { return compress(plain, 15); }
+
+/// Samples as little-endian bytes (the tests run on little-endian machines); swapped: big endian.
+template <class T>
+std::string bytes_of(const std::vector<T>& samples) {
+    return {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(T)};
+}
+inline std::string swapped(std::string bytes, std::size_t sample_bytes) {
+    for (std::size_t i = 0; i + sample_bytes <= bytes.size(); i += sample_bytes) {
+        std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i), bytes.begin() + static_cast<std::ptrdiff_t>(i + sample_bytes));
+    }
+    return bytes;
+}
+
+/// All bytes in which a reader may be wrong: every sample differs and uses all of its bytes. count bytes, any type.
+inline std::string telling_bytes(std::size_t count) {
+    std::string bytes(count, '\0');
+    std::uint32_t state = 12345;
+    for (char& byte : bytes) {
+        state = state * 1664525U + 1013904223U;
+        byte = static_cast<char>(state >> 24 & 0x3f);  // below 0x40: no NaN or infinity in any type
+    }
+    return bytes;
+}
+
+inline std::string text_of_bytes(const Volume& volume) { return {reinterpret_cast<const char*>(volume.bytes.data()), volume.bytes.size()}; }
+
+/// Everything, read in slabs of `slices`.
+inline std::string read_all(VolumeReader& reader, std::int64_t slices) {
+    const VolumeInfo& info = reader.info();
+    const std::size_t slice_bytes = static_cast<std::size_t>(info.extent.slice()) * size_of(info.type);
+    std::string bytes(static_cast<std::size_t>(info.extent.size[2]) * slice_bytes, '\0');
+    for (std::int64_t z = 0; z < info.extent.size[2]; z += slices) {
+        const std::int64_t end = std::min(info.extent.size[2], z + slices);
+        reader.read(z, end, std::as_writable_bytes(std::span(bytes)).subspan(static_cast<std::size_t>(z) * slice_bytes,
+                                                                             static_cast<std::size_t>(end - z) * slice_bytes));
+    }
+    return bytes;
+}
+
+/// What opening and reading a file says when it fails; kind internal and an empty text when it does not fail.
+struct Failure {
+    ErrorKind kind = ErrorKind::internal;
+    ErrorText text{};
+    std::string message{};
+};
+inline Failure failure_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return {error.kind(), error.text(), error.what()};
+    }
+    return {};
+}
+inline Failure failure_of_loading(const std::string& path, const OpenOptions& options = {}) {
+    return failure_of([&] { static_cast<void>(load_volume(path, options)); });
+}
+
+/// A message fit for a user: kind as given, it names the file, says what and what next.
+inline void expect_helpful(const Failure& failure, ErrorKind kind, const std::string& words) {
+    EXPECT_EQ(static_cast<int>(failure.kind), static_cast<int>(kind)) << failure.message;
+    EXPECT_NE(failure.message.find(words), std::string::npos) << "'" << words << "' not in: " << failure.message;
+    EXPECT_FALSE(failure.text.file.empty()) << failure.message;
+    EXPECT_FALSE(failure.text.what.empty()) << failure.message;
+    EXPECT_FALSE(failure.text.next.empty()) << failure.message;
+}
+
+}  // namespace isoatlas::test
