@@ -1,0 +1,64 @@
+// From active cells to triangles: counting first, then writing in place.
+#pragma once
+
+#include "field/grid.h"
+#include "mesh/cell_triangles.h"
+#include "mesh/layout.h"
+
+namespace isoatlas {
+
+template <class T>
+class CellWriter {
+public:
+    /// flip: the geometry is mirrored, so triangles must turn the other way round to keep their normals towards lower values.
+    CellWriter(const GridView<T>& grid, double tau, const MeshDomain& domain, SurfaceStyle style, bool flip)
+        : joiner_(grid, tau), extent_(grid.extent), domain_(domain), triangles_(cell_triangles(style)), flip_(flip) {}
+
+    /// Adds the triangles and articulation points of cell row (y, z) to the counts of its place.
+    void count_row(std::int64_t y, std::int64_t z, RowPlace& place) const;
+    /// Writes triangles and articulation points (with normals and contours when the surface has them). All hits are already written.
+    void write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const;
+
+private:
+    [[nodiscard]] int case_of(const CellCaseTables& cases, std::int64_t corner, int pattern) const {
+        const int split = cases.split_faces[pattern];
+        return split == 0 ? cases.first_case[pattern] : cases.case_of(pattern, joiner_.joined_mask(corner, pattern, split));
+    }
+
+    FaceJoiner<T> joiner_;
+    Extent extent_;
+    const MeshDomain& domain_;
+    const std::vector<CellTriangles>& triangles_;
+    bool flip_;
+};
+
+/// The point of every hit edge of a cell, while walking along a row of cells.
+class HitCursor {
+public:
+    HitCursor(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t z) {
+        const RowPlace& r00 = layout[domain.row_number(y, z)];
+        const RowPlace& r10 = layout[domain.row_number(y + 1, z)];
+        const RowPlace& r01 = layout[domain.row_number(y, z + 1)];
+        const RowPlace& r11 = layout[domain.row_number(y + 1, z + 1)];
+        next_ = {r00.point, r10.point, r01.point, r11.point, r00.first_y(), r01.first_y(), r00.first_z(), r10.first_z()};
+    }
+    /// Writes the points of edges 0..11; entries of edges that are not hit mean nothing. hit_edges: bit e set when edge e is hit.
+    void points_of(unsigned hit_edges, std::int64_t* point) {
+        const auto hit = [hit_edges](int e) { return static_cast<std::int64_t>(hit_edges >> e & 1); };
+        for (int e = 0; e < 4; ++e) {  // along x: one row each
+            point[e] = next_[e];
+            next_[e] += hit(e);
+        }
+        for (int i = 0; i < 4; ++i) {  // along y and z: a near and a far edge in one row; the far one is the next cell's near one
+            const int near = 4 + 2 * i;
+            point[near] = next_[4 + i];
+            next_[4 + i] += hit(near);
+            point[near + 1] = next_[4 + i];
+        }
+    }
+
+private:
+    std::array<std::int64_t, 8> next_;
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,129 @@
+#include <optional>
+
+#include "base/parallel.h"
+#include "isoatlas/surface.h"
+#include "mesh/cells.h"
+#include "mesh/hits.h"
+#include "mesh/selection.h"
+#include "mesh/squares.h"
+#include "query/slab_work.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr int kPhases = 3;
+
+template <class T>
+class Extraction {
+public:
+    Extraction(const Volume& volume, std::span<const T> samples, double tau, const ExtractOptions& options, const Context& context,
+               const HighBits& high, const Components* components)
+        : grid_{samples.data(), volume.info.extent},
+          tau_(tau),
+          options_(options),
+          context_(context),
+          components_(components),
+          domain_(high, options.boundary),
+          map_(volume.info.geometry, volume.info.extent),
+          flip_(handedness(volume.info.geometry) < 0),
+          cells_(grid_, tau, domain_, options.style, flip_) {}
+
+    void run(Surface& surface) {
+        if (domain_.is_empty()) return;
+        count();
+        allocate(surface);
+        write_hits(surface);
+        write_cells(surface);
+    }
+
+private:
+    /// Calls visit(y, z) for all rows of points, slab by slab.
+    template <class Visit>
+    void for_rows(const Phase& phase, Visit&& visit) {
+        for_each_slab(context_, phase, domain_.rows_z(), [&](const Slab& slab) {
+            for (std::int64_t z = domain_.z_begin + slab.z_begin; z < domain_.z_begin + slab.z_end; ++z) {
+                for (std::int64_t y = domain_.y_begin; y <= domain_.y_end; ++y) visit(y, z);
+            }
+        });
+    }
+    [[nodiscard]] bool has_cells(std::int64_t y, std::int64_t z) const { return y < domain_.y_end && (domain_.is_2d() || z < domain_.z_end); }
+
+    void count() {
+        layout_.assign(static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1), {});
+        for_rows({"count", 1, kPhases}, [&](std::int64_t y, std::int64_t z) {
+            RowPlace& place = layout_[domain_.row_number(y, z)];
+            count_hits(domain_, y, z, place);
+            if (!has_cells(y, z)) return;
+            if (domain_.is_2d()) place.triangle = count_segments(domain_, y);
+            else cells_.count_row(y, z, place);
+        });
+        turn_counts_into_places(layout_);
+    }
+
+    /// The arrays are filled with zeros while they grow: one thread each.
+    void allocate(Surface& surface) const {
+        const auto points = static_cast<std::size_t>(layout_.back().point), simplices = static_cast<std::size_t>(layout_.back().triangle);
+        for_each_block(context_.threads, 4, [&](std::int64_t array) {
+            if (array == 0) domain_.is_2d() ? surface.segments.resize(simplices) : surface.triangles.resize(simplices);
+            if (array == 1) surface.points.resize(points);
+            if (array == 2 && options_.normals) surface.normals.resize(points);
+            if (array == 3 && components_ != nullptr) surface.contour.resize(points);
+        });
+    }
+
+    void write_hits(Surface& surface) {
+        const HitWriter<T> hits(grid_, tau_, map_, domain_, surface);
+        for_rows({"points", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
+            const RowPlace& place = layout_[domain_.row_number(y, z)];
+            if (place.x_hits + place.y_hits + place.z_hits == 0) return;
+            hits.write_row(y, z, place);
+            if (components_ != nullptr) write_contours(*components_, domain_, y, z, place, surface);
+        });
+    }
+
+    void write_cells(Surface& surface) {
+        for_rows({"triangles", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
+            if (!has_cells(y, z)) return;
+            if (domain_.is_2d()) write_segments(grid_, tau_, domain_, y, layout_, flip_, surface);
+            else cells_.write_row(y, z, layout_, surface);
+        });
+    }
+
+    GridView<T> grid_;
+    double tau_;
+    const ExtractOptions& options_;
+    const Context& context_;
+    const Components* components_;
+    MeshDomain domain_;
+    PhysicalMap map_;
+    bool flip_;
+    CellWriter<T> cells_;
+    Layout layout_;
+};
+
+}  // namespace
+
+Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {
+    Surface surface;
+    surface.tau = tau;
+    surface.reported_tau = volume.info.calibration.reported(tau);
+    surface.space = volume.info.geometry.space;
+    surface.unit = volume.info.geometry.unit;
+    surface.closed = options.boundary == Boundary::closed;
+
+    const HighBits high = classify(volume, tau, context);
+    const bool selects = !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
+    std::optional<Components> components;
+    if (selects || options.ids) components = find_components(volume, tau, high, context);
+    const std::vector<std::uint8_t> chosen = selects ? chosen_contours(volume, tau, *components, options) : std::vector<std::uint8_t>{};
+    visit_samples(volume, [&](auto samples) {
+        using T = typename decltype(samples)::value_type;
+        Extraction<T>(volume, samples, tau, options, context, high, components ? &*components : nullptr).run(surface);
+    });
+    if (selects) keep_contours(chosen, surface);
+    if (options.ids) write_ids(*components, context, surface);
+    else surface.contour.clear();
+    return surface;
+}
+
+}  // namespace isoatlas

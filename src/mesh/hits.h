@@ -1,0 +1,42 @@
+// The hits: points of the surface on the edges of the grid, with normals.
+#pragma once
+
+#include "field/grid.h"
+#include "mesh/layout.h"
+#include "mesh/physical_map.h"
+
+namespace isoatlas {
+
+/// Hits keep this distance (in edge lengths) from the voxels, so that points stay apart when tau equals a sample. A power of two.
+/// A hit between a voxel and the padding lies this far outside the voxel.
+inline constexpr double kHitMargin = 1.0 / 1024;
+
+/// Writes points (and normals, unless empty) of the hits of row (y, z) of the lattice at their places.
+template <class T>
+class HitWriter {
+public:
+    HitWriter(const GridView<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface);
+    void write_row(std::int64_t y, std::int64_t z, const RowPlace& place) const;
+
+private:
+    /// The samples around the voxels of one row, for central differences (one-sided at the border).
+    struct Stencil {
+        const T *row, *y_low, *y_high, *z_low, *z_high;
+        double y_scale, z_scale;
+    };
+    [[nodiscard]] Stencil stencil(std::int64_t y, std::int64_t z) const;
+    [[nodiscard]] Vec3 slope(const Stencil& around, std::int64_t x) const;
+    /// The hit between the voxels at x and other_x of two rows.
+    void write_inner(const Stencil& from, std::int64_t x, const Stencil& to, std::int64_t other_x, int axis, const Vec3& start,
+                     std::int64_t point) const;
+    /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.
+    void write_border(const Vec3& position, int axis, double sign, std::int64_t point) const;
+
+    GridView<T> grid_;
+    double tau_;
+    const PhysicalMap& map_;
+    const MeshDomain& domain_;
+    Surface& surface_;
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,41 @@
+#include "mesh/layout.h"
+
+#include <bit>
+
+namespace isoatlas {
+
+MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
+    : high(bits), cells(CellWindow::all(bits.extent().size[0])), y_begin(-1), y_end(bits.extent().size[1]), z_begin(-1), z_end(bits.extent().size[2]) {
+    if (boundary == Boundary::open) {
+        cells = CellWindow::real(bits.extent().size[0]);
+        y_begin = z_begin = 0;
+        --y_end;
+        --z_end;
+    }
+    if (bits.extent().rank == 2) {  // one slice of squares: no edges along z
+        z_begin = 0;
+        z_end = 0;
+    }
+}
+
+void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
+    const RowHits hits(domain, y, z);
+    for (std::int64_t w = 0; w < hits.words; ++w) {
+        place.x_hits += static_cast<std::uint32_t>(std::popcount(hits.x(w)));
+        place.y_hits += static_cast<std::uint32_t>(std::popcount(hits.y(w)));
+        place.z_hits += static_cast<std::uint32_t>(std::popcount(hits.z(w)));
+    }
+}
+
+void turn_counts_into_places(Layout& layout) {
+    std::int64_t point = 0, triangle = 0;
+    for (RowPlace& place : layout) {
+        place.point = point;
+        point += std::int64_t{place.x_hits} + place.y_hits + place.z_hits + place.fans;
+        const std::int64_t triangles = place.triangle;
+        place.triangle = triangle;
+        triangle += triangles;
+    }
+}
+
+}  // namespace isoatlas

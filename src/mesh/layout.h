@@ -1,0 +1,73 @@
+// Where every point and triangle of a surface goes, before any is made: the surface is written in place, in parallel, and its order does
+// not depend on threads or slabs.
+//
+// Points and triangles are ordered by lattice row (y, z), y and z from -1. A row owns the hits on its own edges along x, on the edges to row
+// (y + 1, z), on those to (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isoatlas/surface.h"
+#include "query/active_cells.h"
+
+namespace isoatlas {
+
+/// What is meshed: bits, and which cells and rows count.
+struct MeshDomain {
+    const HighBits& high;
+    CellWindow cells;                    ///< of every row
+    std::int64_t y_begin, y_end;         ///< cell rows: y_begin <= y < y_end
+    std::int64_t z_begin, z_end;
+
+    MeshDomain(const HighBits& bits, Boundary boundary);
+    [[nodiscard]] bool is_2d() const { return high.extent().rank == 2; }
+    [[nodiscard]] bool is_empty() const { return cells.begin >= cells.end || y_begin >= y_end || (!is_2d() && z_begin >= z_end); }
+    /// Rows of points: one more than cell rows on each axis (the far side of the last cells).
+    [[nodiscard]] std::int64_t rows_y() const { return y_end - y_begin + 1; }
+    [[nodiscard]] std::int64_t rows_z() const { return z_end - z_begin + 1; }
+    [[nodiscard]] std::int64_t row_number(std::int64_t y, std::int64_t z) const { return y - y_begin + rows_y() * (z - z_begin); }
+    [[nodiscard]] bool has_next_y(std::int64_t y) const { return y < y_end; }
+    [[nodiscard]] bool has_next_z(std::int64_t z) const { return z < z_end; }
+};
+
+/// The edges of a row that are hit, 64 positions at a time.
+struct RowHits {
+    const std::uint64_t *row, *next_y, *next_z;
+    std::int64_t words;
+    CellWindow window;
+    bool y_edges, z_edges;
+
+    RowHits(const MeshDomain& domain, std::int64_t y, std::int64_t z)
+        : row(domain.high.row(y, z)),
+          next_y(domain.high.row(y + 1, z)),
+          next_z(domain.high.row(y, z + 1)),
+          words(domain.high.words()),
+          window(domain.cells),
+          y_edges(domain.has_next_y(y)),
+          z_edges(domain.has_next_z(z)) {}
+    /// Bit p: the edge between the positions p and p + 1 is hit.
+    [[nodiscard]] std::uint64_t x(std::int64_t w) const { return (row[w] ^ bits_after(row, w)) & window.mask(w); }
+    [[nodiscard]] std::uint64_t y(std::int64_t w) const { return y_edges ? row[w] ^ next_y[w] : 0; }
+    [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
+};
+
+struct RowPlace {
+    std::int64_t point = 0;              ///< first point of the row
+    std::int64_t triangle = 0;           ///< first triangle (2D: segment)
+    std::uint32_t x_hits = 0, y_hits = 0, z_hits = 0, fans = 0;
+
+    [[nodiscard]] std::int64_t first_y() const { return point + x_hits; }
+    [[nodiscard]] std::int64_t first_z() const { return first_y() + y_hits; }
+    [[nodiscard]] std::int64_t first_fan() const { return first_z() + z_hits; }
+};
+
+/// Places of all rows; the last entry holds the totals.
+using Layout = std::vector<RowPlace>;
+
+/// Counts hits per row; triangles and articulation points are added by the caller, then turned into places.
+void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place);
+/// RowPlace::triangle holds counts before, first numbers after.
+void turn_counts_into_places(Layout& layout);
+
+}  // namespace isoatlas

@@ -1,0 +1,31 @@
+// tau in the type of the samples, so that a row is compared without converting it.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace isoatlas {
+
+/// value >= tau for a sample of T is `!none_high && value >= least`.
+template <class T>
+struct Threshold {
+    T least;         ///< smallest T that is >= tau
+    bool none_high;  ///< no T is >= tau
+};
+
+template <class T>
+Threshold<T> threshold_for(double tau) {
+    using Limits = std::numeric_limits<T>;
+    if (tau > static_cast<double>(Limits::max())) return {Limits::max(), true};
+    if (tau <= static_cast<double>(Limits::lowest())) return {Limits::lowest(), false};
+    if constexpr (std::is_integral_v<T>) {
+        return {static_cast<T>(std::ceil(tau)), false};
+    } else {
+        T least = static_cast<T>(tau);
+        if (static_cast<double>(least) < tau) least = std::nextafter(least, Limits::max());
+        return {least, false};
+    }
+}
+
+}  // namespace isoatlas

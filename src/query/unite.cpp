@@ -1,0 +1,95 @@
+#include "query/unite.h"
+
+#include <bit>
+
+#include "query/active_cells.h"
+#include "query/slab_work.h"
+
+namespace isoatlas {
+namespace {
+
+template <class T>
+class RunJoiner {
+public:
+    RunJoiner(const GridView<T>& grid, double tau, const HighBits& high, const Runs& runs, RunSets& sets)
+        : extent_(grid.extent), joined_(grid, tau), high_(high), runs_(runs), sets_(sets) {}
+
+    /// All connections inside slice z.
+    void join_inside(std::int64_t z) {
+        for (std::int64_t y = 0; y + 1 < extent_.size[1]; ++y) join_rows(y, z, y + 1, z, 0);
+    }
+    /// All connections between slices z and z + 1, and the faces between them.
+    void join_upwards(std::int64_t z) {
+        for (std::int64_t y = 0; y < extent_.size[1]; ++y) {
+            join_rows(y, z, y, z + 1, 1);
+            if (y + 1 < extent_.size[1]) join_faces_across(y, z);
+        }
+    }
+
+private:
+    /// Overlapping runs of one class, and the 4-hit faces between two neighbouring rows (orientation xy or xz).
+    void join_rows(std::int64_t y0, std::int64_t z0, std::int64_t y1, std::int64_t z1, int orientation) {
+        const RunRow a = runs_.row(y0, z0), b = runs_.row(y1, z1);
+        const std::int64_t end = extent_.size[0] + 2;
+        for (std::int64_t i = 0, j = 0;;) {
+            if (((i ^ j) & 1) == 0) sets_.join(a.first_run + i, b.first_run + j);
+            const std::int64_t end_a = i < a.changes ? a.change[i] : end, end_b = j < b.changes ? b.change[j] : end;
+            if (end_a == end && end_b == end) return;
+            if (end_a == end_b && ((i ^ j) & 1) == 1) {  // both rows change here, in opposite directions
+                const bool a_is_high = i & 1;
+                const std::int64_t voxel = extent_.index(end_a - 2, y0, z0);
+                const bool joined = joined_(voxel, orientation, a_is_high ? Diagonal::ac : Diagonal::bd);
+                if (a_is_high == joined) sets_.join(a.first_run + i, b.first_run + j + 1);
+                else sets_.join(a.first_run + i + 1, b.first_run + j);
+            }
+            i += end_a <= end_b;
+            j += end_b <= end_a;
+        }
+    }
+
+    /// The 4-hit yz faces between the rows (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
+    void join_faces_across(std::int64_t y, std::int64_t z) {
+        const CellRow<4> rows = cell_row(high_, y, z);
+        for (std::int64_t w = 0; w < high_.words(); ++w) {
+            const std::uint64_t a = rows.row[0][w], b = rows.row[1][w], d = rows.row[2][w], c = rows.row[3][w];
+            for (std::uint64_t rest = (a ^ b) & ~(a ^ c) & ~(b ^ d); rest != 0; rest &= rest - 1) {
+                const int bit = std::countr_zero(rest);
+                const std::int64_t p = 64 * w + bit;
+                const bool a_is_high = a >> bit & 1;
+                const bool joined = joined_(extent_.index(p - 1, y, z), 2, a_is_high ? Diagonal::ac : Diagonal::bd);
+                if (a_is_high == joined) sets_.join(runs_.row(y, z).run_at(p), runs_.row(y + 1, z + 1).run_at(p));
+                else sets_.join(runs_.row(y + 1, z).run_at(p), runs_.row(y, z + 1).run_at(p));
+            }
+        }
+    }
+
+    const Extent& extent_;
+    FaceJoiner<T> joined_;
+    const HighBits& high_;
+    const Runs& runs_;
+    RunSets& sets_;
+};
+
+}  // namespace
+
+RunSets unite_runs(const Volume& volume, double tau, const HighBits& high, const Runs& runs, const Context& context) {
+    RunSets sets(static_cast<std::size_t>(runs.count()));
+    visit_samples(volume, [&](auto samples) {
+        using T = typename decltype(samples)::value_type;
+        const GridView<T> grid{samples.data(), volume.info.extent};
+        RunJoiner<T> joiner(grid, tau, high, runs, sets);
+        const std::int64_t slices = grid.extent.size[2];
+        // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.
+        for_each_slab(context, {"objects", 1, 3}, slices, [&](const Slab& slab) {
+            for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
+                joiner.join_inside(z);
+                if (z + 1 < slab.z_end) joiner.join_upwards(z);
+            }
+        });
+        const std::int64_t height = slab_height(context, slices);
+        for (std::int64_t z = height; z < slices; z += height) joiner.join_upwards(z - 1);
+    });
+    return sets;
+}
+
+}  // namespace isoatlas
