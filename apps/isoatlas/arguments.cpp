@@ -28,13 +28,19 @@ struct Typed {
     std::int64_t skip = 0, time_step = 0;
 };
 
+/// The range is told in the message of a failure, not in the help.
+template <class T>
+CLI::Validator in_range(T low, T high) {
+    return CLI::Range(low, high).description("");
+}
+
 void add_talking(CLI::App& app, Arguments& arguments) {
     app.add_flag("--json", arguments.json, "One JSON document on standard output, errors included")->group("Talking");
     app.add_flag("-q,--quiet", arguments.quiet, "No progress, no hints")->group("Talking");
     app.add_flag("-v,--verbose", arguments.verbose, "Say more (time, memory)")->group("Talking");
     app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Talking");
     app.add_option("--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
-        ->check(CLI::Range(0, 4096))
+        ->check(in_range(0, 4096))
         ->type_name("N")
         ->group("Talking");
 }
@@ -83,14 +89,13 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
     } else if (verb == "objects") {
         add_tau(app, typed, "List every object at this isovalue");
         app.add_option("--top", arguments.top, "At most N objects (without --tau: 24)")
-            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))
+            ->check(in_range(std::int64_t{1}, std::int64_t{1} << 40))
             ->type_name("N");
         app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
     } else if (verb == "extract") {
         add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
-        app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")
-            ->type_name("ID...");
-        app.add_option("--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID...");
+        app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
+        app.add_option("--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID");
         app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
         app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")
             ->type_name("STYLE");
@@ -104,7 +109,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
         app.add_option("--size", arguments.phantom.size, "Samples per axis")
-            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 20))
+            ->check(in_range(std::int64_t{1}, std::int64_t{1} << 20))
             ->type_name("N");
         app.add_option("--seed", arguments.phantom.seed, "Seed of random phantoms")->type_name("N");
         app.add_option("--genus", arguments.phantom.genus, "Number of handles (torus-chain)")->type_name("N");
@@ -114,7 +119,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".nrrd .npy .raw .mha .nii", false);
     } else if (verb == "verify") {
         app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
-            ->check(CLI::Range(1, 100000))
+            ->check(in_range(1, 100000))
             ->type_name("N");
     }
 }
@@ -124,6 +129,7 @@ bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb !
 std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
     auto app = std::make_unique<CLI::App>(verb.summary, "isoatlas " + verb.name);
     CLI::Option* operand = app->add_option(verb.operand, arguments.file, reads_volumes(verb.name) ? "The file (or folder of slices)" : "");
+    operand->type_name("");
     if (verb.name != "phantom") operand->required();
     add_own(*app, verb.name, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);

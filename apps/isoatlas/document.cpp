@@ -9,7 +9,14 @@ namespace isoatlas::cli {
 namespace {
 
 /// Paths and descriptions of files need not be UTF-8: what is not becomes U+FFFD.
-std::string text_of(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// One member a line.
+std::string members(const Json& json) {
+    std::string text;
+    for (const auto& [name, value] : json.items()) text += (text.empty() ? "  \"" : ",\n  \"") + name + "\": " + text_of(value);
+    return text;
+}
 
 Json volume_json(const VolumeInfo& info) {
     Json json{{"path", info.path},
@@ -47,15 +54,12 @@ Json document(const std::string& name, const VolumeInfo& info, Interpolant inter
     return json;
 }
 
-void print(Terminal& terminal, const Json& json) { terminal.out() << text_of(json, 2) << '\n'; }
+void print(Terminal& terminal, const Json& json) { terminal.out() << "{\n" << members(json) << "\n}\n"; }
 
 void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count,
            const std::function<Json(std::int64_t)>& item) {
-    std::string text = text_of(head, 2);
-    text.erase(text.find_last_of('}'));
-    text.erase(text.find_last_not_of(" \n") + 1);
-    terminal.out() << text << (head.empty() ? "" : ",") << "\n  \"" << name << "\": [";
-    for (std::int64_t i = 0; i < count; ++i) terminal.out() << (i > 0 ? ",\n    " : "\n    ") << text_of(item(i), -1);
+    terminal.out() << "{\n" << members(head) << ",\n  \"" << name << "\": [";
+    for (std::int64_t i = 0; i < count; ++i) terminal.out() << (i > 0 ? ",\n    " : "\n    ") << text_of(item(i));
     terminal.out() << (count > 0 ? "\n  ]\n}\n" : "]\n}\n");
 }
 

@@ -73,7 +73,9 @@ Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
     }
     json["values"] = range;
     json["missing_samples"] = values.known || values.missing > 0 ? Json(values.missing) : Json(nullptr);
-    json["estimate"] = {{"memory_bytes", {cost.memory_smooth, cost.memory_noise}}, {"seconds", {cost.seconds_smooth, cost.seconds_noise}}};
+    const auto bytes = [](double count) { return static_cast<std::int64_t>(count); };
+    json["estimate"] = {{"memory_bytes", {{"smooth", bytes(cost.memory_smooth)}, {"noise", bytes(cost.memory_noise)}}},
+                        {"seconds", {{"smooth", cost.seconds_smooth}, {"noise", cost.seconds_noise}}}};
     return json;
 }
 

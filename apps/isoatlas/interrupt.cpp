@@ -50,7 +50,7 @@ void stop_if_interrupted() {
 WritingGuard::WritingGuard(const std::string& path) {
     stop_if_interrupted();
     std::error_code ignored;
-    const std::filesystem::path target = std::filesystem::weakly_canonical(path, ignored);   // writers follow links
+    const std::filesystem::path target = std::filesystem::weakly_canonical(path, ignored);  // writers follow links
     const std::string name = (target.empty() ? path : target.string()) + ".partial";
     partial[0] = '\0';
     if (name.size() < partial.size()) std::memcpy(partial.data(), name.c_str(), name.size() + 1);

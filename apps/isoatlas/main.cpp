@@ -1,14 +1,20 @@
 // isoatlas VERB: which objects are in a volume, and at which isovalues?
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+
 #include "arguments.h"
 #include "interrupt.h"
 #include "report.h"
 #include "terminal.h"
+#include "values.h"
 #include "verbs.h"
 
 namespace {
@@ -16,8 +22,17 @@ namespace {
 using isoatlas::Error;
 using isoatlas::ErrorKind;
 using namespace isoatlas::cli;
+using Clock = std::chrono::steady_clock;
+
+void tell_resources(Terminal& terminal, Clock::time_point start) {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const std::chrono::duration<double> seconds = Clock::now() - start;
+    terminal.detail(fmt::format("took {:.2f} s, peak memory {}", seconds.count(), bytes_text(1024 * static_cast<double>(usage.ru_maxrss))));
+}
 
 int run(const std::vector<std::string>& words, Terminal& terminal) {
+    const Clock::time_point start = Clock::now();
     const Parsed parsed = parse(words);
     const Arguments& arguments = parsed.arguments;
     terminal.set_style({.quiet = arguments.quiet, .no_color = arguments.no_color, .verbose = arguments.verbose});
@@ -28,7 +43,19 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
         code = find_verb(arguments.verb)->run(arguments, terminal);
     }
     terminal.finish();
+    tell_resources(terminal, start);
     return code;
+}
+
+/// A wrong option always has a next step, reading what the verb takes; a stop says what it left.
+Error completed(const Error& error, const std::vector<std::string>& words) {
+    isoatlas::ErrorText text = error.text();
+    if (error.kind() == ErrorKind::cancelled) text.what = "stopped; nothing was written";
+    if (error.kind() == ErrorKind::usage && text.next.empty()) {
+        const auto verb = std::find_if(words.begin(), words.end(), [](const std::string& word) { return find_verb(word) != nullptr; });
+        text.next = verb == words.end() ? "isoatlas --help" : "isoatlas " + *verb + " --help";
+    }
+    return {error.kind(), text};
 }
 
 /// Whatever goes wrong becomes one Error.
@@ -37,7 +64,7 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
     try {
         return run(words, terminal);
     } catch (const Error& error) {
-        return report(error, json, terminal);
+        return report(completed(error, words), json, terminal);
     } catch (const std::bad_alloc&) {
         return report(
             Error(ErrorKind::resource,

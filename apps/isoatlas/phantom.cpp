@@ -26,7 +26,7 @@ void list(const Arguments& arguments, Terminal& terminal) {
     Table table({{"name", true}, {"size"}, {"what it is", true}});
     for (const PhantomDescription& phantom : known) table.add({phantom.name, fmt::format("{}", phantom.default_size), phantom.summary});
     table.print(terminal);
-    terminal.next("isoatlas phantom " + (known.empty() ? std::string("NAME") : known[0].name) + " -o phantom.nrrd");
+    terminal.next(fmt::format("isoatlas phantom {0} -o {0}.nrrd", known.at(0).name));
 }
 
 void check_arguments(const Arguments& arguments) {

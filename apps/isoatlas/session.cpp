@@ -123,8 +123,9 @@ Cost cost_of_analysis(const VolumeInfo& info, int threads) {
 
 std::string cost_text(const VolumeInfo& info, int threads) {
     const Cost cost = cost_of_analysis(info, threads);
-    return fmt::format("memory about {} (smooth data) to {} (noise), time {} to {}", bytes_text(cost.memory_smooth),
-                       bytes_text(cost.memory_noise), seconds_text(cost.seconds_smooth), seconds_text(cost.seconds_noise));
+    const auto range = [](const std::string& low, const std::string& high) { return low == high ? low : low + " to " + high; };
+    return fmt::format("memory {} (smooth to noisy data), time {}", range(bytes_text(cost.memory_smooth), bytes_text(cost.memory_noise)),
+                       range(seconds_text(cost.seconds_smooth), seconds_text(cost.seconds_noise)));
 }
 
 double tau_of(const Arguments& arguments, const Volume& volume) {

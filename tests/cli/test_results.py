@@ -41,11 +41,11 @@ class Results(CliTest):
         self.assertEqual(info["volume"]["type"], "uint8")
         self.assertEqual(info["voxels"], 24 ** 3)
         self.assertEqual((info["values"]["low"], info["values"]["high"]), (0, 100))
-        low, high = info["estimate"]["memory_bytes"]
+        low, high = (info["estimate"]["memory_bytes"][data] for data in ("smooth", "noise"))
         self.assertGreaterEqual(low, 24 ** 3 * 13)
         self.assertLess(low, high)
         text = self.run_ok("info", "figure.nrrd")
-        for words in ("NRRD", "24 x 24 x 24", "uint8", "0 .. 100", "about", "13,824 voxels"):
+        for words in ("NRRD", "24 x 24 x 24", "uint8", "0 .. 100", "less than a second", "13,824 voxels"):
             self.assertIn(words, text.stdout)
         self.assertIn("next: isoatlas objects figure.nrrd", text.stderr)
 

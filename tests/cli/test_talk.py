@@ -21,6 +21,9 @@ class Talk(CliTest):
             self.assertNotEqual(loud.stdout, "")
         self.assertIn("none.nrrd", self.start(["info", "none.nrrd", "--quiet"]).stderr)
 
+    def test_verbose_tells_time_and_memory(self):
+        self.assertRegex(self.run_ok("tree", "v.nrrd", "-v").stderr, r"took \d+\.\d+ s, peak memory \d")
+
     def test_standard_output_of_json_is_one_document(self):
         for arguments in (["info", "v.nrrd"], ["objects", "v.nrrd"], ["objects", "v.nrrd", "--tau", "45"], ["tree", "v.nrrd"],
                           ["extract", "v.nrrd", "--tau", "45", "-o", "x.ply"], ["label", "v.nrrd", "--zones", "-o", "z.nrrd"],
