@@ -1,0 +1,84 @@
+"""Runs the marked blocks of a Markdown file.
+
+    <!-- run -->       before ```sh:   run by bash in one empty folder for the whole file, `isoatlas` on the PATH; must succeed
+    <!-- prints -->    before ```text: exactly what the block before it printed on standard output
+    <!-- program -->   before ```cpp:  printed by `blocks.py program FILE`
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+BLOCK = re.compile(r"<!-- (run|prints|program) -->\n+```(\w+)\n(.*?)^```$", re.S | re.M)
+LANGUAGE = {"run": "sh", "prints": "text", "program": "cpp"}
+
+
+def blocks_of(text):
+    found = [(match[1], match[2], match[3]) for match in BLOCK.finditer(text)]
+    marks = len(re.findall(r"<!-- (?:run|prints|program) -->", text))
+    if len(found) != marks:
+        raise SystemExit(f"{marks} marks but {len(found)} blocks: a mark stands right before its fence")
+    for mark, language, _ in found:
+        if LANGUAGE[mark] != language:
+            raise SystemExit(f"a block marked {mark} is {language}, not {LANGUAGE[mark]}")
+    return found
+
+
+def run(text):
+    """Returns the number of blocks run; raises AssertionError with what went wrong."""
+    count, printed = 0, None
+    with tempfile.TemporaryDirectory(prefix="isoatlas-docs-") as folder:
+        bin_folder = pathlib.Path(folder, "bin")
+        work = pathlib.Path(folder, "work")
+        bin_folder.mkdir()
+        work.mkdir()
+        (bin_folder / "isoatlas").symlink_to(os.environ["ISOATLAS_CLI"])
+        environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
+        for mark, _, body in blocks_of(text):
+            if mark == "run":
+                done = subprocess.run(["bash", "-euo", "pipefail", "-c", body], cwd=work, env=environment, capture_output=True, text=True)
+                assert done.returncode == 0, f"exit code {done.returncode}:\n{body}\n{done.stderr}"
+                printed = done.stdout
+                count += 1
+            elif mark == "prints":
+                assert printed == body, f"the document shows\n{body}\nbut the command prints\n{printed}"
+    return count
+
+
+def self_test():
+    os.environ["ISOATLAS_CLI"] = "/bin/echo"
+    fence = "```"
+    good = f"<!-- run -->\n{fence}sh\nisoatlas 1 | tee x\ncat x\n{fence}\n<!-- prints -->\n{fence}text\n1\n1\n{fence}\n"
+    assert run(good) == 1
+    for bad in (good.replace("1\n1", "2\n1"), good.replace("cat x", "cat y"), good.replace("cat x", "false | true")):
+        try:
+            run(bad)
+        except AssertionError:
+            continue
+        raise SystemExit(f"nothing noticed in\n{bad}")
+
+
+def main(action, *files):
+    if action == "self-test":
+        self_test()
+        return
+    text = pathlib.Path(files[0]).read_text()
+    if action == "program":
+        programs = [body for mark, _, body in blocks_of(text) if mark == "program"]
+        if len(programs) != 1:
+            raise SystemExit(f"{files[0]}: {len(programs)} programs, expected one")
+        print(programs[0], end="")
+        return
+    try:
+        count = run(text)
+    except AssertionError as problem:
+        raise SystemExit(f"{files[0]}: {problem}")
+    if count == 0:
+        raise SystemExit(f"{files[0]}: nothing is marked to run")
+    print(f"{files[0]}: {count} blocks ran")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,11 @@
+# The program of README.md on a phantom: it must list objects, write surface.ply, and the surface must verify.
+set(work ${CMAKE_CURRENT_BINARY_DIR}/readme_program_work)
+file(REMOVE_RECURSE ${work})
+file(MAKE_DIRECTORY ${work})
+foreach(step IN ITEMS "${CLI};phantom;demo;-o;scan.nrrd" "${PROGRAM};scan.nrrd" "${CLI};verify;surface.ply")
+  execute_process(COMMAND ${step} WORKING_DIRECTORY ${work} RESULT_VARIABLE failed OUTPUT_VARIABLE output)
+  message(STATUS "${step}\n${output}")
+  if(failed OR output STREQUAL "")
+    message(FATAL_ERROR "${step} failed or printed nothing")
+  endif()
+endforeach()
