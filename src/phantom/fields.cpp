@@ -1,4 +1,6 @@
 // Analytic and random fields.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,19 +11,39 @@
 namespace isoatlas::phantom {
 namespace {
 
-struct Wave {
-    double x, y, z, phase;  // periods a side, turns
+/// cos and sin of the phase a wave has gained along one axis, per sample.
+struct Turn {
+    double cosine, sine;
 };
 
-/// Directions are uniform on the sphere (a point of the ball, by rejection); frequencies uniform in 2..10.
-std::vector<Wave> random_waves(Random& random, int count) {
+Turn turn_by(double turns) { return {cos_turns(turns), sin_turns(turns)}; }
+Turn add(const Turn& a, const Turn& b) { return {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine}; }
+
+/// A plane wave on the grid: its phase is the sum of three tables, so no cosine is evaluated per voxel.
+struct Wave {
+    std::vector<Turn> x, y, z;
+
+    /// periods: of the wave along each axis, a side; phase in turns.
+    Wave(const std::array<double, 3>& periods, double phase, std::int64_t size) {
+        const double side = static_cast<double>(size);
+        for (std::int64_t i = 0; i < size; ++i) {
+            const double t = static_cast<double>(i) / side;
+            x.push_back(turn_by(periods[0] * t + phase));
+            y.push_back(turn_by(periods[1] * t));
+            z.push_back(turn_by(periods[2] * t));
+        }
+    }
+};
+
+/// Directions are uniform on the sphere (a point of the ball, by rejection); frequencies uniform in 2..10 periods a side.
+std::vector<Wave> random_waves(Random& random, int count, std::int64_t size) {
     std::vector<Wave> waves;
     while (static_cast<int>(waves.size()) < count) {
         const double x = random.between(-1, 1), y = random.between(-1, 1), z = random.between(-1, 1);
         const double length = std::sqrt(x * x + y * y + z * z);
         if (length > 1 || length < 0.1) continue;
         const double scale = random.between(2, 10) / length;
-        waves.push_back({x * scale, y * scale, z * scale, random.unit()});
+        waves.emplace_back(std::array<double, 3>{x * scale, y * scale, z * scale}, random.unit(), size);
     }
     return waves;
 }
@@ -56,15 +78,25 @@ Volume checkerboard(const PhantomOptions& options) {
 
 Volume random_field(const PhantomOptions& options) {
     constexpr int kWaves = 60;
+    const std::int64_t size = options.size;
     Random random(options.seed);
-    const std::vector<Wave> waves = random_waves(random, kWaves);
-    const double scale = 1 / static_cast<double>(options.size);
-    return fill<float>(options.size, options.size, options.size, [&](std::int64_t ix, std::int64_t iy, std::int64_t iz) {
-        const double x = static_cast<double>(ix) * scale, y = static_cast<double>(iy) * scale, z = static_cast<double>(iz) * scale;
-        double sum = 0;
-        for (const Wave& wave : waves) sum += cos_turns(wave.x * x + wave.y * y + wave.z * z + wave.phase);
-        return sum / std::sqrt(static_cast<double>(kWaves) / 2);
-    });
+    const std::vector<Wave> waves = random_waves(random, kWaves, size);
+    const double scale = 1 / std::sqrt(kWaves / 2.0);  // unit variance
+    Volume volume = make_volume({3, {size, size, size}}, ValueType::f32);
+    const std::span<float> samples = volume.samples<float>();
+    std::vector<double> row(static_cast<std::size_t>(size));
+    for (std::int64_t z = 0; z < size; ++z) {
+        for (std::int64_t y = 0; y < size; ++y) {
+            std::fill(row.begin(), row.end(), 0.0);
+            for (const Wave& wave : waves) {
+                const Turn start = add(wave.y[y], wave.z[z]);
+                for (std::int64_t x = 0; x < size; ++x) row[x] += wave.x[x].cosine * start.cosine - wave.x[x].sine * start.sine;
+            }
+            float* out = samples.data() + size * (y + size * z);
+            for (std::int64_t x = 0; x < size; ++x) out[x] = static_cast<float>(row[x] * scale);
+        }
+    }
+    return volume;
 }
 
 Volume noise(const PhantomOptions& options) {

@@ -21,10 +21,10 @@ Volume torus_chain(const PhantomOptions& options);
 /// and 2 * shells contours, all spheres. float32.
 Volume nested_shells(const PhantomOptions& options);
 
-/// What `make demo` shows. Two balls joined by a neck (220, 180), a hollow shell (250, cavity 60) hidden in the first, a ring with one
-/// tunnel (200) hung on the second by a thin bridge (90), soft flanks, background 0. float32, 0.5 mm spacing.
-/// Answer: at 240 one object with one cavity; at 195 additionally the ring; at 150 one object (the balls and the hidden shell, one
-/// cavity) and the ring; at 80 one object with one tunnel and one cavity.
+/// What `make demo` shows. A ball (180) with a hollow crust hidden inside (250, cavity 60), a second ball (220) joined to it by a neck
+/// (160), and a ring with one tunnel (200) that hangs on the second by a thin bridge (90); soft flanks, background 0. float32, 0.5 mm.
+/// Answer: 7 events. Maxima 250 (hollow: one cavity), 220, 200 (a ring); merges at 160 and 90; the cavity fills at 60; the ring's tunnel
+/// and everything else at 0.
 Volume demo(const PhantomOptions& options);
 
 /// Marschner and Lobb's test signal (1994), frequency 6, alpha 0.25, on [-1, 1]^3. float32, values in [0, 1].
@@ -32,8 +32,7 @@ Volume demo(const PhantomOptions& options);
 Volume marschner_lobb(const PhantomOptions& options);
 
 /// sin x cos y + sin y cos z + sin z cos x, two periods a side. float32.
-/// Answer: turning the volume by a point reflection negates it; at tau 0 the largest object and the largest low component
-/// are congruent labyrinths.
+/// Answer: a point reflection about the middle negates every sample; at tau 0 High and Low are congruent labyrinths.
 Volume gyroid(const PhantomOptions& options);
 
 /// 1 where x + y + z is even, else 0. uint8. Every face is ambiguous with value 1/2.

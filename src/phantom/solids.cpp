@@ -34,14 +34,14 @@ double plateau(double d, double core, double flank, double height) { return heig
 
 /// The scene of the demo; lengths are fractions of the volume's side.
 double scene(const Point& p) {
-    constexpr Point kFirst{0.30, 0.36, 0.50}, kSecond{0.60, 0.36, 0.50}, kRing{0.62, 0.76, 0.50};
+    constexpr Point kFirst{0.30, 0.36, 0.50}, kSecond{0.68, 0.36, 0.50}, kRing{0.66, 0.76, 0.50};
     constexpr double kFlank = 0.05;
     const double from_first = distance(p, kFirst);
     double value = plateau(from_first, 0.17, kFlank, 180);
     value = std::max(value, plateau(distance(p, kSecond), 0.12, kFlank, 220));
     value = std::max(value, plateau(segment_distance(p, kFirst, kSecond), 0.05, kFlank, 160));
     value = std::max(value, plateau(circle_distance(p, kRing, 0.12), 0.03, kFlank, 200));
-    value = std::max(value, plateau(segment_distance(p, kSecond, {0.62, 0.64, 0.50}), 0.012, kFlank, 90));
+    value = std::max(value, plateau(segment_distance(p, kSecond, {0.66, 0.64, 0.50}), 0.012, kFlank, 90));
     // The hidden shell: a crust of 250 around a hollow of 60, invisible from outside below 180.
     value = std::max(value, plateau(std::fabs(from_first - 0.10), 0.022, kFlank, 250));
     if (from_first < 0.10) value = std::min(value, std::max(60.0, plateau(0.10 - from_first, 0.022, 0.03, 250)));
