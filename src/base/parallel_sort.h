@@ -1,24 +1,67 @@
-// Sorting in place on several threads. The order must be strict and total: then the result does not depend on the threads.
+// Sorting on several threads: samples cut the values into buckets, buckets are sorted on their own, small enough for the cache.
+// The order must be strict and total: then the result does not depend on threads nor buckets.
 #pragma once
 
-#include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "base/big_vector.h"
 #include "base/parallel.h"
 
 namespace isoatlas {
 
-template <class T, class Before>
-void parallel_sort(int threads, std::span<T> items, const Before& before) {
-    if (thread_count(threads) == 1 || items.size() < 10'000) {
+/// Sorts items by before(p, q), where before must agree with key: key(p) < key(q) implies before(p, q). Uses a second array of the same size.
+template <class T, class Key, class Before>
+void bucket_sort(int threads, BigVector<T>& items, const Key& key, const Before& before) {
+    constexpr std::size_t kSmall = 1 << 14, kBucket = 1 << 10, kBlocks = 64;
+    const std::size_t n = items.size();
+    if (n < kSmall) {
         std::sort(items.begin(), items.end(), before);
         return;
     }
-    tbb::task_arena arena(thread_count(threads));
-    arena.execute([&] { tbb::parallel_sort(items.begin(), items.end(), before); });
+    const std::size_t buckets = std::min<std::size_t>(n / kBucket, 1 << 12);
+    std::vector<decltype(key(items[0]))> splitters;  // bucket b holds the keys in (splitter[b-1], splitter[b]]
+    {
+        std::vector<decltype(key(items[0]))> samples;
+        const std::size_t stride = std::max<std::size_t>(1, n / (16 * buckets));
+        for (std::size_t i = 0; i < n; i += stride) samples.push_back(key(items[i]));
+        std::sort(samples.begin(), samples.end());
+        for (std::size_t b = 1; b < buckets; ++b) splitters.push_back(samples[b * samples.size() / buckets]);
+    }
+    const auto bucket_of = [&](const T& item) {
+        return static_cast<std::uint16_t>(std::lower_bound(splitters.begin(), splitters.end(), key(item)) - splitters.begin());
+    };
+    // Count per block and bucket, turn counts into places, scatter, sort every bucket.
+    const auto block_range = [&](std::size_t block) { return std::array{n * block / kBlocks, n * (block + 1) / kBlocks}; };
+    std::vector<std::size_t> place(kBlocks * buckets, 0);
+    BigVector<std::uint16_t> bucket(n);
+    for_each_block(threads, kBlocks, [&](std::int64_t block) {
+        const auto [begin, end] = block_range(block);
+        for (std::size_t i = begin; i < end; ++i) ++place[block * buckets + (bucket[i] = bucket_of(items[i]))];
+    });
+    std::vector<std::size_t> first(buckets + 1, 0);
+    std::size_t next = 0;
+    for (std::size_t b = 0; b < buckets; ++b) {
+        first[b] = next;
+        for (std::size_t block = 0; block < kBlocks; ++block) {
+            const std::size_t count = place[block * buckets + b];
+            place[block * buckets + b] = next;
+            next += count;
+        }
+    }
+    first[buckets] = n;
+    BigVector<T> sorted(n);
+    for_each_block(threads, kBlocks, [&](std::int64_t block) {
+        const auto [begin, end] = block_range(block);
+        for (std::size_t i = begin; i < end; ++i) sorted[place[block * buckets + bucket[i]]++] = items[i];
+    });
+    items = {};
+    for_each_block(threads, static_cast<std::int64_t>(buckets),
+                   [&](std::int64_t b) { std::sort(sorted.begin() + first[b], sorted.begin() + first[b + 1], before); });
+    items.swap(sorted);
 }
 
 }  // namespace isoatlas

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <numeric>
-#include <vector>
+#include <utility>
+
+#include "base/big_vector.h"
 
 namespace isoatlas {
 
@@ -33,10 +35,15 @@ public:
         parent_.push_back(static_cast<Id>(parent_.size()));
         return parent_.back();
     }
+    /// The root of every element.
+    [[nodiscard]] BigVector<Id> roots() && {
+        for (Id x = 0; x < parent_.size(); ++x) parent_[x] = find(x);
+        return std::move(parent_);
+    }
     [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
 private:
-    std::vector<Id> parent_;
+    BigVector<Id> parent_;
 };
 
 }  // namespace isoatlas

@@ -5,17 +5,19 @@
 // from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one component.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "base/big_vector.h"
 
 namespace isoatlas {
 
 template <class Id>
 struct CriticalSet {
-    std::vector<double> value;
-    std::vector<std::uint64_t> code;        ///< ElementCode bits; the tree reads h0, l0 only
-    std::vector<Id> up_a, up_b;             ///< maxima numbers; equal when h0 < 2; a maximum names itself
-    std::vector<Id> low_a, low_b;           ///< minima numbers, 0 = outside; a minimum names itself
+    BigVector<double> value;
+    BigVector<std::uint64_t> code;        ///< ElementCode bits; the tree reads h0, l0 only
+    BigVector<Id> up_a, up_b;             ///< maxima numbers; equal when h0 < 2; a maximum names itself
+    BigVector<Id> low_a, low_b;           ///< minima numbers, 0 = outside; a minimum names itself
     std::int64_t maxima = 0;                ///< maxima are numbered 0 .. maxima-1
     std::int64_t minima = 0;                ///< minima are numbered 1 .. minima; 0 is the outside
     int rank = 3;

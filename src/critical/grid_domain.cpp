@@ -19,8 +19,8 @@ void stop_if_cancelled(const Context& context) {
 /// Critical elements in raster order with what they lead to: {up_a, up_b, low_a, low_b}.
 template <class Id>
 struct RasterElements {
-    std::vector<KeyedElement> element;
-    std::vector<std::array<Id, 4>> leads_to;
+    BigVector<KeyedElement> element;
+    BigVector<std::array<Id, 4>> leads_to;
 };
 
 /// Where the surroundings of a critical element lead (theory.md section 4, step 2).
@@ -67,9 +67,9 @@ private:
 };
 
 template <class Id>
-std::vector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
+BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
                                const std::vector<std::int64_t>& first_number, int threads) {
-    std::vector<Id> basin(static_cast<std::size_t>(extent.voxels()));
+    BigVector<Id> basin(static_cast<std::size_t>(extent.voxels()));
     const auto slabs = static_cast<std::int64_t>(first_number.size());
     Basins<Id> basins(extent, height, direction, links, basin);
     for_each_block(threads, slabs, [&](std::int64_t slab) { basins.forward(slab, first_number[slab]); });
@@ -88,7 +88,7 @@ CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int
         Id raster;
     };
     const std::size_t n = raster.element.size();
-    std::vector<Entry> order(n);
+    BigVector<Entry> order(n);
     constexpr std::size_t kBlock = 1 << 16;
     const auto blocks = static_cast<std::int64_t>((n + kBlock - 1) / kBlock);
     const auto for_each = [&](auto&& work) {
@@ -97,7 +97,7 @@ CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int
         });
     };
     for_each([&](std::size_t i) { order[i] = {raster.element[i].value, static_cast<Id>(i)}; });
-    parallel_sort(threads, std::span<Entry>(order), [&](const Entry& p, const Entry& q) {
+    bucket_sort(threads, order, [](const Entry& entry) { return -entry.value; }, [&](const Entry& p, const Entry& q) {
         if (p.value != q.value) return p.value > q.value;
         return above(raster.element[p.raster], raster.element[q.raster]);
     });
@@ -109,7 +109,7 @@ CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int
         set.code[i] = raster.element[order[i].raster].code.bits;
     });
     raster.element = {};
-    for (std::vector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
+    for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
     for_each([&](std::size_t i) {
         const std::array<Id, 4>& leads = raster.leads_to[order[i].raster];
         set.up_a[i] = leads[0], set.up_b[i] = leads[1], set.low_a[i] = leads[2], set.low_b[i] = leads[3];
@@ -129,14 +129,14 @@ template <class T, class IdType>
 Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const {
     const Extent& extent = grid_.extent;
     const std::int64_t height = slab_height(extent, context), slabs = (extent.size[2] + height - 1) / height;
-    std::vector<std::uint8_t> links(static_cast<std::size_t>(extent.voxels()));
+    BigVector<std::uint8_t> links(static_cast<std::size_t>(extent.voxels()));
     std::vector<SlabScan> scans(slabs);
     context.report("classify", 0, kPhases, 0);
     for_each_block(context.threads, slabs, [&](std::int64_t i) {
         stop_if_cancelled(context);
         const Slab slab = slab_at(i, height, extent.size[2]);
         const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
-        scans[i] = scan_slab(grid_, slab, std::span(links).subspan(first, count));
+        scans[i] = scan_slab(grid_, slab, std::span<std::uint8_t>(links).subspan(first, count));
     });
 
     Criticals<Id> result;
@@ -150,9 +150,9 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
     stop_if_cancelled(context);
     context.report("basins", 1, kPhases, 0);
     result.basin = resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
-    std::vector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
+    BigVector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
 
-    RasterElements<Id> raster{std::vector<KeyedElement>(elements), std::vector<std::array<Id, 4>>(elements)};
+    RasterElements<Id> raster{BigVector<KeyedElement>(elements), BigVector<std::array<Id, 4>>(elements)};
     const Representatives<Id> representatives(extent, links, result.basin, down);
     for_each_block(context.threads, slabs, [&](std::int64_t slab) {
         std::int64_t i = first_element[slab];

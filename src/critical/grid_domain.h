@@ -6,7 +6,6 @@
 
 #include <array>
 #include <concepts>
-#include <vector>
 
 #include "critical/basins.h"
 #include "critical/scan.h"
@@ -19,7 +18,7 @@ namespace isoatlas {
 template <class Id>
 struct Criticals {
     CriticalSet<Id> set;
-    std::vector<Id> basin;
+    BigVector<Id> basin;
 };
 
 template <class D>

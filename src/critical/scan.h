@@ -6,15 +6,15 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "base/big_vector.h"
 #include "field/grid.h"
 #include "field/order.h"
 
 namespace isoatlas {
 
 struct SlabScan {
-    std::vector<KeyedElement> elements;  ///< critical elements owned by the slab
+    BigVector<KeyedElement> elements;  ///< critical elements owned by the slab
     std::int64_t maxima = 0, minima = 0; ///< how many of them have no upper / no lower link
 };
 

@@ -10,10 +10,10 @@ namespace {
 // One of the two trees while leaves are removed: parent, and the xor of the children (the child itself once only one is left).
 template <class Id>
 struct ShrinkingTree {
-    std::vector<Id> parent;
-    std::vector<Id> children_xor;
+    BigVector<Id> parent;
+    BigVector<Id> children_xor;
 
-    explicit ShrinkingTree(std::vector<Id> parents) : parent(std::move(parents)), children_xor(parent.size(), Id{0}) {
+    explicit ShrinkingTree(BigVector<Id> parents) : parent(std::move(parents)), children_xor(parent.size(), Id{0}) {
         for (std::size_t x = 0; x < parent.size(); ++x) {
             if (!is_root(x)) children_xor[parent[x]] ^= static_cast<Id>(x);
         }
@@ -35,8 +35,8 @@ struct ShrinkingTree {
 
 /// Numbers of children in both trees, packed: low two bits join (from above), next two split (from below).
 template <class Id>
-std::vector<std::uint8_t> child_counts(const ShrinkingTree<Id>& join, const ShrinkingTree<Id>& split) {
-    std::vector<std::uint8_t> count(join.parent.size(), 0);
+BigVector<std::uint8_t> child_counts(const ShrinkingTree<Id>& join, const ShrinkingTree<Id>& split) {
+    BigVector<std::uint8_t> count(join.parent.size(), 0);
     for (std::size_t x = 0; x < count.size(); ++x) {
         if (!join.is_root(x)) count[join.parent[x]] += 1;
         if (!split.is_root(x)) count[split.parent[x]] += 4;
@@ -50,14 +50,14 @@ constexpr std::uint8_t kLowerLeaf = 1;
 }  // namespace
 
 template <class Id>
-ContourTree<Id> contour_tree(std::vector<Id> join_parents, std::vector<Id> split_parents, std::span<const std::int8_t> delta_chi) {
+ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_parents, std::span<const std::int8_t> delta_chi) {
     using Signed = typename ContourTree<Id>::Signed;
     ShrinkingTree<Id> join(std::move(join_parents)), split(std::move(split_parents));
     const std::size_t nodes = join.parent.size();
-    std::vector<std::uint8_t> count = child_counts(join, split);
+    BigVector<std::uint8_t> count = child_counts(join, split);
     ContourTree<Id> tree;
     tree.other.resize(nodes);
-    tree.half_chi.resize(nodes);  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
+    tree.half_chi.assign(nodes, Signed{0});  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
     if (!delta_chi.empty()) {
         for (std::size_t x = 0; x + 1 < nodes; ++x) tree.half_chi[x] = delta_chi[x];
         tree.half_chi[nodes - 1] = -1;  // the outside closes every contour like a minimum
@@ -91,11 +91,11 @@ ContourTree<Id> contour_tree(std::vector<Id> join_parents, std::vector<Id> split
     }
     ISOATLAS_CHECK(arcs + 1 == nodes);
     tree.other[last] = last;
-    ISOATLAS_CHECK(tree.half_chi[last] == 0 || nodes == 1);
+    ISOATLAS_CHECK(tree.half_chi[last] == 0);
     return tree;
 }
 
-template ContourTree<std::uint32_t> contour_tree(std::vector<std::uint32_t>, std::vector<std::uint32_t>, std::span<const std::int8_t>);
-template ContourTree<std::uint64_t> contour_tree(std::vector<std::uint64_t>, std::vector<std::uint64_t>, std::span<const std::int8_t>);
+template ContourTree<std::uint32_t> contour_tree(BigVector<std::uint32_t>, BigVector<std::uint32_t>, std::span<const std::int8_t>);
+template ContourTree<std::uint64_t> contour_tree(BigVector<std::uint64_t>, BigVector<std::uint64_t>, std::span<const std::int8_t>);
 
 }  // namespace isoatlas

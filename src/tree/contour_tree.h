@@ -9,15 +9,16 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
+
+#include "base/big_vector.h"
 
 namespace isoatlas {
 
 template <class Id>
 struct ContourTree {
     using Signed = std::make_signed_t<Id>;
-    std::vector<Id> other;          ///< per node x: the other end of its arc; x itself for the last node, which has none
-    std::vector<Signed> half_chi;   ///< per node x: of its arc
+    BigVector<Id> other;          ///< per node x: the other end of its arc; x itself for the last node, which has none
+    BigVector<Signed> half_chi;   ///< per node x: of its arc
 
     [[nodiscard]] std::size_t nodes() const { return other.size(); }
     [[nodiscard]] bool has_arc(std::size_t x) const { return other[x] != static_cast<Id>(x); }
@@ -30,6 +31,6 @@ struct ContourTree {
 /// empty: Euler numbers are not wanted (2D), half_chi is 0.
 /// Cost: O(n) time; 14 bytes a node beyond input and output for 32-bit ids.
 template <class Id>
-ContourTree<Id> contour_tree(std::vector<Id> join, std::vector<Id> split, std::span<const std::int8_t> delta_chi);
+ContourTree<Id> contour_tree(BigVector<Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi);
 
 }  // namespace isoatlas

@@ -6,33 +6,41 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "base/big_vector.h"
 #include "tree/levels.h"
 
 namespace isoatlas {
 
 template <class Id>
 struct CriticalityTree {
-    using Signed = std::make_signed_t<Id>;
-    std::vector<Id> event_of_element;   ///< per element: its event; for a dropped one the next event above
-
-    // Indexed by event:
-    std::vector<Id> top;                ///< its highest element
-    std::vector<Id> parent;             ///< the event itself for the root
-    std::vector<Id> lows_out;
-    std::vector<Id> contours;           ///< of the object in the zone below the event
-    std::vector<Signed> delta_chi;
-    std::vector<Signed> chi;            ///< of the object in the zone below the event
-    std::vector<Criticality> kind;
+    BigVector<Id> event_of_element;   ///< per element: its event; for a dropped one the next event above
+    // per event
+    BigVector<Id> top;                ///< its highest element
+    BigVector<Id> parent;             ///< the event itself for the root
 
     [[nodiscard]] std::size_t size() const { return top.size(); }
     [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e); }
 };
 
-/// join: parents of the join tree, n + 1 entries. Cost: O(n).
+/// What an event does and what its object is in the zone below it; all per event.
 template <class Id>
-CriticalityTree<Id> criticality_tree(std::span<const Id> join, const Levels<Id>& levels, std::span<const double> value,
-                                     std::span<const std::int8_t> delta_chi);
+struct EventMeasures {
+    using Signed = std::make_signed_t<Id>;
+    BigVector<Id> lows_out;
+    BigVector<Id> contours;           ///< of the object
+    BigVector<Signed> delta_chi;
+    BigVector<Signed> chi;            ///< of the object
+    BigVector<Criticality> kind;
+};
+
+/// join: parents of the join tree, n + 1 entries. level, flow: of levels.h. Cost: O(n).
+template <class Id>
+CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow, std::span<const double> value);
+
+/// delta_chi: per element.
+template <class Id>
+EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow,
+                                 std::span<const std::int8_t> delta_chi);
 
 }  // namespace isoatlas

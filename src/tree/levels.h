@@ -5,30 +5,36 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "base/big_vector.h"
 #include "isoatlas/analysis.h"
 #include "tree/contour_tree.h"
 
 namespace isoatlas {
 
+/// Does the arc of node x span an interval of values? Arcs to the outside do.
 template <class Id>
-struct Levels {
-    using Signed = std::make_signed_t<Id>;
-    std::vector<Id> root;          ///< per element: the highest element of its level
-    // Indexed by element, meaningful at roots:
-    std::vector<Id> in, out;       ///< number of contours just above and just below
-    std::vector<Signed> gain;      ///< sum of genera out - sum of genera in
+[[nodiscard]] bool has_length(const ContourTree<Id>& tree, std::span<const double> value, std::size_t x) {
+    const std::size_t lower = tree.lower(x);
+    return lower == value.size() || value[tree.upper(x)] != value[lower];
+}
 
-    [[nodiscard]] bool is_root(std::size_t element) const { return root[element] == static_cast<Id>(element); }
-    [[nodiscard]] bool is_trivial(std::size_t root_element) const {
-        return in[root_element] == 1 && out[root_element] == 1 && gain[root_element] == 0;
-    }
-    [[nodiscard]] Criticality kind(std::size_t root_element) const;
+/// Per element: the highest element of its level. value: per element, descending. Cost: O(n alpha).
+template <class Id>
+BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value);
+
+/// Contours through levels, indexed by element, meaningful at roots.
+template <class Id>
+struct LevelFlow {
+    using Signed = std::make_signed_t<Id>;
+    BigVector<Id> in, out;     ///< number of contours just above and just below
+    BigVector<Signed> gain;    ///< sum of genera out - sum of genera in
+
+    [[nodiscard]] bool is_trivial(std::size_t root) const { return in[root] == 1 && out[root] == 1 && gain[root] == 0; }
+    [[nodiscard]] Criticality kind(std::size_t root) const;
 };
 
-/// value: per element, descending. Cost: O(n alpha).
 template <class Id>
-Levels<Id> contract_levels(const ContourTree<Id>& tree, std::span<const double> value);
+LevelFlow<Id> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value);
 
 }  // namespace isoatlas

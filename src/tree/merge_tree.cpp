@@ -13,7 +13,7 @@ namespace {
 template <class Id>
 class Sweep {
 public:
-    Sweep(std::size_t extrema, std::vector<Id>& parent) : components_(extrema), last_(extrema), parent_(parent) {}
+    Sweep(std::size_t extrema, BigVector<Id>& parent) : components_(extrema), last_(extrema), parent_(parent) {}
 
     void start(Id extremum, Id node) { last_[extremum] = node; }
 
@@ -31,16 +31,16 @@ public:
 
 private:
     UnionFind<Id> components_;
-    std::vector<Id> last_;
-    std::vector<Id>& parent_;
+    BigVector<Id> last_;
+    BigVector<Id>& parent_;
 };
 
 }  // namespace
 
 template <class Id>
-std::vector<Id> join_tree(const CriticalSet<Id>& critical) {
+BigVector<Id> join_tree(const CriticalSet<Id>& critical) {
     const std::size_t n = critical.size();
-    std::vector<Id> parent(n + 1, static_cast<Id>(n));
+    BigVector<Id> parent(n + 1, static_cast<Id>(n));
     Sweep<Id> sweep(static_cast<std::size_t>(critical.maxima), parent);
     for (std::size_t i = 0; i < n; ++i) {
         const int h0 = ElementCode{critical.code[i]}.h0();
@@ -55,9 +55,9 @@ std::vector<Id> join_tree(const CriticalSet<Id>& critical) {
 }
 
 template <class Id>
-std::vector<Id> split_tree(const CriticalSet<Id>& critical) {
+BigVector<Id> split_tree(const CriticalSet<Id>& critical) {
     const std::size_t n = critical.size();
-    std::vector<Id> parent(n + 1, Id{0});
+    BigVector<Id> parent(n + 1, Id{0});
     Sweep<Id> sweep(static_cast<std::size_t>(critical.minima) + 1, parent);
     sweep.start(Id{0}, static_cast<Id>(n));
     for (std::size_t i = n; i-- > 0;) {
@@ -72,9 +72,9 @@ std::vector<Id> split_tree(const CriticalSet<Id>& critical) {
     return parent;
 }
 
-template std::vector<std::uint32_t> join_tree(const CriticalSet<std::uint32_t>&);
-template std::vector<std::uint64_t> join_tree(const CriticalSet<std::uint64_t>&);
-template std::vector<std::uint32_t> split_tree(const CriticalSet<std::uint32_t>&);
-template std::vector<std::uint64_t> split_tree(const CriticalSet<std::uint64_t>&);
+template BigVector<std::uint32_t> join_tree(const CriticalSet<std::uint32_t>&);
+template BigVector<std::uint64_t> join_tree(const CriticalSet<std::uint64_t>&);
+template BigVector<std::uint32_t> split_tree(const CriticalSet<std::uint32_t>&);
+template BigVector<std::uint64_t> split_tree(const CriticalSet<std::uint64_t>&);
 
 }  // namespace isoatlas

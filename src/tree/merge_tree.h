@@ -4,18 +4,16 @@
 // outside (node `size`) is the lowest leaf. In the join tree the outside is the last node: the parent of the root.
 #pragma once
 
-#include <vector>
-
 #include "critical/critical_set.h"
 
 namespace isoatlas {
 
 /// parent.size() == size + 1; parent[size] (the outside) is size itself: nothing lies below it. Cost: O(n alpha).
 template <class Id>
-std::vector<Id> join_tree(const CriticalSet<Id>& critical);
+BigVector<Id> join_tree(const CriticalSet<Id>& critical);
 
 /// parent.size() == size + 1; the highest element is its own parent.
 template <class Id>
-std::vector<Id> split_tree(const CriticalSet<Id>& critical);
+BigVector<Id> split_tree(const CriticalSet<Id>& critical);
 
 }  // namespace isoatlas

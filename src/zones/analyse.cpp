@@ -18,10 +18,9 @@ namespace {
 
 constexpr int kPhases = 5;
 
-template <class Id>
-std::vector<std::int8_t> delta_chis(const CriticalSet<Id>& set) {
-    std::vector<std::int8_t> delta(set.size());
-    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{set.code[i]}, set.rank));
+BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
+    BigVector<std::int8_t> delta(code.size());
+    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
     return delta;
 }
 
@@ -32,21 +31,23 @@ ContourTree<Id> circles(ContourTree<Id> tree) {
     return tree;
 }
 
-/// The event at which the ascending path of each maximum's basin starts, as a place on its heavy path.
+/// Per maximum: its critical element.
 template <class Id>
-std::vector<typename HeavyPaths<Id>::Place> starts_of_maxima(const CriticalSet<Id>& set, std::span<const Id> maximum_of,
-                                                             const CriticalityTree<Id>& tree, const HeavyPaths<Id>& paths) {
-    std::vector<typename HeavyPaths<Id>::Place> start(static_cast<std::size_t>(set.maxima));
+BigVector<Id> elements_of_maxima(const CriticalSet<Id>& set) {
+    BigVector<Id> element(static_cast<std::size_t>(set.maxima));
     for (std::size_t i = 0; i < set.size(); ++i) {
-        if (ElementCode{set.code[i]}.h0() == 0) start[maximum_of[i]] = paths.place(tree.event_of_element[i]);
+        if (ElementCode{set.code[i]}.h0() == 0) element[set.up_a[i]] = static_cast<Id>(i);
     }
-    return start;
+    return element;
 }
 
+/// Zones of all voxels and their sizes. The basins become the zones in place.
 template <class T, class Id>
-void make_zones(const GridView<T>& grid, const CriticalSet<Id>& set, std::vector<Id> basin, AnalysisArrays<Id>& arrays, const Context& context) {
-    const HeavyPaths<Id> paths(arrays.tree, set.value);
-    const auto start = starts_of_maxima<Id>(set, set.up_a, arrays.tree, paths);
+void make_zones(const GridView<T>& grid, std::span<const Id> element_of_maximum, BigVector<Id> basin, AnalysisArrays<Id>& arrays, const Context& context) {
+    HeavyPaths<Id> paths(arrays.tree, arrays.value);
+    BigVector<typename HeavyPaths<Id>::Place> start(element_of_maximum.size());
+    for (std::size_t i = 0; i < start.size(); ++i) start[i] = paths.place(arrays.tree.event_of_element[element_of_maximum[i]]);
+    paths.forget_places();
     arrays.voxels.assign(arrays.tree.size(), Id{0});
     const std::int64_t height = slab_height(grid.extent, context), slabs = (grid.extent.size[2] + height - 1) / height;
     for_each_block(context.threads, slabs, [&](std::int64_t i) {
@@ -55,37 +56,38 @@ void make_zones(const GridView<T>& grid, const CriticalSet<Id>& set, std::vector
         label_zones<T, Id>({grid.samples + first, count}, paths, start, std::span<Id>(basin).subspan(first, count), arrays.voxels);
     });
     arrays.zone = std::move(basin);
-    arrays.object_voxels = arrays.voxels;
-    for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
-        if (!arrays.tree.is_root(e)) arrays.object_voxels[arrays.tree.parent[e]] += arrays.object_voxels[e];
-    }
+}
+
+/// Criticality tree, contour tree and genus from the critical elements alone; reads nothing else.
+template <class Id>
+void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
+    BigVector<Id> join, split;
+    run_both(threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
+    set.up_a = {}, set.up_b = {}, set.low_a = {}, set.low_b = {};
+    const bool is_3d = set.rank == 3;
+    const BigVector<std::int8_t> delta = is_3d ? delta_chis(set.code, 3) : BigVector<std::int8_t>();
+    arrays.contours = contour_tree<Id>(join, std::move(split), delta);
+    if (!is_3d) arrays.contours = circles(std::move(arrays.contours));
+    arrays.value = std::move(set.value);
+    arrays.code = std::move(set.code);
+    arrays.level = level_roots<Id>(arrays.contours, arrays.value);
+    arrays.tree = criticality_tree<Id>(join, arrays.level, level_flow<Id>(arrays.contours, arrays.level, arrays.value), arrays.value);
 }
 
 template <class T, class Id>
 std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOptions& options, const Context& context) {
-    Criticals<Id> criticals = GridDomain<T, Id>(grid).critical(context);
-    CriticalSet<Id>& set = criticals.set;
-    context.report("trees", 3, kPhases, 0);
-    std::vector<Id> join, split;
-    run_both(context.threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
-    if (!options.zones) set.up_a = {};
-    set.up_b = {}, set.low_a = {}, set.low_b = {};
-
     auto result = std::make_unique<IndexedArrays<Id>>();
     AnalysisArrays<Id>& arrays = result->arrays;
-    const std::vector<std::int8_t> delta = delta_chis(set);
-    const bool is_3d = grid.is_3d();
-    arrays.contours = contour_tree<Id>(join, std::move(split), is_3d ? std::span<const std::int8_t>(delta) : std::span<const std::int8_t>());
-    if (!is_3d) arrays.contours = circles(std::move(arrays.contours));
-    Levels<Id> levels = contract_levels<Id>(arrays.contours, set.value);
-    arrays.tree = criticality_tree<Id>(join, levels, set.value, delta);
-    arrays.level = std::move(levels.root);
-    join = {};
-    levels = {};
+    Criticals<Id> criticals = GridDomain<T, Id>(grid).critical(context);
+    const BigVector<Id> element_of_maximum = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
+    if (!options.zones) criticals.basin = {};
+    context.report("trees", 3, kPhases, 0);
+    make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);
-    if (options.zones) make_zones(grid, set, std::move(criticals.basin), arrays, context);
-    arrays.value = std::move(set.value);
-    arrays.code = std::move(set.code);
+    // Zones first, then what events do: the largest arrays of both are never held at the same time.
+    if (options.zones) make_zones<T, Id>(grid, element_of_maximum, std::move(criticals.basin), arrays, context);
+    const LevelFlow<Id> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value);
+    arrays.measures = measure_events<Id>(arrays.tree, arrays.level, flow, delta_chis(arrays.code, grid.extent.rank));
     context.report("zones", 4, kPhases, 1);
     return result;
 }

@@ -98,25 +98,26 @@ Event Analysis::event(std::int64_t id) const {
     return data_->visit([&](const auto& held) {
         const auto& arrays = held.arrays;
         const auto& tree = arrays.tree;
+        const auto& measures = arrays.measures;
         const auto& index = held.index();
         const bool is_3d = data_->extent.rank == 3, root = tree.is_root(id), has_zones = !arrays.voxels.empty();
         Event event{};
         event.id = id;
         event.value = arrays.value[tree.top[id]];
         event.position = element_position(ElementCode{arrays.code[tree.top[id]]}, data_->extent);
-        event.kind = tree.kind[id];
+        event.kind = measures.kind[id];
         event.parent = root ? -1 : static_cast<std::int64_t>(tree.parent[id]);
         event.children = std::span(index.children).subspan(index.first_child[id], index.first_child[id + 1] - index.first_child[id]);
         event.objects_in = static_cast<std::int64_t>(event.children.size());
-        event.lows_out = static_cast<std::int64_t>(tree.lows_out[id]);
-        event.delta_chi = tree.delta_chi[id];
+        event.lows_out = static_cast<std::int64_t>(measures.lows_out[id]);
+        event.delta_chi = measures.delta_chi[id];
         event.zone = {root ? -std::numeric_limits<double>::infinity() : arrays.value[tree.top[tree.parent[id]]], event.value,
                       has_zones ? static_cast<std::int64_t>(arrays.voxels[id]) : 0};
-        event.chi = tree.chi[id];
-        event.contours = static_cast<std::int64_t>(tree.contours[id]);
+        event.chi = measures.chi[id];
+        event.contours = static_cast<std::int64_t>(measures.contours[id]);
         event.b2 = is_3d ? event.contours - 1 : 0;
         event.b1 = 1 + event.b2 - event.chi;
-        event.object_voxels = has_zones ? static_cast<std::int64_t>(arrays.object_voxels[id]) : 0;
+        event.object_voxels = has_zones ? static_cast<std::int64_t>(index.object_voxels[id]) : 0;
         return event;
     });
 }

@@ -14,16 +14,14 @@ namespace isoatlas {
 template <class Id>
 struct AnalysisArrays {
     // per critical element, descending
-    std::vector<double> value;
-    std::vector<std::uint64_t> code;
-    std::vector<Id> level;           ///< highest element of its level
+    BigVector<double> value;
+    BigVector<std::uint64_t> code;
+    BigVector<Id> level;             ///< highest element of its level
     ContourTree<Id> contours;        ///< n + 1 nodes, the last is the outside
     CriticalityTree<Id> tree;
-    // per event
-    std::vector<Id> voxels;          ///< of its zone; empty without zones
-    std::vector<Id> object_voxels;   ///< of its object at the low end of the zone
-    // per voxel
-    std::vector<Id> zone;
+    EventMeasures<Id> measures;
+    BigVector<Id> voxels;            ///< per event, of its zone; empty without zones
+    BigVector<Id> zone;              ///< per voxel; empty without zones
 };
 
 /// Compressed lists: the items of i are item[first[i]] .. item[first[i + 1]].
@@ -41,6 +39,7 @@ struct AnalysisIndex {
     Lists<Id> event_levels;                  ///< positions in `levels`, by event
     std::vector<std::int64_t> first_child;   ///< by event
     std::vector<std::int64_t> children;
+    std::vector<Id> object_voxels;           ///< by event: of its object at the low end of the zone; empty without zones
 };
 
 template <class Id>

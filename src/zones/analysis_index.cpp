@@ -38,8 +38,7 @@ std::vector<Id> arcs_with_length(const AnalysisArrays<Id>& arrays) {
     std::vector<Id> arcs;
     for (std::size_t x = 0; x <= n; ++x) {
         if (!tree.has_arc(x)) continue;
-        const std::size_t lower = tree.lower(x);
-        if (lower == n || arrays.value[tree.upper(x)] != arrays.value[lower]) arcs.push_back(static_cast<Id>(x));
+        if (has_length<Id>(tree, arrays.value, x)) arcs.push_back(static_cast<Id>(x));
     }
     std::sort(arcs.begin(), arcs.end(), [&](Id p, Id q) {
         return tree.upper(p) != tree.upper(q) ? tree.upper(p) < tree.upper(q) : tree.lower(p) < tree.lower(q);
@@ -92,6 +91,10 @@ AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays) {
     });
     index.first_child.assign(children.first.begin(), children.first.end());
     index.children.assign(children.item.begin(), children.item.end());
+    index.object_voxels.assign(arrays.voxels.begin(), arrays.voxels.end());
+    for (std::size_t e = 0; e < index.object_voxels.size(); ++e) {
+        if (!arrays.tree.is_root(e)) index.object_voxels[arrays.tree.parent[e]] += index.object_voxels[e];
+    }
     return index;
 }
 

@@ -1,11 +1,15 @@
 #include "zones/label.h"
 
+#include <algorithm>
 #include <atomic>
+#include <vector>
 
 #include "critical/basins.h"
 
 namespace isoatlas {
 namespace {
+
+constexpr std::size_t kBlock = 1024;  // samples that climb together
 
 template <class Id>
 void add(std::span<Id> counts, Id zone, Id count) {
@@ -17,22 +21,27 @@ void add(std::span<Id> counts, Id zone, Id count) {
 template <class T, class Id>
 void label_zones(std::span<const T> samples, const HeavyPaths<Id>& paths, std::span<const typename HeavyPaths<Id>::Place> start,
                  std::span<Id> basin_to_zone, std::span<Id> counts) {
-    Id basin = 0, zone = 0, run = 0;
-    T value{};
-    for (std::size_t v = 0; v < samples.size(); ++v) {
-        const Id next_basin = Basins<Id>::number(basin_to_zone[v]);
-        if (run == 0 || next_basin != basin || samples[v] != value) {  // runs of one value in one basin share the climb
-            basin = next_basin;
-            value = samples[v];
-            const Id next_zone = paths.zone(start[basin], static_cast<double>(value));
-            if (run > 0 && next_zone != zone) {
-                add(counts, zone, run);
+    using Place = typename HeavyPaths<Id>::Place;
+    std::vector<double> value(kBlock);
+    std::vector<Place> place(kBlock);
+    std::vector<std::uint32_t> scratch(kBlock);
+    Id zone = 0, run = 0;
+    for (std::size_t first = 0; first < samples.size(); first += kBlock) {
+        const std::size_t count = std::min(kBlock, samples.size() - first);
+        const std::span<Id> block = basin_to_zone.subspan(first, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            value[i] = static_cast<double>(samples[first + i]);
+            place[i] = start[Basins<Id>::number(block[i])];
+        }
+        paths.zones({value.data(), count}, {place.data(), count}, scratch, block);
+        for (const Id next : block) {
+            if (next != zone) {
+                if (run > 0) add(counts, zone, run);
+                zone = next;
                 run = 0;
             }
-            zone = next_zone;
+            ++run;
         }
-        basin_to_zone[v] = zone;
-        ++run;
     }
     if (run > 0) add(counts, zone, run);
 }

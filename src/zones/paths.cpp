@@ -1,15 +1,16 @@
 #include "zones/paths.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace isoatlas {
 namespace {
 
-/// Per event its heaviest child (most events above; ties: the higher event), the event itself for a leaf.
+/// Per event its heaviest child (most events above it; ties: the higher event), the event itself for a leaf.
 template <class Id>
-std::vector<Id> heavy_children(const CriticalityTree<Id>& tree) {
+BigVector<Id> heavy_children(const CriticalityTree<Id>& tree) {
     const std::size_t n = tree.size();
-    std::vector<Id> weight(n, Id{1}), heavy(n);
+    BigVector<Id> weight(n, Id{1}), heavy(n);
     for (std::size_t e = 0; e < n; ++e) heavy[e] = static_cast<Id>(e);
     for (std::size_t e = 0; e < n; ++e) {  // children before parents
         if (tree.is_root(e)) continue;
@@ -24,21 +25,78 @@ std::vector<Id> heavy_children(const CriticalityTree<Id>& tree) {
 
 template <class Id>
 HeavyPaths<Id>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value)
-    : values_(tree.size()), events_(tree.size()), place_(tree.size()) {
-    const std::vector<Id> heavy = heavy_children(tree);
+    : value_(tree.size()), event_(tree.size()), place_(tree.size()) {
+    const BigVector<Id> heavy = heavy_children(tree);
     Id position = 0;
     for (std::size_t bottom = tree.size(); bottom-- > 0;) {  // parents before children: the place below is known
         const std::size_t parent = tree.parent[bottom];
         const bool root = tree.is_root(bottom);
         if (!root && heavy[parent] == static_cast<Id>(bottom)) continue;
-        const auto path = static_cast<Id>(paths_.size());
-        paths_.push_back({root ? -std::numeric_limits<double>::infinity() : value[tree.top[parent]], root ? Place{} : place_[parent], position});
+        Path path{};
+        path.value_below = root ? -std::numeric_limits<double>::infinity() : value[tree.top[parent]];
+        if (!root) path.below = place_[parent];
+        path.first = position;
         for (std::size_t e = bottom;; e = heavy[e]) {
-            place_[e] = {path, position};
-            events_[position] = static_cast<Id>(e);
-            values_[position++] = value[tree.top[e]];
+            place_[e] = {static_cast<Id>(paths_.size()), position};
+            event_[position] = static_cast<Id>(e);
+            value_[position++] = value[tree.top[e]];
             if (heavy[e] == static_cast<Id>(e)) break;
         }
+        path.count = position - path.first;
+        paths_.push_back(path);
+    }
+    bucket_.resize(tree.size());
+    for (Path& path : paths_) make_buckets(path);
+}
+
+template <class Id>
+void HeavyPaths<Id>::make_buckets(Path& path) {
+    if (path.count < kBucketed) return;
+    path.low = value_[path.first];
+    const double width = value_[path.first + path.count - 1] - path.low;
+    path.scale = static_cast<double>(path.count) / width;
+    if (!(path.scale < std::numeric_limits<double>::max())) path.scale = 0;  // a width that underflows: one bucket
+    Id next = path.first;
+    for (Id p = path.first; p < path.first + path.count; ++p) {
+        const Id last = path.first + static_cast<Id>(bucket(path, value_[p]));
+        while (next <= last) bucket_[next++] = p;
+    }
+    while (next < path.first + path.count) bucket_[next++] = path.first + path.count - 1;
+}
+
+template <class Id>
+std::size_t HeavyPaths<Id>::bucket(const Path& path, double x) {
+    const double b = (x - path.low) * path.scale;  // monotone in x, rounding included: that is all the search needs
+    return b > 0 ? static_cast<std::size_t>(std::min(b, static_cast<double>(path.count - 1))) : 0;
+}
+
+template <class Id>
+void HeavyPaths<Id>::zones(std::span<const double> x, std::span<Place> place, std::span<std::uint32_t> scratch, std::span<Id> zone) const {
+    std::size_t climbing = x.size();
+    for (std::size_t i = 0; i < climbing; ++i) scratch[i] = static_cast<std::uint32_t>(i);
+    while (climbing > 0) {  // one jump for all that still climb
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < climbing; ++k) {
+            const std::uint32_t i = scratch[k];
+            const Path& path = paths_[place[i].path];
+            const bool jump = path.value_below >= x[i];
+            place[i] = jump ? path.below : place[i];
+            scratch[kept] = i;
+            kept += jump;
+        }
+        climbing = kept;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {  // zone[i]: where the search starts
+        const Path& path = paths_[place[i].path];
+        zone[i] = path.count < kBucketed ? path.first : bucket_[path.first + bucket(path, x[i])];
+        scratch[i] = static_cast<std::uint32_t>(std::min<Id>(place[i].position - std::min(zone[i], place[i].position), 8));
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double* stop = value_.data() + zone[i];
+        const double* end = value_.data() + place[i].position;
+        for (std::uint32_t step = scratch[i]; step > 0 && *stop < x[i]; --step) ++stop;
+        if (*stop < x[i]) stop = std::lower_bound(stop, end, x[i]);
+        zone[i] = event_[static_cast<std::size_t>(stop - value_.data())];
     }
 }
 
