@@ -1,0 +1,67 @@
+// Label volumes: the smallest unsigned type that holds the largest label.
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "io/text.h"
+#include "isoatlas/output.h"
+#include "output/volume_file.h"
+
+namespace isoatlas {
+
+namespace {
+
+using output::Packing;
+using output::Put;
+using output::SampleFeed;
+
+constexpr std::size_t kPiece = std::size_t{1} << 16;
+
+template <class T>
+SampleFeed narrowed(std::span<const std::uint32_t> labels) {
+    return [labels](const Put& put) {
+        std::vector<T> piece(std::min(kPiece, labels.size()));
+        for (std::size_t begin = 0; begin < labels.size(); begin += kPiece) {
+            const std::span<const std::uint32_t> part = labels.subspan(begin, std::min(kPiece, labels.size() - begin));
+            std::transform(part.begin(), part.end(), piece.begin(), [](std::uint32_t label) { return static_cast<T>(label); });
+            put(std::as_bytes(std::span<const T>(piece).first(part.size())));
+        }
+    };
+}
+
+ValueType label_type(std::span<const std::uint32_t> labels) {
+    const std::uint32_t largest = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end());
+    if (largest <= std::numeric_limits<std::uint8_t>::max()) return ValueType::u8;
+    return largest <= std::numeric_limits<std::uint16_t>::max() ? ValueType::u16 : ValueType::u32;
+}
+
+SampleFeed feed_of(std::span<const std::uint32_t> labels, ValueType type) {
+    if (type == ValueType::u8) return narrowed<std::uint8_t>(labels);
+    if (type == ValueType::u16) return narrowed<std::uint16_t>(labels);
+    return [labels](const Put& put) { put(std::as_bytes(labels)); };
+}
+
+}  // namespace
+
+void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels) {
+    if (static_cast<std::int64_t>(labels.size()) != info.extent.voxels()) {
+        throw Error(ErrorKind::usage, {.file = path, .what = "the number of labels does not match the extent",
+                                       .expected = std::to_string(info.extent.voxels()) + " labels"});
+    }
+    VolumeInfo header;
+    header.extent = info.extent;
+    header.geometry = info.geometry;
+    header.description = "labels";
+    header.type = label_type(labels);
+    const SampleFeed feed = feed_of(labels, header.type);
+    const auto ends = [&](const char* end) { return io::ends_with_ignoring_case(path, end); };
+    if (ends(".nrrd")) return output::write_nrrd(path, header, feed, Packing::gzip);
+    if (ends(".nii")) return output::write_nifti(path, header, feed, Packing::raw);
+    if (ends(".nii.gz")) return output::write_nifti(path, header, feed, Packing::gzip);
+    if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, header, feed);
+    throw Error(ErrorKind::usage, {.file = path, .what = "the name does not say in which format to write labels",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",
+                                   .next = "change the extension of the output file"});
+}
+
+}  // namespace isoatlas
