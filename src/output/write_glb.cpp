@@ -79,12 +79,15 @@ void put_origin(JsonStream& json, const Surface& surface) {
     surface.unit.empty() ? json.null() : json.value(surface.unit);
 }
 
+std::string part_name(const Scene& scene, const Part& part) {
+    return scene.groups.has_ids ? "object_" + std::to_string(part.group.object) : "surface";
+}
+
 void put_nodes(JsonStream& json, const Scene& scene) {
     json.line().key("nodes").begin_array();
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const Part& part = scene.parts[i];
-        const std::string name = scene.groups.has_ids ? "object_" + std::to_string(part.group.object) : "surface";
-        json.line().begin_object().key("name").value(name).key("mesh").value(i).key("translation").value(part.translation);
+        json.line().begin_object().key("name").value(part_name(scene, part)).key("mesh").value(i).key("translation").value(part.translation);
         json.key("extras").begin_object();
         if (scene.groups.has_ids) json.key("object").value(part.group.object);
         put_origin(json, scene.surface);
@@ -97,7 +100,8 @@ void put_meshes(JsonStream& json, const Scene& scene) {
     const std::size_t each = scene.surface.normals.empty() ? 2 : 3;
     json.line().key("meshes").begin_array();
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        json.line().begin_object().key("primitives").begin_array().begin_object().key("attributes").begin_object();
+        json.line().begin_object().key("name").value(part_name(scene, scene.parts[i]));
+        json.key("primitives").begin_array().begin_object().key("attributes").begin_object();
         json.key("POSITION").value(each * i);
         if (each == 3) json.key("NORMAL").value(each * i + 1);
         json.end_object().key("indices").value(each * i + each - 1).end_object().end_array().end_object();

@@ -1,0 +1,6 @@
+// The PLY parser takes any bytes: an Error or a well-formed mesh.
+#include "fuzz/mesh_target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return fuzz::parse_mesh(isoatlas::output::parse_ply, data, size);
+}
