@@ -1,0 +1,144 @@
+// The theorems of theory.md as statements about the engine's answers, checked against explicit cuts.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+
+#include "oracle/compare.h"
+#include "oracle/volumes.h"
+
+namespace oracle {
+namespace {
+
+struct Subject {
+    Elements elements;
+    isoatlas::Analysis analysis;
+    explicit Subject(const Grid& grid) : elements(grid), analysis(isoatlas::analyse(to_volume(grid))) {}
+
+    template <class Function>
+    void at_every_value(Function&& function) const {
+        for (const double tau : interesting_values(elements)) function(tau, snapshot(elements, elements.cut_at(tau)));
+    }
+};
+
+bool is_inside(double tau, double low, double high) { return low < tau && tau <= high; }
+
+template <class T>
+std::vector<T> sorted(std::vector<T> list) {
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+// T1: #contours = #objects + #lows - 1.
+RC_GTEST_PROP(Theorem, T1_ContoursAreObjectsPlusLowsMinusOne, ()) {
+    const Subject subject(*arbitrary_grid());
+    subject.at_every_value([&](double tau, const Snapshot& s) {
+        Index contours = 0, objects = 0;
+        for (Index i = 0; i < subject.analysis.contour_arc_count(); ++i) {
+            const isoatlas::ContourArc arc = subject.analysis.contour_arc(i);
+            contours += is_inside(tau, arc.value_low, arc.value_high) ? 1 : 0;
+        }
+        for (Index i = 0; i < subject.analysis.event_count(); ++i) {
+            const isoatlas::ZoneRange zone = subject.analysis.event(i).zone;
+            objects += is_inside(tau, zone.tau_low, zone.tau_high) ? 1 : 0;
+        }
+        RC_ASSERT(objects == static_cast<Index>(s.objects.size()));
+        RC_ASSERT(contours == objects + static_cast<Index>(s.lows.size()) - 1);
+    });
+}
+
+// T2: when an element passes, the Euler number of the High set changes by l0 - h0 (2D: saddles -1, extrema +1).
+RC_GTEST_PROP(Theorem, T2_EulerNumberOfEveryCutIsASumOverElements, ()) {
+    const Subject subject(*arbitrary_grid());
+    subject.at_every_value([&](double tau, const Snapshot& s) {
+        Index chi = 0;
+        for (Index i = 0; i < subject.analysis.element_count(); ++i) {
+            const isoatlas::Element e = subject.analysis.element(i);
+            if (e.value < tau) continue;
+            if (subject.elements.grid.rank == 3) chi += e.l0 - e.h0;
+            if (subject.elements.grid.rank == 2) chi += e.h0 == 2 ? -1 : 1;
+        }
+        RC_ASSERT(chi == s.chi_by_cells);
+    });
+}
+
+// T3: in its zone an object has chi = sum of delta_chi over its subtree, b2 = contours - 1, b1 = 1 + b2 - chi = sum of the genera (3D).
+RC_GTEST_PROP(Theorem, T3_ObjectsAreSubtreeSums, ()) {
+    const Subject subject(*arbitrary_grid());
+    const isoatlas::Analysis& a = subject.analysis;
+    std::vector<Index> chi(static_cast<std::size_t>(a.event_count())), genera(chi.size());
+    a.visit_object_contours([&](Index event, std::span<const isoatlas::GenusCount> counts) {
+        for (const isoatlas::GenusCount& c : counts) genera[static_cast<std::size_t>(event)] += c.genus * c.count;
+    });
+    for (Index i = 0; i < a.event_count(); ++i) {
+        const isoatlas::Event e = a.event(i);
+        Index& own = chi[static_cast<std::size_t>(i)];
+        own += e.delta_chi;
+        if (e.parent >= 0) chi[static_cast<std::size_t>(e.parent)] += own;
+        RC_ASSERT(e.chi == own);
+        if (subject.elements.grid.rank == 3) {
+            RC_ASSERT(e.b2 == e.contours - 1);
+            RC_ASSERT(e.b1 == genera[static_cast<std::size_t>(i)]);
+        } else {
+            RC_ASSERT(e.b1 == e.contours - 1);
+            RC_ASSERT(e.b2 == 0);
+        }
+        RC_ASSERT(e.chi == 1 - e.b1 + e.b2);
+        RC_ASSERT((e.parent == -1) == (i == a.event_count() - 1));
+        RC_ASSERT(e.parent == -1 || (e.parent > i && a.event(e.parent).value < e.value));
+    }
+}
+
+// T4: the genus of every contour-tree arc is that of the explicit surface.
+RC_GTEST_PROP(Theorem, T4_GenusOfEveryContour, ()) {
+    const Subject subject(*arbitrary_grid());
+    subject.at_every_value([&](double tau, const Snapshot& s) {
+        std::vector<Index> expected, actual;
+        for (const Contour& c : s.contours) expected.push_back(c.genus);
+        for (Index i = 0; i < subject.analysis.contour_arc_count(); ++i) {
+            const isoatlas::ContourArc arc = subject.analysis.contour_arc(i);
+            if (is_inside(tau, arc.value_low, arc.value_high)) actual.push_back(arc.genus);
+        }
+        RC_ASSERT(sorted(actual) == sorted(expected));
+    });
+}
+
+// T5: sum of genera out - in = m - k - D, summed over the levels of an event (3D).
+RC_GTEST_PROP(Theorem, T5_GenusChangeOfAnEvent, ()) {
+    const Subject subject(*arbitrary_grid());
+    if (subject.elements.grid.rank != 3) return;
+    const isoatlas::Analysis& a = subject.analysis;
+    std::vector<Index> predicted(static_cast<std::size_t>(a.event_count()));
+    for (Index i = 0; i < a.level_count(); ++i) {
+        const isoatlas::Level level = a.level(i);
+        Index change = 0;
+        for (const Index g : level.out) change += g;
+        for (const Index g : level.in) change -= g;
+        RC_ASSERT(level.in.size() != 1 || level.out.size() != 1 || change != 0);  // trivial levels are not listed
+        RC_ASSERT(level.value == a.event(level.event).value);
+        predicted[static_cast<std::size_t>(level.event)] += static_cast<Index>(level.out.size()) - static_cast<Index>(level.in.size()) - change;
+    }
+    for (Index i = 0; i < a.event_count(); ++i) RC_ASSERT(a.event(i).delta_chi == predicted[static_cast<std::size_t>(i)]);
+}
+
+// T6: climbing from the zones of two voxels down to tau meets the same event exactly when the voxels are in one object at tau.
+RC_GTEST_PROP(Theorem, T6_ClimbingFromAZoneFindsTheObject, ()) {
+    const Subject subject(*arbitrary_grid());
+    const isoatlas::Analysis& a = subject.analysis;
+    subject.at_every_value([&](double tau, const Snapshot& s) {
+        std::vector<Index> event_of(s.objects.size(), -1);
+        for (Index v = 0; v < subject.elements.grid.voxels(); ++v) {
+            if (s.object_of[v] < 0) continue;
+            Index event = a.zone(v);
+            while (a.event(event).zone.tau_low >= tau) event = a.event(event).parent;
+            Index& expected = event_of[s.object_of[v]];
+            if (expected < 0) expected = event;
+            RC_ASSERT(event == expected);
+        }
+        const std::vector<Index> events = sorted(event_of);
+        RC_ASSERT(std::adjacent_find(events.begin(), events.end()) == events.end());
+    });
+}
+
+}  // namespace
+}  // namespace oracle
