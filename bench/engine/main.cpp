@@ -21,7 +21,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-    Sources sources{"bench-cache", ""};
+    Sources sources{"build/bench/volumes", ""};
     std::string json;
     Options options;
     bool growth = false;
