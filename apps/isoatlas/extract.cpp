@@ -63,6 +63,20 @@ void check_arguments(const Arguments& arguments) {
     check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
 }
 
+/// Ids are voxel indices: one beyond the volume is no object, whatever the isovalue.
+void check_ids(const Arguments& arguments, const Volume& volume) {
+    for (const std::vector<std::int64_t>* ids : {&arguments.objects, &arguments.contours}) {
+        for (const std::int64_t id : *ids) {
+            if (id >= 0 && id < volume.info.extent.voxels()) continue;
+            throw Error(ErrorKind::not_found,
+                        {.file = arguments.file,
+                         .what = fmt::format("there is no {} {}", ids == &arguments.objects ? "object" : "contour", id),
+                         .expected = fmt::format("a voxel index, 0 to {}", volume.info.extent.voxels() - 1),
+                         .next = "isoatlas objects " + shell_word(arguments.file) + " lists them"});
+        }
+    }
+}
+
 struct Counts {
     std::int64_t points, triangles, segments, objects, contours;
     bool closed;
@@ -114,6 +128,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Session session(arguments, terminal);
     const Volume volume = session.load();
+    check_ids(arguments, volume);
     const Context context = session.context();
     ExtractOptions options{.interpolant = arguments.interpolant,
                            .boundary = arguments.boundary,

@@ -24,7 +24,9 @@ Volume random_volume(int rank) {
 }
 
 void expect_all_hold(const Volume& volume) {
-    for (const CheckResult& check : verify_volume(volume, 9, {.threads = 1})) {
+    Context context;
+    context.threads = 1;
+    for (const CheckResult& check : verify_volume(volume, 9, context)) {
         if (!check.holds) RC_FAIL(check.name + ": " + check.detail);
     }
 }
@@ -95,7 +97,7 @@ TEST_F(Damaged, AWrongVoxelCountIsFound) {
 }
 
 TEST_F(Damaged, AWrongEulerNumberIsFound) {
-    ++arrays().tree.chi[5];
+    ++arrays().measures.chi[5];
     EXPECT_FALSE(euler_sums_hold(analysis_).holds);
 }
 
