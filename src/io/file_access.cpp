@@ -46,7 +46,7 @@ std::unique_ptr<FileHandle> open_system_file(const std::string& path) {
     struct stat status{};
     if (::stat(path.c_str(), &status) != 0) cannot_open(path, errno);
     if (S_ISDIR(status.st_mode)) {
-        throw Error(ErrorKind::input, {.file = path, .what = "is a directory", .expected = "a file"});
+        throw Error(ErrorKind::input, {.file = path, .what = "is a directory", .expected = "a file", .next = "name a file inside it"});
     }
     if (!S_ISREG(status.st_mode)) {  // a pipe would block and cannot go back
         throw Error(ErrorKind::input,

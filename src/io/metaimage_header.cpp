@@ -8,10 +8,15 @@ namespace {
 
 constexpr std::string_view kLastField = "elementdatafile";
 
+/// Where the name of a line ends; npos when it has none.
+std::size_t name_end(std::string_view line) {
+    const std::size_t at = line.find('=');
+    return at == std::string_view::npos ? line.find(':') : at;
+}
+
 /// Name and value of a line "Name = value" (or "Name : value"), the name in lower case; an empty name when it is no such line.
 std::pair<std::string, std::string> split_field(std::string_view line) {
-    std::size_t at = line.find('=');
-    if (at == std::string_view::npos) at = line.find(':');
+    const std::size_t at = name_end(line);
     if (at == std::string_view::npos) return {};
     return {lower(trim(line.substr(0, at))), std::string(trim(line.substr(at + 1)))};
 }
@@ -34,6 +39,7 @@ void parse_line(MetaHeader& header, std::string_view line, int number) {
                                        .expected = "'Name = value'",
                                        .next = "the header is damaged: get the file again"});
     }
+    header.spelling.emplace(name, trim(line.substr(0, name_end(line))));
     if (!header.fields.emplace(name, std::move(value)).second) header.fail(ErrorKind::input, name, "the field appears twice", "one value");
 }
 
@@ -41,7 +47,8 @@ void parse_line(MetaHeader& header, std::string_view line, int number) {
 
 void MetaHeader::fail(ErrorKind kind, const std::string& field, const std::string& what, const std::string& expected,
                       const std::string& next) const {
-    throw Error(kind, {.file = path, .where = "field " + field, .what = what, .expected = expected, .next = next});
+    const auto found = spelling.find(field);
+    throw Error(kind, {.file = path, .where = "field " + (found == spelling.end() ? field : found->second), .what = what, .expected = expected, .next = next});
 }
 
 std::string MetaHeader::text(const std::string& field) const {
@@ -61,7 +68,7 @@ bool MetaHeader::flag(const std::string& field, bool otherwise) const {
     const std::string value = lower(text(field));
     if (value == "true" || value == "t" || value == "1" || value == "yes") return true;
     if (value == "false" || value == "f" || value == "0" || value == "no") return false;
-    fail(ErrorKind::input, field, "is " + quoted(value), "True or False");
+    fail(ErrorKind::input, field, "is " + quoted(text(field)), "True or False");
 }
 
 std::int64_t MetaHeader::integer(const std::string& field, std::int64_t otherwise) const {

@@ -14,6 +14,7 @@ namespace isoatlas::io {
 struct MetaHeader {
     std::string path;
     std::map<std::string, std::string> fields;  ///< names in lower case
+    std::map<std::string, std::string> spelling;  ///< the names as the file has them, for messages
     std::vector<std::string> listed_files;      ///< lines behind ElementDataFile = LIST
     std::int64_t data_offset = 0;               ///< local data begin here
 

@@ -103,7 +103,7 @@ TEST(SharedData, CalibrationAndGeometryAreRead) {
     const auto avf = open_volume(kData + "avf/original/avf_float_32.nrrd");
     EXPECT_EQ(avf->info().geometry.space, "LPS");
     EXPECT_EQ(avf->info().geometry.direction, (Mat3{{{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}}));
-    EXPECT_EQ(avf->info().geometry.spacing, (Vec3{0.7226560114815209, 0.7226560114815209, 1}));
+    EXPECT_EQ(avf->info().geometry.spacing, (Vec3{0.7226560115814209, 0.7226560115814209, 1}));
 }
 
 TEST(SharedData, NegativeSlopeIsApplied) {
