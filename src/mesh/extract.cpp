@@ -40,7 +40,7 @@ private:
     /// Calls visit(y, z) for all rows of points, slab by slab.
     template <class Visit>
     void for_rows(const Phase& phase, Visit&& visit) {
-        for_each_slab(context_, phase, domain_.rows_z(), [&](const Slab& slab) {
+        for_each_slab(context_, phase, {domain_.rows_z(), grid_.extent.slice()}, [&](const Slab& slab) {
             for (std::int64_t z = domain_.z_begin + slab.z_begin; z < domain_.z_begin + slab.z_end; ++z) {
                 for (std::int64_t y = domain_.y_begin; y <= domain_.y_end; ++y) visit(y, z);
             }

@@ -85,7 +85,7 @@ void find_extremes(const GridView<T>& grid, const Context& context, Components& 
             if (high || components.of_run[row.first_run + i] != 0) visit(row, i, high);
         }
     };
-    for_each_slab(context, {"objects", 1, 3}, grid.extent.size[2], [&](const Slab& slab) {
+    for_each_slab(context, {"objects", 1, 3}, {grid.extent.size[2], grid.extent.slice()}, [&](const Slab& slab) {
         for (std::int64_t r = slab.z_begin * ny; r < slab.z_end * ny; ++r) {
             for_runs(r, [&](const RunRow& row, std::int64_t i, bool high) {
                 const std::int64_t begin = row.change[i - 1] - 1, end = row.change[i] - 1;

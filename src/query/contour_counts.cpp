@@ -78,7 +78,7 @@ void count_3d(const GridView<T>& grid, double tau, const HighBits& high, const C
               ContourCounts& counts) {
     const FaceJoiner<T> joiner(grid, tau);
     std::atomic<std::int64_t> active{0};
-    for_each_slab(context, {"contours", 2, 3}, grid.extent.size[2] + 1, [&](const Slab& slab) {
+    for_each_slab(context, {"contours", 2, 3}, {grid.extent.size[2] + 1, grid.extent.slice()}, [&](const Slab& slab) {
         Tally tally(counts);
         std::int64_t cells = 0;
         for (std::int64_t z = slab.z_begin - 1; z < slab.z_end - 1; ++z) {

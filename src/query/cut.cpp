@@ -85,7 +85,7 @@ void label_voxels(const Components& components, const std::vector<std::int64_t>&
     std::vector<std::int32_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = static_cast<std::int32_t>(i);
     label.assign(static_cast<std::size_t>(extent.voxels()), -1);
-    for_each_slab(context, {"labels", 2, 3}, extent.size[2], [&](const Slab& slab) {
+    for_each_slab(context, {"labels", 2, 3}, {extent.size[2], extent.slice()}, [&](const Slab& slab) {
         for (std::int64_t r = slab.z_begin * extent.size[1]; r < slab.z_end * extent.size[1]; ++r) {
             const RunRow row = components.runs.row(r);
             const auto voxels = label.begin() + r * extent.size[0] - 1;  // position p is voxel p - 1

@@ -34,7 +34,7 @@ Runs find_runs(const HighBits& high, const Context& context) {
     Runs runs{extent, std::vector<std::int64_t>(static_cast<std::size_t>(extent.size[1] * extent.size[2] + 1)), {}};
     const std::int64_t ny = extent.size[1];
     const auto for_rows = [&](auto&& visit) {
-        for_each_slab(context, {"objects", 1, 3}, extent.size[2], [&](const Slab& slab) {
+        for_each_slab(context, {"objects", 1, 3}, {extent.size[2], extent.slice()}, [&](const Slab& slab) {
             for (std::int64_t r = slab.z_begin * ny; r < slab.z_end * ny; ++r) visit(r, high.row(r % ny, r / ny));
         });
     };

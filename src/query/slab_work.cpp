@@ -16,15 +16,17 @@ void stop_if_cancelled(const Context& context) {
 
 }  // namespace
 
-std::int64_t slab_height(const Context& context, std::int64_t slices) {
+std::int64_t slab_height(const Context& context, const Slices& slices) {
     if (context.slab_slices > 0) return context.slab_slices;
+    constexpr std::int64_t kLeastVoxels = 1 << 15;
     const std::int64_t slabs = 8 * static_cast<std::int64_t>(thread_count(context.threads));
-    return std::clamp<std::int64_t>((slices + slabs - 1) / slabs, 1, 64);
+    const std::int64_t shared = std::clamp<std::int64_t>((slices.count + slabs - 1) / slabs, 1, 64);
+    return std::max(shared, kLeastVoxels / std::max<std::int64_t>(slices.voxels, 1));
 }
 
-void for_each_slab(const Context& context, const Phase& phase, std::int64_t slices, const std::function<void(const Slab&)>& work) {
+void for_each_slab(const Context& context, const Phase& phase, const Slices& slices, const std::function<void(const Slab&)>& work) {
     const std::int64_t height = slab_height(context, slices);
-    const std::int64_t slabs = (slices + height - 1) / height;
+    const std::int64_t slabs = (slices.count + height - 1) / height;
     const std::thread::id caller = std::this_thread::get_id();
     std::atomic<std::int64_t> done{0};
     context.report(phase.name, phase.index, phase.count, 0);
@@ -32,7 +34,7 @@ void for_each_slab(const Context& context, const Phase& phase, std::int64_t slic
     for_each_block(context.threads, slabs, [&](std::int64_t i) {
         const bool is_caller = std::this_thread::get_id() == caller;
         if (is_caller) stop_if_cancelled(context);
-        work(slab_at(i, height, slices));
+        work(slab_at(i, height, slices.count));
         const std::int64_t finished = ++done;
         if (is_caller) context.report(phase.name, phase.index, phase.count, static_cast<double>(finished) / static_cast<double>(slabs));
     });

@@ -14,11 +14,17 @@ struct Phase {
     int index, count;
 };
 
-/// Height of a slab: what the context says, or a few slabs for each thread.
-[[nodiscard]] std::int64_t slab_height(const Context& context, std::int64_t slices);
+/// Slices of equal size.
+struct Slices {
+    std::int64_t count;
+    std::int64_t voxels;  ///< of one slice
+};
 
-/// Runs work on the slabs that cover [0, slices). Progress is reported, and cancellation polled, by the calling thread only.
+/// Height of a slab: what the context says, or a few slabs for each thread, none too small to be worth a thread.
+[[nodiscard]] std::int64_t slab_height(const Context& context, const Slices& slices);
+
+/// Runs work on the slabs that cover all slices. Progress is reported, and cancellation polled, by the calling thread only.
 /// Throws Error{cancelled}, or what work throws.
-void for_each_slab(const Context& context, const Phase& phase, std::int64_t slices, const std::function<void(const Slab&)>& work);
+void for_each_slab(const Context& context, const Phase& phase, const Slices& slices, const std::function<void(const Slab&)>& work);
 
 }  // namespace isoatlas

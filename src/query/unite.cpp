@@ -78,7 +78,7 @@ RunSets unite_runs(const Volume& volume, double tau, const HighBits& high, const
         using T = typename decltype(samples)::value_type;
         const GridView<T> grid{samples.data(), volume.info.extent};
         RunJoiner<T> joiner(grid, tau, high, runs, sets);
-        const std::int64_t slices = grid.extent.size[2];
+        const Slices slices{grid.extent.size[2], grid.extent.slice()};
         // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.
         for_each_slab(context, {"objects", 1, 3}, slices, [&](const Slab& slab) {
             for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
@@ -87,7 +87,7 @@ RunSets unite_runs(const Volume& volume, double tau, const HighBits& high, const
             }
         });
         const std::int64_t height = slab_height(context, slices);
-        for (std::int64_t z = height; z < slices; z += height) joiner.join_upwards(z - 1);
+        for (std::int64_t z = height; z < slices.count; z += height) joiner.join_upwards(z - 1);
     });
     return sets;
 }
