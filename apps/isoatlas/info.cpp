@@ -85,11 +85,12 @@ std::string vector_text(const Vec3& v, int rank) {
 
 void print_geometry(std::ostream& out, const VolumeInfo& info) {
     const Geometry& geometry = info.geometry;
-    const std::string unit = geometry.unit.empty() ? "  (the file names no unit)" : " " + geometry.unit;
+    const std::string unit = geometry.unit.empty() ? "" : " " + geometry.unit;
+    const std::string no_unit = geometry.unit.empty() ? "  (the file names no unit)" : "";
     Vec3 size{};
     for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = geometry.spacing[axis] * static_cast<double>(info.extent.size[axis]);
     if (geometry.coordinates[0].empty()) {
-        out << "spacing      " << vector_text(geometry.spacing, info.extent.rank) << unit << '\n';
+        out << "spacing      " << vector_text(geometry.spacing, info.extent.rank) << unit << no_unit << '\n';
         out << "size         " << vector_text(size, info.extent.rank) << unit << '\n';
     } else {
         out << "spacing      rectilinear: one coordinate per sample and axis" << unit << '\n';

@@ -82,7 +82,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, const Volu
                 {"note", true}});
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
-        text.add({fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.text(entry.appears), scale.text(entry.merges),
+        text.add({fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears), scale.brief(entry.merges),
                   best_tau_text(entry, analysis, scale), count_text(entry.voxels), fmt::format("{:.4g}", entry.measure * unit.factor),
                   dashed(entry.tunnels), dashed(entry.cavities), entry.note});
     }

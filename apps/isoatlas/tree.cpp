@@ -65,7 +65,7 @@ void print_largest_zones(Terminal& terminal, const Volume& volume, const Analysi
         stack.pop_back();
         const Event event = analysis.event(id);
         table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(event.kind), id),
-                   scale.text(event.zone.tau_high), event.parent < 0 ? "bottom" : scale.text(event.zone.tau_low),
+                   scale.brief(event.zone.tau_high), event.parent < 0 ? "bottom" : scale.brief(event.zone.tau_low),
                    count_text(event.zone.voxels), count_text(event.object_voxels), count_text(event.b1), count_text(event.b2)});
         const auto& children = below[id];
         stack.insert(stack.end(), children.rbegin(), children.rend());
@@ -83,7 +83,7 @@ void print_levels(Terminal& terminal, const Volume& volume, const Analysis& anal
     const std::int64_t shown = std::min(kShown, analysis.level_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const Level level = analysis.level(id);
-        table.add({fmt::format("{}", id), scale.text(level.value), fmt::format("{}", level.event), genera_text(level.in),
+        table.add({fmt::format("{}", id), scale.brief(level.value), fmt::format("{}", level.event), genera_text(level.in),
                    genera_text(level.out)});
     }
     table.print(terminal);
@@ -96,7 +96,7 @@ void print_elements(Terminal& terminal, const Volume& volume, const Analysis& an
     const std::int64_t shown = std::min(kShown, analysis.element_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const Element element = analysis.element(id);
-        table.add({fmt::format("{}", id), scale.text(element.value), position_text(element.position), fmt::format("{}", element.h0),
+        table.add({fmt::format("{}", id), scale.brief(element.value), position_text(element.position), fmt::format("{}", element.h0),
                    fmt::format("{}", element.l0)});
     }
     table.print(terminal);
@@ -109,8 +109,8 @@ void print_contours(Terminal& terminal, const Volume& volume, const Analysis& an
     const std::int64_t shown = std::min(kShown, analysis.contour_arc_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const ContourArc arc = analysis.contour_arc(id);
-        table.add({fmt::format("{}", id), scale.text(arc.value_high),
-                   arc.lower == analysis.element_count() ? "bottom" : scale.text(arc.value_low), fmt::format("{}", arc.genus)});
+        table.add({fmt::format("{}", id), scale.brief(arc.value_high),
+                   arc.lower == analysis.element_count() ? "bottom" : scale.brief(arc.value_low), fmt::format("{}", arc.genus)});
     }
     table.print(terminal);
     print_rest(terminal, analysis.contour_arc_count(), shown);

@@ -29,8 +29,13 @@ double Scale::stored(double reported) const {
 std::string Scale::text(double stored) const {
     if (std::isinf(stored)) return "never";
     if (!calibration_.is_identity()) return seven_digits(calibration_.reported(stored));
-    if (type_ == ValueType::f32) return fmt::format("{}", static_cast<float>(stored) + 0.0F);
+    if (type_ == ValueType::f32 && stored == static_cast<double>(static_cast<float>(stored))) return fmt::format("{}", static_cast<float>(stored) + 0.0F);
     return fmt::format("{}", stored + 0.0);
+}
+
+std::string Scale::brief(double stored) const {
+    const std::string exact = text(stored);
+    return exact.size() <= 10 ? exact : seven_digits(calibration_.reported(stored));
 }
 
 std::string Scale::text_within(double stored, double low, double high) const {

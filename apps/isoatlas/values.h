@@ -20,6 +20,8 @@ public:
 
     /// Shortest text that means this value again; infinities: "never".
     [[nodiscard]] std::string text(double stored) const;
+    /// For tables: as text(), but never more than about nine characters.
+    [[nodiscard]] std::string brief(double stored) const;
     /// The shortest text of a value in (low, high] near `stored`: nothing changes between low and high.
     [[nodiscard]] std::string text_within(double stored, double low, double high) const;
 
