@@ -39,4 +39,10 @@ struct BigAllocator {
 template <class T>
 using BigVector = std::vector<T, BigAllocator<T>>;
 
+/// Empties a vector and gives its memory back (`v = {}` keeps it).
+template <class T>
+void release(BigVector<T>& vector) {
+    BigVector<T>().swap(vector);
+}
+
 }  // namespace isoatlas

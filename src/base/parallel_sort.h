@@ -58,7 +58,7 @@ void bucket_sort(int threads, BigVector<T>& items, const Key& key, const Before&
         const auto [begin, end] = block_range(block);
         for (std::size_t i = begin; i < end; ++i) sorted[place[block * buckets + bucket[i]]++] = items[i];
     });
-    items = {};
+    release(items);
     for_each_block(threads, static_cast<std::int64_t>(buckets),
                    [&](std::int64_t b) { std::sort(sorted.begin() + first[b], sorted.begin() + first[b + 1], before); });
     items.swap(sorted);

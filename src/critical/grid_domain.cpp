@@ -16,11 +16,15 @@ void stop_if_cancelled(const Context& context) {
     if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
 }
 
-/// Critical elements in raster order with what they lead to: {up_a, up_b, low_a, low_b}.
+/// Critical elements in raster order with what they lead to: {up_a, up_b, low_a, low_b}; in chunks of at most SlabScan::kChunk.
+/// Element i of chunk c is number c * kChunk + i: numbers have gaps but ascend in raster order.
 template <class Id>
 struct RasterElements {
-    BigVector<KeyedElement> element;
-    BigVector<std::array<Id, 4>> leads_to;
+    static constexpr std::size_t kChunk = SlabScan::kChunk;
+    std::vector<BigVector<KeyedElement>> element;
+    std::vector<BigVector<std::array<Id, 4>>> leads_to;
+
+    [[nodiscard]] const KeyedElement& element_of(Id number) const { return element[number / kChunk][number % kChunk]; }
 };
 
 /// Where the surroundings of a critical element lead (theory.md section 4, step 2).
@@ -87,31 +91,38 @@ CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int
         double value;
         Id raster;
     };
-    const std::size_t n = raster.element.size();
+    std::vector<std::size_t> first{0};  // place of the first element of each chunk
+    for (const auto& chunk : raster.element) first.push_back(first.back() + chunk.size());
+    const std::size_t n = first.back();
+    const auto chunks = static_cast<std::int64_t>(raster.element.size());
     BigVector<Entry> order(n);
+    for_each_block(threads, chunks, [&](std::int64_t c) {
+        for (std::size_t i = 0; i < raster.element[c].size(); ++i) {
+            order[first[c] + i] = {raster.element[c][i].value, static_cast<Id>(c * RasterElements<Id>::kChunk + i)};
+        }
+    });
+    bucket_sort(threads, order, [](const Entry& entry) { return -entry.value; }, [&](const Entry& p, const Entry& q) {
+        if (p.value != q.value) return p.value > q.value;
+        return above(raster.element_of(p.raster), raster.element_of(q.raster));
+    });
     constexpr std::size_t kBlock = 1 << 16;
-    const auto blocks = static_cast<std::int64_t>((n + kBlock - 1) / kBlock);
     const auto for_each = [&](auto&& work) {
-        for_each_block(threads, blocks, [&](std::int64_t b) {
+        for_each_block(threads, static_cast<std::int64_t>((n + kBlock - 1) / kBlock), [&](std::int64_t b) {
             for (std::size_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) work(i);
         });
     };
-    for_each([&](std::size_t i) { order[i] = {raster.element[i].value, static_cast<Id>(i)}; });
-    bucket_sort(threads, order, [](const Entry& entry) { return -entry.value; }, [&](const Entry& p, const Entry& q) {
-        if (p.value != q.value) return p.value > q.value;
-        return above(raster.element[p.raster], raster.element[q.raster]);
-    });
     CriticalSet<Id> set;
     set.value.resize(n);
     set.code.resize(n);
     for_each([&](std::size_t i) {
         set.value[i] = order[i].value;
-        set.code[i] = raster.element[order[i].raster].code.bits;
+        set.code[i] = raster.element_of(order[i].raster).code.bits;
     });
-    raster.element = {};
+    raster.element.clear();
     for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
     for_each([&](std::size_t i) {
-        const std::array<Id, 4>& leads = raster.leads_to[order[i].raster];
+        const Id number = order[i].raster;
+        const std::array<Id, 4>& leads = raster.leads_to[number / raster.kChunk][number % raster.kChunk];
         set.up_a[i] = leads[0], set.up_b[i] = leads[1], set.low_a[i] = leads[2], set.low_b[i] = leads[3];
     });
     return set;
@@ -140,30 +151,27 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
     });
 
     Criticals<Id> result;
-    std::vector<std::int64_t> first_maximum(slabs), first_minimum(slabs), first_element(slabs);
-    std::int64_t elements = 0;
+    std::vector<std::int64_t> first_maximum(slabs), first_minimum(slabs);
+    RasterElements<Id> raster;
     for (std::int64_t i = 0; i < slabs; ++i) {
-        first_maximum[i] = result.set.maxima, first_minimum[i] = result.set.minima, first_element[i] = elements;
+        first_maximum[i] = result.set.maxima, first_minimum[i] = result.set.minima;
         result.set.maxima += scans[i].maxima, result.set.minima += scans[i].minima;
-        elements += static_cast<std::int64_t>(scans[i].elements.size());
+        for (BigVector<KeyedElement>& chunk : scans[i].chunks) raster.element.push_back(std::move(chunk));
     }
+    scans.clear();
     stop_if_cancelled(context);
     context.report("basins", 1, kPhases, 0);
     result.basin = resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
     BigVector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
 
-    RasterElements<Id> raster{BigVector<KeyedElement>(elements), BigVector<std::array<Id, 4>>(elements)};
+    raster.leads_to.resize(raster.element.size());
     const Representatives<Id> representatives(extent, links, result.basin, down);
-    for_each_block(context.threads, slabs, [&](std::int64_t slab) {
-        std::int64_t i = first_element[slab];
-        for (const KeyedElement& element : scans[slab].elements) {
-            raster.element[i] = element;
-            raster.leads_to[i++] = representatives.of(element.code);
-        }
-        scans[slab].elements = {};
+    for_each_block(context.threads, static_cast<std::int64_t>(raster.element.size()), [&](std::int64_t c) {
+        raster.leads_to[c].resize(raster.element[c].size());
+        for (std::size_t i = 0; i < raster.element[c].size(); ++i) raster.leads_to[c][i] = representatives.of(raster.element[c][i].code);
     });
-    links = {};
-    down = {};
+    release(links);
+    release(down);
     stop_if_cancelled(context);
     context.report("sort", 2, kPhases, 0);
     const std::int64_t maxima = result.set.maxima, minima = result.set.minima;

@@ -98,7 +98,7 @@ private:
     void vertex(std::int64_t voxel, VertexType type, SlabScan& out) const {
         out.maxima += type.h0 == 0;
         out.minima += type.l0 == 0;
-        out.elements.push_back({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0)});
+        out.add({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0)});
     }
 
     void faces_of_voxel(std::int64_t voxel, std::uint8_t faces, std::uint8_t high, SlabScan& out) const {
@@ -124,7 +124,7 @@ private:
             if (static_cast<double>(v[low]) == s) tie = low + 1;
         }
         if (!bd_high && static_cast<double>(v[1]) == s && static_cast<double>(v[3]) == s) tie = 4;  // d lies behind b
-        out.elements.push_back({s, ElementCode::face(3 * voxel + orientation, tie, bd_high, h0, l0)});
+        out.add({s, ElementCode::face(3 * voxel + orientation, tie, bd_high, h0, l0)});
     }
 
     const GridView<T>& grid_;

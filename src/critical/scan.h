@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/big_vector.h"
 #include "field/grid.h"
@@ -14,8 +15,14 @@
 namespace isoatlas {
 
 struct SlabScan {
-    BigVector<KeyedElement> elements;  ///< critical elements owned by the slab
-    std::int64_t maxima = 0, minima = 0; ///< how many of them have no upper / no lower link
+    static constexpr std::size_t kChunk = std::size_t{1} << 18;   ///< a list that grows without copying nor reserve
+    std::vector<BigVector<KeyedElement>> chunks;                   ///< critical elements owned by the slab; all but the last are full
+    std::int64_t maxima = 0, minima = 0;                           ///< how many of them have no upper / no lower link
+
+    void add(const KeyedElement& element) {
+        if (chunks.empty() || chunks.back().size() == kChunk) chunks.emplace_back();
+        chunks.back().push_back(element);
+    }
 };
 
 /// links: one byte per voxel of the slab (critical/links.h). Reads the slices [z_begin - 1, z_end] that exist.

@@ -63,7 +63,7 @@ template <class Id>
 void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     BigVector<Id> join, split;
     run_both(threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
-    set.up_a = {}, set.up_b = {}, set.low_a = {}, set.low_b = {};
+    for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) release(*field);
     const bool is_3d = set.rank == 3;
     const BigVector<std::int8_t> delta = is_3d ? delta_chis(set.code, 3) : BigVector<std::int8_t>();
     arrays.contours = contour_tree<Id>(join, std::move(split), delta);
@@ -80,7 +80,7 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     AnalysisArrays<Id>& arrays = result->arrays;
     Criticals<Id> criticals = GridDomain<T, Id>(grid).critical(context);
     const BigVector<Id> element_of_maximum = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
-    if (!options.zones) criticals.basin = {};
+    if (!options.zones) release(criticals.basin);
     context.report("trees", 3, kPhases, 0);
     make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);

@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] Place place(std::size_t event) const { return place_[event]; }
     /// Gives back the memory of place().
-    void forget_places() { place_ = {}; }
+    void forget_places() { release(place_); }
 
     /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to place[i], the event e on the way down from
     /// there with value(parent(e)) < x <= value(e). Requires x[i] <= value(place[i]). place is scratch. In rounds over all samples, so that
