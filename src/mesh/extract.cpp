@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 
 #include "base/parallel.h"
@@ -13,6 +14,14 @@ namespace {
 
 constexpr int kPhases = 3;
 
+/// Must triangles (segments) turn the other way round than in voxel coordinates? A 2D image is seen from +z where it can be.
+bool is_mirrored(const VolumeInfo& info) {
+    const Mat3& m = info.geometry.direction;
+    const double in_plane = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (info.extent.rank == 2 && std::abs(in_plane) > 1e-12) return in_plane < 0;
+    return handedness(info.geometry) < 0;
+}
+
 template <class T>
 class Extraction {
 public:
@@ -25,7 +34,7 @@ public:
           components_(components),
           domain_(high, options.boundary),
           map_(volume.info.geometry, volume.info.extent),
-          flip_(handedness(volume.info.geometry) < 0),
+          flip_(is_mirrored(volume.info)),
           cells_(grid_, tau, domain_, options.style, flip_) {}
 
     void run(Surface& surface) {

@@ -71,7 +71,9 @@ RC_GTEST_PROP(Mesh2d, CurvesAreTheContoursOfTheCut, ()) {
 RC_GTEST_PROP(Mesh2d, OpenCurvesEndAtTheBorder, ()) {
     const Grid grid = arbitrary_image();
     const Elements elements(grid);
-    const Surface surface = isoatlas::extract(to_volume(grid), arbitrary_tau(elements), {.boundary = Boundary::open}, arbitrary_context());
+    isoatlas::ExtractOptions options;
+    options.boundary = Boundary::open;
+    const Surface surface = isoatlas::extract(to_volume(grid), arbitrary_tau(elements), options, arbitrary_context());
     if (grid.size[0] == 1 || grid.size[1] == 1) {
         RC_ASSERT(surface.points.empty() && surface.segments.empty());
         return;
