@@ -87,8 +87,6 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
     return std::make_unique<SkippedSource>(std::move(inflated), plan.inflated_skip);
 }
 
-std::string part_path(const PayloadPlan& plan, std::int64_t part) { return beside(plan.header_path, plan.files.name(part)); }
-
 [[noreturn]] void bad_part(const std::string& path, std::int64_t holds, std::int64_t wanted) {
     throw Error(ErrorKind::input, {.file = path,
                                    .what = "the data file holds " + std::to_string(holds) + " bytes of samples at most",
@@ -100,7 +98,7 @@ std::string part_path(const PayloadPlan& plan, std::int64_t part) { return besid
 std::int64_t check_parts(const PayloadPlan& plan, std::int64_t part_bytes) {
     std::int64_t bound = 0;
     for (std::int64_t part = 0; part < plan.files.count(); ++part) {
-        const std::unique_ptr<ByteSource> source = open_one(plan, part_path(plan, part), part_bytes);
+        const std::unique_ptr<ByteSource> source = open_one(plan, data_file_path(plan, part), part_bytes);
         const std::int64_t holds = source->size_bound();
         if (holds < part_bytes) bad_part(source->file(), holds, part_bytes);
         bound += part_bytes;
@@ -109,6 +107,17 @@ std::int64_t check_parts(const PayloadPlan& plan, std::int64_t part_bytes) {
 }
 
 }  // namespace
+
+std::string data_file_path(const PayloadPlan& plan, std::int64_t i) {
+    const std::string name = plan.files.name(i);
+    if (printable(name) != name) {
+        throw Error(ErrorKind::input, {.file = plan.header_path,
+                                       .what = "the name of a data file contains control bytes: " + quoted(name),
+                                       .expected = "a file name",
+                                       .next = "the header is damaged: get the file again"});
+    }
+    return beside(plan.header_path, name);
+}
 
 std::int64_t DataFiles::count() const {
     if (pattern.empty()) return static_cast<std::int64_t>(names.size());
@@ -149,7 +158,7 @@ DataFiles parse_series(const std::string& header_path, const std::string& where,
 std::unique_ptr<ByteSource> open_payload(const PayloadPlan& plan) {
     const std::int64_t count = plan.files.count();
     if (count == 0) return open_one(plan, plan.header_path, plan.sample_bytes);
-    if (count == 1) return open_one(plan, part_path(plan, 0), plan.sample_bytes);
+    if (count == 1) return open_one(plan, data_file_path(plan, 0), plan.sample_bytes);
     if (plan.sample_bytes % count != 0 || plan.sample_bytes / count % static_cast<std::int64_t>(size_of(plan.type)) != 0) {
         throw Error(ErrorKind::input, {.file = plan.header_path,
                                        .what = "its " + std::to_string(count) + " data files do not divide the samples evenly",
@@ -162,13 +171,13 @@ std::unique_ptr<ByteSource> open_payload(const PayloadPlan& plan) {
                               .part_bytes = part_bytes,
                               .size_bound = bound,
                               .random_access = plan.encoding == Encoding::raw,
-                              .open = [plan, part_bytes](std::int64_t part) { return open_one(plan, part_path(plan, part), part_bytes); },
+                              .open = [plan, part_bytes](std::int64_t part) { return open_one(plan, data_file_path(plan, part), part_bytes); },
                               .file = plan.header_path});
 }
 
 std::int64_t bytes_on_disk(const PayloadPlan& plan) {
     std::int64_t bytes = file_size(plan.header_path);
-    for (std::int64_t part = 0; part < plan.files.count(); ++part) bytes += file_size(part_path(plan, part));
+    for (std::int64_t part = 0; part < plan.files.count(); ++part) bytes += file_size(data_file_path(plan, part));
     return bytes;
 }
 

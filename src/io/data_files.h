@@ -42,6 +42,8 @@ struct PayloadPlan {
     std::int64_t sample_bytes = 0;      ///< of all files together, decoded
 };
 
+/// Path of data file i. Throws Error{input} for names with control bytes, which no sound header has and no terminal should get.
+[[nodiscard]] std::string data_file_path(const PayloadPlan& plan, std::int64_t i);
 /// Opens the payload; looks at every data file of a raw plan, at none beyond its size in other plans.
 /// Throws Error{input}: missing or short data files, files that do not divide the samples evenly.
 [[nodiscard]] std::unique_ptr<ByteSource> open_payload(const PayloadPlan& plan);

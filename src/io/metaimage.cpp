@@ -94,7 +94,7 @@ void read_geometry(const MetaHeader& header, std::size_t dimensions, VolumeInfo&
     }
     info.geometry.space = is_oriented(header.text("anatomicalorientation")) ? "LPS" : "unknown";
     const std::string unit = header.text("distanceunits");
-    info.geometry.unit = unit == "?" ? std::string() : unit;
+    info.geometry.unit = unit == "?" ? std::string() : printable(unit);
 }
 
 DataFiles data_files(const MetaHeader& header) {
@@ -205,10 +205,10 @@ std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const Open
     std::copy_n(sizes.begin(), info.extent.rank, info.extent.size.begin());
     read_geometry(header, sizes.size(), info);
     set_calibration(info, header.number("elementtointensityfunctionslope", 1), header.number("elementtointensityfunctionoffset", 0));
-    info.description = header.text("comment");
+    info.description = printable(header.text("comment"));
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
     const PayloadPlan plan = payload_plan(header, encoding, info.type, sample_bytes(path, info.extent, info.type, step.count));
-    if (plan.files.count() > 0) info.data_file = beside(path, plan.files.name(0));
+    if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
     check_compressed_size(header, plan, info);
     std::unique_ptr<ByteSource> source = open_payload(plan);
     info.file_bytes = bytes_on_disk(plan);

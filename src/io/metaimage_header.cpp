@@ -39,7 +39,7 @@ void parse_line(MetaHeader& header, std::string_view line, int number) {
                                        .expected = "'Name = value'",
                                        .next = "the header is damaged: get the file again"});
     }
-    header.spelling.emplace(name, trim(line.substr(0, name_end(line))));
+    header.spelling.emplace(name, printable(trim(line.substr(0, name_end(line)))));
     if (!header.fields.emplace(name, std::move(value)).second) header.fail(ErrorKind::input, name, "the field appears twice", "one value");
 }
 

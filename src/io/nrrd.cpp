@@ -128,8 +128,8 @@ VolumeInfo describe_volume(const NrrdHeader& header, const NrrdAxes& axes, const
     for (std::size_t i = 0; i < axes.spatial.size(); ++i) info.extent.size[i] = axes.sizes[axes.spatial[i]];
     read_nrrd_geometry(header, axes, info);
     set_calibration(info, key_value(header, "calibration_slope", 1), key_value(header, "calibration_intercept", 0));
-    info.value_unit = header.text("sample units");
-    info.description = header.text("content");
+    info.value_unit = printable(header.text("sample units"));
+    info.description = printable(header.text("content"));
     return info;
 }
 
@@ -150,7 +150,7 @@ std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptio
     const TimeStep step = choose_time_step(path, options, axes.volumes);
     const PayloadPlan plan = payload_plan(header, encoding.encoding, info.type, sample_bytes(path, info.extent, info.type, step.count));
     std::unique_ptr<ByteSource> source = open_payload(plan);
-    if (plan.files.count() > 0) info.data_file = beside(path, plan.files.name(0));
+    if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
     info.file_bytes = bytes_on_disk(plan);
     return make_sample_reader(std::move(info), std::move(source), step);
 }

@@ -54,7 +54,7 @@ std::string space_name(const NrrdHeader& header) {
     for (const auto& [name, short_name] : kNames) {
         if (lower(text) == name) return std::string(short_name);
     }
-    return text.empty() ? "unknown" : text;
+    return text.empty() ? "unknown" : printable(text);
 }
 
 /// Units of lengths: those of the axes used, when they agree.
@@ -146,9 +146,9 @@ NrrdAxes choose_nrrd_axes(const NrrdHeader& header, std::vector<std::string>& no
         } else if (kinds[axis] == "list" && axis + 1 == axes.sizes.size() && kept.size() == 3) {
             kept.push_back(axis);  // a list of volumes is a series as well
         } else if (axes.sizes[axis] != 1) {
-            several_values(header, axis, kinds[axis]);
+            several_values(header, axis, quoted(kinds[axis]));
         } else {
-            notes.push_back("axis " + std::to_string(axis) + " (" + kinds[axis] + ") has one entry and was dropped");
+            notes.push_back("axis " + std::to_string(axis) + " (" + printable(kinds[axis]) + ") has one entry and was dropped");
         }
     }
     while (kept.size() > 4 && axes.sizes[kept.back()] == 1) kept.pop_back();
@@ -171,7 +171,7 @@ NrrdAxes choose_nrrd_axes(const NrrdHeader& header, std::vector<std::string>& no
 
 void read_nrrd_geometry(const NrrdHeader& header, const NrrdAxes& axes, VolumeInfo& info) {
     info.geometry.space = space_name(header);
-    info.geometry.unit = length_unit(header, axes, info.notes);
+    info.geometry.unit = printable(length_unit(header, axes, info.notes));
     if (header.has("space directions")) {
         read_oriented(header, axes, info);
     } else {

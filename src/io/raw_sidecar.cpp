@@ -58,7 +58,7 @@ Vec3 read_vector(const std::string& path, const std::string& key, const Json& va
 
 std::string read_text(const std::string& path, const std::string& key, const Json& value) {
     if (!value.is_string()) fail(path, key, "a text");
-    return value.get<std::string>();
+    return printable(value.get<std::string>());
 }
 
 bool read_big_endian(const std::string& path, const Json& value) {

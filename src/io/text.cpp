@@ -54,10 +54,16 @@ bool ends_with_ignoring_case(std::string_view text, std::string_view end) {
     return text.size() >= end.size() && lower(text.substr(text.size() - end.size())) == lower(end);
 }
 
+std::string printable(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if ((c >= 0 && c < ' ') || c == 127) c = '?';
+    }
+    return result;
+}
+
 std::string quoted(std::string_view text) {
-    std::string result = "'";
-    for (const char c : text.substr(0, kLongestQuote)) result += c < ' ' || c == 127 ? '?' : c;
-    return result + (text.size() > kLongestQuote ? "...'" : "'");
+    return "'" + printable(text.substr(0, kLongestQuote)) + (text.size() > kLongestQuote ? "...'" : "'");
 }
 
 std::string beside(const std::string& path, std::string_view name) {

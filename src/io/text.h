@@ -15,7 +15,9 @@ namespace isoatlas::io {
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);  ///< nothing: not an integer or out of range
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);         ///< also nan and inf
 [[nodiscard]] bool ends_with_ignoring_case(std::string_view text, std::string_view end);
-/// The text shortened and with control bytes replaced, fit to be shown in a message.
+/// The text with control bytes replaced by '?': header texts are shown on terminals.
+[[nodiscard]] std::string printable(std::string_view text);
+/// The text in quotes, shortened and with control bytes replaced, fit to be shown in a message.
 [[nodiscard]] std::string quoted(std::string_view text);
 /// `name` beside `path`: names are relative to the folder of the header that contains them.
 [[nodiscard]] std::string beside(const std::string& path, std::string_view name);

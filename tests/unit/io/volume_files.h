@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_access.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas::test {
@@ -44,6 +45,36 @@ public:
 
 private:
     std::filesystem::path path_;
+};
+
+/// A file whose content is in memory: for tests that read many thousand variants of it. The name must exist on disk as well.
+class FileInMemory final : public io::FileHandle {
+public:
+    explicit FileInMemory(const std::string& content) : content_(content) {}
+    std::int64_t size() const override { return static_cast<std::int64_t>(content_.size()); }
+    std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
+        if (offset >= size()) return 0;
+        const std::size_t count = std::min(out.size(), content_.size() - static_cast<std::size_t>(offset));
+        std::memcpy(out.data(), content_.data() + offset, count);
+        return static_cast<std::ptrdiff_t>(count);
+    }
+
+private:
+    std::string content_;
+};
+
+/// While it lives, `path` has this content; other files are what they are.
+class Replaced {
+public:
+    Replaced(const std::string& path, const std::string& content) {
+        io::replace_file_opener([=](const std::string& opened) -> std::unique_ptr<io::FileHandle> {
+            if (opened == path) return std::make_unique<FileInMemory>(content);
+            return io::open_system_file(opened);
+        });
+    }
+    Replaced(const Replaced&) = delete;
+    Replaced& operator=(const Replaced&) = delete;
+    ~Replaced() { io::replace_file_opener({}); }
 };
 
 /// zlib's windowBits: 15 for zlib, 31 for gzip.
