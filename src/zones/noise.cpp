@@ -1,0 +1,74 @@
+#include "zones/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kSamples = 1'000'000;
+
+double at_fraction(std::vector<double>& values, double fraction) {
+    if (values.empty()) return 0;
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+/// Every stride-th voxel, an odd stride so that no axis is favoured.
+std::int64_t stride_for(std::int64_t voxels) { return std::max<std::int64_t>(1, voxels / kSamples) | 1; }
+
+template <class T>
+double second_differences(std::span<const T> samples, const Extent& extent) {
+    std::vector<double> differences;
+    for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride_for(extent.voxels())) {
+        const std::int64_t x = i % extent.size[0];
+        if (x == 0 || x + 1 == extent.size[0]) continue;
+        differences.push_back(std::abs(static_cast<double>(samples[i - 1]) - 2 * static_cast<double>(samples[i]) + static_cast<double>(samples[i + 1])));
+    }
+    return at_fraction(differences, 0.5) / (0.6745 * std::sqrt(6.0));
+}
+
+template <class T>
+double local_variance(std::span<const T> samples, const Extent& extent, std::int64_t i) {
+    const std::array<std::int64_t, 3> p = extent.voxel(i);
+    std::array<std::int64_t, 3> low{}, high{};
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::max<std::int64_t>(0, p[axis] - 1);
+        high[axis] = std::min(extent.size[axis] - 1, p[axis] + 1);
+    }
+    double count = 0, mean = 0, squares = 0;
+    for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+        for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+            for (std::int64_t x = low[0]; x <= high[0]; ++x) {  // Welford
+                const double value = static_cast<double>(samples[extent.index(x, y, z)]);
+                const double delta = value - mean;
+                mean += delta / ++count;
+                squares += delta * (value - mean);
+            }
+        }
+    }
+    return squares / count;
+}
+
+template <class T>
+double quiet_places(std::span<const T> samples, const Extent& extent) {
+    std::vector<double> variances;
+    for (std::int64_t i = 0; i < extent.voxels(); i += 8 * stride_for(extent.voxels()) | 1) {
+        const double variance = local_variance(samples, extent, i);
+        if (variance > 0) variances.push_back(variance);
+    }
+    return std::sqrt(at_fraction(variances, 0.2));
+}
+
+}  // namespace
+
+double estimate_noise(const Volume& volume) {
+    return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        const double quantum = std::is_floating_point_v<T> ? 0 : 1 / std::sqrt(12.0);
+        return std::max({second_differences(samples, volume.info.extent), quiet_places(samples, volume.info.extent), quantum});
+    });
+}
+
+}  // namespace isoatlas
