@@ -18,6 +18,8 @@ std::string members(const Json& json) {
     return text;
 }
 
+Json or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
 Json volume_json(const VolumeInfo& info) {
     Json json{{"path", info.path},
               {"format", info.format},
@@ -31,6 +33,8 @@ Json volume_json(const VolumeInfo& info) {
     json["direction"] = info.geometry.direction;
     if (!info.geometry.coordinates[0].empty()) json["coordinates"] = info.geometry.coordinates;
     json["space"] = info.geometry.space;
+    json["unit"] = or_null(info.geometry.unit);
+    json["value_unit"] = or_null(info.value_unit);
     json["calibration"] = {{"slope", info.calibration.slope}, {"intercept", info.calibration.intercept}};
     json["notes"] = info.notes;
     return json;
@@ -43,7 +47,7 @@ Json document(const std::string& name) { return {{"schema", "isoatlas/" + name +
 Json document(const std::string& name, const VolumeInfo& info) {
     Json json = document(name);
     json["volume"] = volume_json(info);
-    json["units"] = {{"length", info.geometry.unit}, {"measure", plain_measure_unit(info)}, {"value", info.value_unit}};
+    json["units"] = {{"length", or_null(info.geometry.unit)}, {"measure", plain_measure_unit(info)}, {"value", or_null(info.value_unit)}};
     return json;
 }
 

@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include <exception>
+
 #include "document.h"
 #include "terminal.h"
 
@@ -8,22 +10,14 @@ namespace {
 
 const char* kind_name(ErrorKind kind) {
     switch (kind) {
-        case ErrorKind::internal:
-            return "internal";
-        case ErrorKind::usage:
-            return "usage";
-        case ErrorKind::input:
-            return "input";
-        case ErrorKind::unsupported:
-            return "unsupported";
-        case ErrorKind::resource:
-            return "resource";
-        case ErrorKind::not_found:
-            return "not_found";
-        case ErrorKind::verification:
-            return "verification";
-        case ErrorKind::cancelled:
-            return "cancelled";
+        case ErrorKind::internal: return "internal";
+        case ErrorKind::usage: return "usage";
+        case ErrorKind::input: return "input";
+        case ErrorKind::unsupported: return "unsupported";
+        case ErrorKind::resource: return "resource";
+        case ErrorKind::not_found: return "not_found";
+        case ErrorKind::verification: return "verification";
+        case ErrorKind::cancelled: return "cancelled";
     }
     return "internal";
 }
@@ -50,7 +44,7 @@ int report(const Error& error, bool json, Terminal& terminal) {
     try {
         print(terminal, document_of_error);
         terminal.finish();
-    } catch (const Error&) {
+    } catch (const std::exception&) {
         // Standard output is what failed: the message above has said so.
     }
     return code;

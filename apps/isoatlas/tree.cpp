@@ -119,18 +119,10 @@ void print_contours(Terminal& terminal, const Volume& volume, const Analysis& an
 void print_summary(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
     print_counts(terminal, analysis);
     switch (arguments.detail) {
-        case TreeDetail::events:
-            print_largest_zones(terminal, volume, analysis);
-            break;
-        case TreeDetail::levels:
-            print_levels(terminal, volume, analysis);
-            break;
-        case TreeDetail::elements:
-            print_elements(terminal, volume, analysis);
-            break;
-        case TreeDetail::contours:
-            print_contours(terminal, volume, analysis);
-            break;
+        case TreeDetail::events: print_largest_zones(terminal, volume, analysis); break;
+        case TreeDetail::levels: print_levels(terminal, volume, analysis); break;
+        case TreeDetail::elements: print_elements(terminal, volume, analysis); break;
+        case TreeDetail::contours: print_contours(terminal, volume, analysis); break;
     }
     const std::string file = shell_word(arguments.file) + reading_options(arguments);
     terminal.next("isoatlas objects " + file + "    # which of them matter");
@@ -139,14 +131,10 @@ void print_summary(Terminal& terminal, const Arguments& arguments, const Volume&
 
 const char* detail_name(TreeDetail detail) {
     switch (detail) {
-        case TreeDetail::events:
-            return "events";
-        case TreeDetail::levels:
-            return "levels";
-        case TreeDetail::elements:
-            return "elements";
-        case TreeDetail::contours:
-            return "contours";
+        case TreeDetail::events: return "events";
+        case TreeDetail::levels: return "levels";
+        case TreeDetail::elements: return "elements";
+        case TreeDetail::contours: return "contours";
     }
     return "events";
 }

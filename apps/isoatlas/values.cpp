@@ -29,7 +29,8 @@ double Scale::stored(double reported) const {
 std::string Scale::text(double stored) const {
     if (std::isinf(stored)) return "never";
     if (!calibration_.is_identity()) return seven_digits(calibration_.reported(stored));
-    if (type_ == ValueType::f32 && stored == static_cast<double>(static_cast<float>(stored))) return fmt::format("{}", static_cast<float>(stored) + 0.0F);
+    if (type_ == ValueType::f32 && stored == static_cast<double>(static_cast<float>(stored)))
+        return fmt::format("{}", static_cast<float>(stored) + 0.0F);
     return fmt::format("{}", stored + 0.0);
 }
 
