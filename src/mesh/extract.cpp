@@ -5,6 +5,7 @@
 #include "isoatlas/surface.h"
 #include "mesh/cells.h"
 #include "mesh/hits.h"
+#include "mesh/huge_pages.h"
 #include "mesh/selection.h"
 #include "mesh/squares.h"
 #include "query/slab_work.h"
@@ -73,10 +74,10 @@ private:
     void allocate(Surface& surface) const {
         const auto points = static_cast<std::size_t>(layout_.back().point), simplices = static_cast<std::size_t>(layout_.back().triangle);
         for_each_block(context_.threads, 4, [&](std::int64_t array) {
-            if (array == 0) domain_.is_2d() ? surface.segments.resize(simplices) : surface.triangles.resize(simplices);
-            if (array == 1) surface.points.resize(points);
-            if (array == 2 && options_.normals) surface.normals.resize(points);
-            if (array == 3 && components_ != nullptr) surface.contour.resize(points);
+            if (array == 0) domain_.is_2d() ? resize_fresh(surface.segments, simplices) : resize_fresh(surface.triangles, simplices);
+            if (array == 1) resize_fresh(surface.points, points);
+            if (array == 2 && options_.normals) resize_fresh(surface.normals, points);
+            if (array == 3 && components_ != nullptr) resize_fresh(surface.contour, points);
         });
     }
 

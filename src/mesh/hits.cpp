@@ -25,16 +25,16 @@ typename HitWriter<T>::Stencil HitWriter<T>::stencil(std::int64_t y, std::int64_
             grid_.row(y + (y + 1 < size[1]), z),
             grid_.row(y, z - (z > 0)),
             grid_.row(y, z + (z + 1 < size[2])),
-            map_.inverse_distance(1)[y],
-            map_.inverse_distance(2)[z]};
+            static_cast<Real>(map_.inverse_distance(1)[y]),
+            static_cast<Real>(map_.inverse_distance(2)[z])};
 }
 
 template <class T>
-Vec3 HitWriter<T>::slope(const Stencil& around, std::int64_t x) const {
+inline std::array<typename HitWriter<T>::Real, 3> HitWriter<T>::slope(const Stencil& around, std::int64_t x) const {
     const std::int64_t low = x - (x > 0), high = x + (x + 1 < grid_.extent.size[0]);
-    return {(static_cast<double>(around.row[high]) - static_cast<double>(around.row[low])) * map_.inverse_distance(0)[x],
-            (static_cast<double>(around.y_high[x]) - static_cast<double>(around.y_low[x])) * around.y_scale,
-            (static_cast<double>(around.z_high[x]) - static_cast<double>(around.z_low[x])) * around.z_scale};
+    return {(static_cast<Real>(around.row[high]) - static_cast<Real>(around.row[low])) * static_cast<Real>(map_.inverse_distance(0)[x]),
+            (static_cast<Real>(around.y_high[x]) - static_cast<Real>(around.y_low[x])) * around.y_scale,
+            (static_cast<Real>(around.z_high[x]) - static_cast<Real>(around.z_low[x])) * around.z_scale};
 }
 
 template <class T>
@@ -48,8 +48,9 @@ inline void HitWriter<T>::write_inner(const Stencil& from, std::int64_t x, const
     position[axis] += t;
     surface_.points[point] = map_.point(position);
     if (surface_.normals.empty()) return;
-    const Vec3 s = slope(from, x), e = slope(to, other_x);
-    const Vec3 mean{s[0] + t * (e[0] - s[0]), s[1] + t * (e[1] - s[1]), s[2] + t * (e[2] - s[2])};
+    const std::array<Real, 3> s = slope(from, x), e = slope(to, other_x);
+    const auto u = static_cast<Real>(t);
+    const std::array<Real, 3> mean{s[0] + u * (e[0] - s[0]), s[1] + u * (e[1] - s[1]), s[2] + u * (e[2] - s[2])};
     surface_.normals[point] = map_.normal(mean, axis, a > b ? 1 : -1);
 }
 
@@ -58,7 +59,7 @@ void HitWriter<T>::write_border(const Vec3& position, int axis, double sign, std
     Vec3 outside = position;
     outside[axis] += sign * kHitMargin;
     surface_.points[point] = map_.point(outside);
-    if (!surface_.normals.empty()) surface_.normals[point] = map_.normal({0, 0, 0}, axis, sign);
+    if (!surface_.normals.empty()) surface_.normals[point] = map_.normal(Vec3{0, 0, 0}, axis, sign);
 }
 
 template <class T>

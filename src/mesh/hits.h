@@ -1,6 +1,8 @@
 // The hits: points of the surface on the edges of the grid, with normals.
 #pragma once
 
+#include <type_traits>
+
 #include "field/grid.h"
 #include "mesh/layout.h"
 #include "mesh/physical_map.h"
@@ -19,13 +21,16 @@ public:
     void write_row(std::int64_t y, std::int64_t z, const RowPlace& place) const;
 
 private:
+    /// What normals are computed in: differences of small samples are exact, or good enough, in float.
+    using Real = std::conditional_t<(sizeof(T) < 4 || std::is_same_v<T, float>), float, double>;
+
     /// The samples around the voxels of one row, for central differences (one-sided at the border).
     struct Stencil {
         const T *row, *y_low, *y_high, *z_low, *z_high;
-        double y_scale, z_scale;
+        Real y_scale, z_scale;
     };
     [[nodiscard]] Stencil stencil(std::int64_t y, std::int64_t z) const;
-    [[nodiscard]] Vec3 slope(const Stencil& around, std::int64_t x) const;
+    [[nodiscard]] std::array<Real, 3> slope(const Stencil& around, std::int64_t x) const;
     /// The hit between the voxels at x and other_x of two rows.
     void write_inner(const Stencil& from, std::int64_t x, const Stencil& to, std::int64_t other_x, int axis, const Vec3& start,
                      std::int64_t point) const;

@@ -59,20 +59,17 @@ PhysicalMap::PhysicalMap(const Geometry& geometry, const Extent& extent)
     for (int axis = 0; axis < 3; ++axis) inverse_distance_[axis] = inverse_distances(geometry, axis, extent.size[axis]);
 }
 
-std::array<float, 3> PhysicalMap::normal(const Vec3& slope, int axis, double sign) const {
-    const Vec3 gradient = multiply(normals_, slope);
-    const double squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
-    if (squared > 1e-280 && squared < 1e280) {
-        const double scale = -1 / std::sqrt(squared);
-        return {static_cast<float>(gradient[0] * scale), static_cast<float>(gradient[1] * scale), static_cast<float>(gradient[2] * scale)};
-    }
+std::array<float, 3> PhysicalMap::rare_normal(Vec3 slope, int axis, double sign) const {
     const double largest = std::max({std::abs(slope[0]), std::abs(slope[1]), std::abs(slope[2])});
-    Vec3 unit_slope{};
-    unit_slope[axis] = -sign;
-    if (std::isfinite(largest) && largest > 0 && std::isfinite(1 / largest)) {  // very large or very small values: the direction is still right
-        for (int a = 0; a < 3; ++a) unit_slope[a] = slope[a] / largest;
+    if (largest > 0 && std::isfinite(largest) && std::isfinite(slope[0] + slope[1] + slope[2])) {
+        for (double& s : slope) s /= largest;
+    } else {
+        slope = {};
+        slope[axis] = -sign;
     }
-    return normal(unit_slope, axis, sign);
+    const Vec3 gradient = multiply(normals_, slope);
+    const double scale = -1 / std::hypot(gradient[0], gradient[1], gradient[2]);
+    return {static_cast<float>(gradient[0] * scale), static_cast<float>(gradient[1] * scale), static_cast<float>(gradient[2] * scale)};
 }
 
 }  // namespace isoatlas

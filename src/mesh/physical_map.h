@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -28,10 +29,24 @@ public:
     [[nodiscard]] const double* inverse_distance(int axis) const { return inverse_distance_[axis].data(); }
 
     /// Unit normal towards lower values. slope: change of the value per unit of length along each axis. When it is zero or not finite,
-    /// the normal is that of a value that falls along `axis` in the direction `sign`.
-    [[nodiscard]] std::array<float, 3> normal(const Vec3& slope, int axis, double sign) const;
+    /// the normal is that of a value that falls along `axis` in the direction `sign`. Real: float is enough for small sample types.
+    template <class Real>
+    [[nodiscard]] std::array<float, 3> normal(const std::array<Real, 3>& slope, int axis, double sign) const {
+        std::array<Real, 3> g;
+        for (int row = 0; row < 3; ++row) {
+            g[row] = static_cast<Real>(normals_[row][0]) * slope[0] + static_cast<Real>(normals_[row][1]) * slope[1] +
+                     static_cast<Real>(normals_[row][2]) * slope[2];
+        }
+        const Real squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+        if (!(squared > Real(1e-25) && squared < Real(1e25))) return rare_normal({slope[0], slope[1], slope[2]}, axis, sign);
+        const Real scale = Real(-1) / std::sqrt(squared);
+        return {static_cast<float>(g[0] * scale), static_cast<float>(g[1] * scale), static_cast<float>(g[2] * scale)};
+    }
 
 private:
+    /// For slopes that are zero, not finite, or too large or too small to be squared.
+    [[nodiscard]] std::array<float, 3> rare_normal(Vec3 slope, int axis, double sign) const;
+
     const Geometry& geometry_;
     bool rectilinear_;
     Mat3 matrix_;   ///< voxel steps to physical steps

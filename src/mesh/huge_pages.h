@@ -1,0 +1,20 @@
+// Room for large results in huge pages where the system offers them: fewer page faults while the arrays are filled for the first time.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace isoatlas {
+
+/// Asks for huge pages in a range of fresh memory; does nothing where that is not possible.
+void prefer_huge_pages(void* memory, std::size_t bytes);
+
+/// v.resize(count) for an empty vector.
+template <class T>
+void resize_fresh(std::vector<T>& v, std::size_t count) {
+    v.reserve(count);
+    prefer_huge_pages(v.data(), count * sizeof(T));
+    v.resize(count);
+}
+
+}  // namespace isoatlas
