@@ -1,6 +1,11 @@
 #include "critical/faces.h"
 
 #include <algorithm>
+#include <bit>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace isoatlas {
 namespace {
@@ -49,13 +54,30 @@ bool face_above_face(const CellElements& cell, int g, int f) {
     return g2 != f2 ? g2 > f2 : face_number(cell, g) > face_number(cell, f);
 }
 
-int corners_above_face(const CellElements& cell, int f) {
-    const double s = cell.face_value[f];
-    int above = 0, equal = 0;
-    for (int k = 0; k < 8; ++k) {
-        above |= (cell.value[k] > s) << k;
-        equal |= (cell.value[k] == s) << k;
+struct Comparison {
+    int above, equal;  // bit k: corner k
+};
+
+Comparison compare_corners(const std::array<double, 8>& value, double s) {
+    Comparison result{0, 0};
+#ifdef __SSE2__
+    const __m128d threshold = _mm_set1_pd(s);
+    for (int k = 0; k < 8; k += 2) {
+        const __m128d pair = _mm_load_pd(value.data() + k);
+        result.above |= _mm_movemask_pd(_mm_cmpgt_pd(pair, threshold)) << k;
+        result.equal |= _mm_movemask_pd(_mm_cmpeq_pd(pair, threshold)) << k;
     }
+#else
+    for (int k = 0; k < 8; ++k) {
+        result.above |= (value[k] > s) << k;
+        result.equal |= (value[k] == s) << k;
+    }
+#endif
+    return result;
+}
+
+int corners_above_face(const CellElements& cell, int f) {
+    auto [above, equal] = compare_corners(cell.value, cell.face_value[f]);
     if (equal == 0) return above;
     const std::int64_t key = second_key(cell, f);
     for (int k = 0; k < 8; ++k) {
@@ -80,16 +102,17 @@ bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std
     return any_set(faces);
 }
 
-std::uint8_t default_face_types(const CellElements& cell) {
+std::uint8_t default_face_types(const CellElements& cell, const CellTable& table) {
     std::uint8_t types = 0;
     for (int f = 0; f < 6; ++f) {
         if (cell.diagonal[f] == Diagonal::none) continue;
         const int above = corners_above_face(cell, f);
-        int joined = 0;
-        for (int g = 0; g < 6; ++g) {
-            if (g != f && cell.diagonal[g] != Diagonal::none && face_is_split(above, g) && face_above_face(cell, g, f)) joined |= 1 << g;
+        int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
+        for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {
+            const int g = std::countr_zero(others);
+            joined |= face_above_face(cell, g, f) << g;
         }
-        types |= static_cast<std::uint8_t>(highs_joined(above, joined) & 1 << f);
+        types |= static_cast<std::uint8_t>(table.highs_joined[64 * above + joined] & 1 << f);
     }
     return types;
 }

@@ -28,7 +28,7 @@ bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std
 
 /// A cell with all it takes to classify its ambiguous faces: corner values and voxels, face values.
 struct CellElements {
-    std::array<double, 8> value;        ///< of corner k
+    alignas(16) std::array<double, 8> value;  ///< of corner k
     std::array<std::int64_t, 8> voxel;  ///< of corner k
     std::array<Diagonal, 6> diagonal;   ///< Highs of face f; none: not ambiguous
     std::array<double, 6> face_value;   ///< disambiguation value of an ambiguous face
@@ -36,6 +36,6 @@ struct CellElements {
 
 /// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this
 /// cell by elements above F; clear = type L, the Lows are joined below.
-std::uint8_t default_face_types(const CellElements& cell);
+std::uint8_t default_face_types(const CellElements& cell, const CellTable& table = cell_table());
 
 }  // namespace isoatlas

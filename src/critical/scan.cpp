@@ -65,7 +65,7 @@ private:
             cell.face_value[f] =
                 disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], cell.diagonal[f]);
         }
-        const int types = default_face_types(cell);
+        const int types = default_face_types(cell, table_);
         high[i] += static_cast<std::uint8_t>((types & 1) | (types >> 2 & 1) << 2 | (types >> 4 & 1) << 4);
         high_next[i] += static_cast<std::uint8_t>(types >> 1 & 1);
         high[i + n] += static_cast<std::uint8_t>((types >> 3 & 1) << 2);
@@ -75,6 +75,7 @@ private:
     const GridView<T>& grid_;
     GridSteps steps_;
     std::array<std::int64_t, 8> offset_;
+    const CellTable& table_ = cell_table();
     Bytes any_;
 };
 

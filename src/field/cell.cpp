@@ -1,7 +1,6 @@
 #include "field/cell.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace isoatlas {
 namespace {
@@ -14,16 +13,21 @@ void unite(std::array<std::uint8_t, 8>& region, int a, int b) {
     }
 }
 
-std::vector<std::uint8_t> make_highs_joined() {
-    std::vector<std::uint8_t> table(256 * 64, 0);
+bool same_region(int pattern, int joined, int f) {
+    const std::array<std::uint8_t, 8> region = cell_regions(pattern, joined & ~(1 << f));
+    const std::array<int, 4>& c = kFaceCorners[f];
+    const int high = pattern >> c[0] & 1 ? 0 : 1;
+    return region[c[high]] == region[c[high + 2]];
+}
+
+CellTable make_cell_table() {
+    CellTable table{};
     for (int pattern = 0; pattern < 256; ++pattern) {
-        for (int joined = 0; joined < 64; ++joined) {
-            for (int f = 0; f < 6; ++f) {
-                if (!face_is_split(pattern, f)) continue;
-                const std::array<std::uint8_t, 8> region = cell_regions(pattern, joined & ~(1 << f));
-                const std::array<int, 4>& c = kFaceCorners[f];
-                const int high = pattern >> c[0] & 1 ? 0 : 1;
-                if (region[c[high]] == region[c[high + 2]]) table[pattern * 64 + joined] |= static_cast<std::uint8_t>(1 << f);
+        for (int f = 0; f < 6; ++f) {
+            if (!face_is_split(pattern, f)) continue;
+            table.split[pattern] |= static_cast<std::uint8_t>(1 << f);
+            for (int joined = 0; joined < 64; ++joined) {
+                if (same_region(pattern, joined, f)) table.highs_joined[64 * pattern + joined] |= static_cast<std::uint8_t>(1 << f);
             }
         }
     }
@@ -49,9 +53,9 @@ std::array<std::uint8_t, 8> cell_regions(int pattern, int joined) {
     return region;
 }
 
-std::uint8_t highs_joined(int pattern, int joined) {
-    static const std::vector<std::uint8_t> table = make_highs_joined();
-    return table[pattern * 64 + joined];
+const CellTable& cell_table() {
+    static const CellTable table = make_cell_table();
+    return table;
 }
 
 }  // namespace isoatlas

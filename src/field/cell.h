@@ -65,8 +65,13 @@ constexpr bool face_is_split(int pattern, int f) {
 /// Theory: theory.md T1. Body points will add regions joined through the interior.
 std::array<std::uint8_t, 8> cell_regions(int pattern, int joined);
 
-/// highs_joined(pattern, joined): bit f set when f is split by the pattern and the Highs of f lie in one region of the cell,
-/// counting the given joined bits except f's own. A table of 256 x 64 entries, made once.
-std::uint8_t highs_joined(int pattern, int joined);
+/// What default face types are looked up in; 256 patterns, made once.
+struct CellTable {
+    /// Bit f: face f is split by the pattern.
+    std::array<std::uint8_t, 256> split;
+    /// [64 * pattern + joined] bit f: f is split and its Highs lie in one region of the cell, counting the joined bits except f's own.
+    std::array<std::uint8_t, 256 * 64> highs_joined;
+};
+const CellTable& cell_table();
 
 }  // namespace isoatlas

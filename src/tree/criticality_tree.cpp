@@ -25,13 +25,13 @@ BigVector<Id> group_bottoms(std::span<const Id> join, std::span<const double> va
 
 /// Numbers the groups with a non-trivial level by their highest element. event[b]: at bottoms of such groups.
 template <class Id>
-BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, const LevelFlow<Id>& flow, CriticalityTree<Id>& tree) {
+BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, CriticalityTree<Id>& tree) {
     const std::size_t n = bottom.size();
     constexpr Id kKept = kNone<Id> - 1;  // to be numbered
     BigVector<Id> event(n, kNone<Id>);
     std::size_t events = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        if (level[i] != static_cast<Id>(i) || flow.is_trivial(i)) continue;
+        if (level[i] != static_cast<Id>(i) || flow[i].is_trivial()) continue;
         events += event[bottom[i]] == kNone<Id>;
         event[bottom[i]] = kKept;
     }
@@ -68,7 +68,7 @@ void link_events(std::span<const Id> join, std::span<const Id> bottom, BigVector
 }  // namespace
 
 template <class Id>
-CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow, std::span<const double> value) {
+CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, std::span<const double> value) {
     CriticalityTree<Id> tree;
     BigVector<Id> bottom = group_bottoms(join, value);
     BigVector<Id> event = number_events<Id>(bottom, level, flow, tree);
@@ -80,20 +80,20 @@ CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const I
 }
 
 template <class Id>
-EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow,
+EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow,
                                  std::span<const std::int8_t> delta_chi) {
     using Signed = std::make_signed_t<Id>;
     const std::size_t events = tree.size();
     EventMeasures<Id> measures{BigVector<Id>(events, Id{0}), BigVector<Id>(events, Id{0}), BigVector<Signed>(events, Signed{0}), {}, {}};
     measures.kind.assign(events, Criticality::complex);
     for (std::size_t r = level.size(); r-- > 0;) {  // the highest level comes last: it names the kind, others must agree
-        if (level[r] != static_cast<Id>(r) || flow.is_trivial(r)) continue;
+        if (level[r] != static_cast<Id>(r) || flow[r].is_trivial()) continue;
         const std::size_t e = tree.event_of_element[r];
         const bool first = measures.lows_out[e] == 0 && measures.contours[e] == 0;
-        const Criticality kind = flow.kind(r);
+        const Criticality kind = flow[r].kind();
         measures.kind[e] = first || measures.kind[e] == kind ? kind : Criticality::complex;
-        measures.lows_out[e] += flow.out[r];
-        measures.contours[e] += flow.out[r] - flow.in[r];  // unsigned sums wrap around and back
+        measures.lows_out[e] += flow[r].out;
+        measures.contours[e] += flow[r].out - flow[r].in;  // unsigned sums wrap around and back
     }
     for (std::size_t i = 0; i < level.size(); ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
     measures.chi = measures.delta_chi;
@@ -108,8 +108,8 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<cons
 }
 
 #define ISOATLAS_CRITICALITY_TREE(Id)                                                                                            \
-    template CriticalityTree<Id> criticality_tree(std::span<const Id>, std::span<const Id>, const LevelFlow<Id>&, std::span<const double>); \
-    template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, std::span<const Id>, const LevelFlow<Id>&, std::span<const std::int8_t>);
+    template CriticalityTree<Id> criticality_tree(std::span<const Id>, std::span<const Id>, std::span<const LevelFlow<Id>>, std::span<const double>); \
+    template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, std::span<const Id>, std::span<const LevelFlow<Id>>, std::span<const std::int8_t>);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)
 ISOATLAS_CRITICALITY_TREE(std::uint64_t)
 #undef ISOATLAS_CRITICALITY_TREE

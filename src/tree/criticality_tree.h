@@ -36,11 +36,11 @@ struct EventMeasures {
 
 /// join: parents of the join tree, n + 1 entries. level, flow: of levels.h. Cost: O(n).
 template <class Id>
-CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow, std::span<const double> value);
+CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, std::span<const double> value);
 
 /// delta_chi: per element.
 template <class Id>
-EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow,
+EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow,
                                  std::span<const std::int8_t> delta_chi);
 
 }  // namespace isoatlas

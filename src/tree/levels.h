@@ -23,18 +23,17 @@ template <class Id>
 template <class Id>
 BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value);
 
-/// Contours through levels, indexed by element, meaningful at roots.
+/// Contours through a level; in arrays indexed by element, meaningful at roots.
 template <class Id>
 struct LevelFlow {
-    using Signed = std::make_signed_t<Id>;
-    BigVector<Id> in, out;     ///< number of contours just above and just below
-    BigVector<Signed> gain;    ///< sum of genera out - sum of genera in
+    Id in, out;                     ///< number of contours just above and just below
+    std::make_signed_t<Id> gain;    ///< sum of genera out - sum of genera in
 
-    [[nodiscard]] bool is_trivial(std::size_t root) const { return in[root] == 1 && out[root] == 1 && gain[root] == 0; }
-    [[nodiscard]] Criticality kind(std::size_t root) const;
+    [[nodiscard]] bool is_trivial() const { return in == 1 && out == 1 && gain == 0; }
+    [[nodiscard]] Criticality kind() const;
 };
 
 template <class Id>
-LevelFlow<Id> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value);
+BigVector<LevelFlow<Id>> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value);
 
 }  // namespace isoatlas

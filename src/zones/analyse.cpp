@@ -86,7 +86,7 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     context.report("zones", 4, kPhases, 0);
     // Zones first, then what events do: the largest arrays of both are never held at the same time.
     if (options.zones) make_zones<T, Id>(grid, element_of_maximum, std::move(criticals.basin), arrays, context);
-    const LevelFlow<Id> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value);
+    const BigVector<LevelFlow<Id>> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value);
     arrays.measures = measure_events<Id>(arrays.tree, arrays.level, flow, delta_chis(arrays.code, grid.extent.rank));
     context.report("zones", 4, kPhases, 1);
     return result;

@@ -52,10 +52,11 @@ HeavyPaths<Id>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const doub
 template <class Id>
 void HeavyPaths<Id>::make_buckets(Path& path) {
     if (path.count < kBucketed) return;
-    path.low = value_[path.first];
-    const double width = value_[path.first + path.count - 1] - path.low;
-    path.scale = static_cast<double>(path.count) / width;
-    if (!(path.scale < std::numeric_limits<double>::max())) path.scale = 0;  // a width that underflows: one bucket
+    const double low = value_[path.first], width = value_[path.first + path.count - 1] - low;
+    double factor = static_cast<double>(path.count) / width;
+    if (!(factor < std::numeric_limits<double>::max())) factor = 0;  // a width that underflows: one bucket
+    path.scale = static_cast<Id>(scales_.size());
+    scales_.push_back({low, factor});
     Id next = path.first;
     for (Id p = path.first; p < path.first + path.count; ++p) {
         const Id last = path.first + static_cast<Id>(bucket(path, value_[p]));
@@ -65,8 +66,9 @@ void HeavyPaths<Id>::make_buckets(Path& path) {
 }
 
 template <class Id>
-std::size_t HeavyPaths<Id>::bucket(const Path& path, double x) {
-    const double b = (x - path.low) * path.scale;  // monotone in x, rounding included: that is all the search needs
+std::size_t HeavyPaths<Id>::bucket(const Path& path, double x) const {
+    const Scale& scale = scales_[path.scale];
+    const double b = (x - scale.low) * scale.factor;  // monotone in x, rounding included: that is all the search needs
     return b > 0 ? static_cast<std::size_t>(std::min(b, static_cast<double>(path.count - 1))) : 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/big_vector.h"
 #include "tree/criticality_tree.h"
@@ -37,15 +38,19 @@ private:
     struct Path {
         double value_below;   ///< value of the event the path ends at; -infinity for the path of the root
         Place below;          ///< that event
-        double low, scale;    ///< bucket of x = (x - low) * scale
         Id first, count;      ///< positions of its events
+        Id scale;             ///< place in scales_ of a long path
+    };
+    struct Scale {
+        double low, factor;   ///< bucket of x = (x - low) * factor
     };
     static constexpr std::size_t kBucketed = 16;  ///< shorter paths are searched directly
 
     void make_buckets(Path& path);
-    [[nodiscard]] static std::size_t bucket(const Path& path, double x);
+    [[nodiscard]] std::size_t bucket(const Path& path, double x) const;
 
     BigVector<Path> paths_;
+    std::vector<Scale> scales_;
     BigVector<double> value_;     ///< by position
     BigVector<Id> event_;         ///< by position
     BigVector<Id> bucket_;        ///< by path.first + bucket: the first position of the path in this bucket or a later one
