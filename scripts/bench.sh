@@ -10,5 +10,5 @@ data=../shared/data
 options=(--cache "$out/volumes" --json "$out/engine.json" --growth)
 if [[ -d $data ]]; then options+=(--data "$data"); fi
 "$out/bin/bench_engine" "${options[@]}"
-if [[ -x bench/extract/run.sh ]]; then bench/extract/run.sh "$out"; fi
-python3 bench/report.py "$out"
+/usr/bin/python3 bench/extract/compare_vtk.py "$out/bin/bench_extract" --cache "$out/volumes" --json "$out/extract.json"
+/usr/bin/python3 bench/report.py "$out"

@@ -20,7 +20,7 @@ while IFS= read -r target; do
     "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
         -artifact_prefix=build/fuzz/crashes/"$name"- "${folders[@]}"
     found=$((found + 1))
-done < <(find build/fuzz -name '*_fuzz' -type f -executable | sort)
+done < <(find build/fuzz -name '*_fuzz' ! -name 'replay_*' -type f -executable | sort)
 if [[ $found == 0 ]]; then
     echo "fuzz: no target was built" >&2
     exit 1
