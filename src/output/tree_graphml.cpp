@@ -43,18 +43,34 @@ void put_text(ByteWriter& out, const char* key, std::string_view text) {
     out.text(text);
     out.text("</data>");
 }
-void put(ByteWriter& out, const char* key, std::int64_t number) { put_text(out, key, std::to_string(number)); }
+template <class T>
+void put_number(ByteWriter& out, const char* key, T number) {
+    out.text("<data key=\"");
+    out.text(key);
+    out.text("\">");
+    out.number(number);
+    out.text("</data>");
+}
+void put(ByteWriter& out, const char* key, std::int64_t number) { put_number(out, key, number); }
 void put(ByteWriter& out, const char* key, double number) {
-    if (std::isfinite(number)) put_text(out, key, number_text(number));
+    if (std::isfinite(number)) put_number(out, key, number);
 }
 void put(ByteWriter& out, const std::array<double, 3>& p) {
     put(out, "x", p[0]);
     put(out, "y", p[1]);
     put(out, "z", p[2]);
 }
-void put_node(ByteWriter& out, std::int64_t id) { out.text("<node id=\"n" + std::to_string(id) + "\">"); }
+void put_node(ByteWriter& out, std::int64_t id) {
+    out.text("<node id=\"n");
+    out.number(id);
+    out.text("\">");
+}
 void put_edge(ByteWriter& out, std::int64_t from, std::int64_t to) {
-    out.text("<edge source=\"n" + std::to_string(from) + "\" target=\"n" + std::to_string(to) + "\">");
+    out.text("<edge source=\"n");
+    out.number(from);
+    out.text("\" target=\"n");
+    out.number(to);
+    out.text("\">");
 }
 
 void put_events(ByteWriter& out, const TreeView& tree) {
