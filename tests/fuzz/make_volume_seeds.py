@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Writes the seeds of the NRRD, MetaImage, NumPy and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+import gzip
+import pathlib
+import struct
+import zlib
+
+CORPUS = pathlib.Path(__file__).parent / "corpus"
+SAMPLES = bytes(range(48))
+
+
+def write(folder, name, content):
+    path = CORPUS / folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+
+
+def nrrd(version, fields, payload):
+    return f"NRRD000{version}\n{fields}\n".encode() + payload
+
+
+def main():
+    oriented = (
+        "type: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 3 4\nspace directions: (1,0,0) (0,1,0) (0,0,2)\n"
+        'space units: "mm" "mm" "mm"\nspace origin: (1,2,3)\nkinds: domain domain domain\nendian: little\n'
+    )
+    plain = "type: uchar\ndimension: 3\nsizes: 4 3 4\nspacings: 1 2 nan\naxis mins: 0 1 2\ncenters: cell node ???\ncontent: seed\n"
+    write("nrrd", "raw", nrrd(4, oriented + "encoding: raw\n", SAMPLES))
+    write("nrrd", "gzip", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES, mtime=0)))
+    write("nrrd", "plain", nrrd(1, plain + "encoding: raw\ncalibration_slope:=-2\ncalibration_intercept:=1e3\n", SAMPLES))
+    write("nrrd", "skip", nrrd(4, plain + "encoding: raw\nline skip: 1\nbyte skip: -1\n", b"line\n" + SAMPLES))
+    write("nrrd", "text", nrrd(2, "type: float\ndimension: 2\nsizes: 3 2\nencoding: ascii\n", b"1 -2.5 3e8 nan inf 1e-50\n"))
+    write("nrrd", "detached", nrrd(4, plain + "encoding: raw\nbyte skip: -1\ndata file: v.raw\n", b""))
+    write("nrrd", "series", nrrd(4, plain + "encoding: raw\nbyte skip: 9\ndata file: s%03d.raw 1 4 1 2\n", b""))
+    write("nrrd", "list", nrrd(4, plain + "encoding: raw\nbyte skip: 9\ndata file: LIST\na\nb\n", b""))
+    time = "type: uchar\ndimension: 4\nsizes: 2 3 4 2\nkinds: space space space time\nencoding: raw\n"
+    write("nrrd", "time", nrrd(4, time, SAMPLES))
+    write("nrrd", "colour", nrrd(4, "type: uchar\ndimension: 3\nsizes: 3 4 4\nkinds: RGB-color domain domain\nencoding: raw\n", SAMPLES))
+
+    meta = (
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+        "Offset = 1 2 3\nCenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nElementSpacing = 1 2 3\nDimSize = 2 3 4\nElementType = MET_SHORT\n"
+    )
+    local = "ElementDataFile = LOCAL\n"
+    packed = zlib.compress(SAMPLES)
+    write("metaimage", "raw", (meta + local).encode() + SAMPLES)
+    write("metaimage", "zlib", (meta + f"CompressedData = True\nCompressedDataSize = {len(packed)}\n" + local).encode() + packed)
+    write("metaimage", "detached", (meta + "HeaderSize = -1\nElementDataFile = v.raw\n").encode())
+    write("metaimage", "list", (meta + "HeaderSize = 5\nElementDataFile = LIST\na\nb\nc\n").encode())
+    write("metaimage", "series", (meta + "HeaderSize = 5\nElementDataFile = s%03d.raw 1 4 1\n").encode())
+    write("metaimage", "text", b"NDims = 2\nDimSize = 2 2\nElementType = MET_DOUBLE\nBinaryData = False\nElementDataFile = LOCAL\n1 2 3 4e5\n")
+    write("metaimage", "time", b"NDims = 4\nDimSize = 2 3 4 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + SAMPLES)
+
+    for version in (1, 2, 3):
+        for name, descr, fortran, shape in (
+            ("short", "'<i2'", False, "(4, 3, 2)"),
+            ("float", "'>f4'", True, "(4, 3)"),
+            ("bool", "'|b1'", False, "(2, 4, 3, 2)"),
+            ("fields", "[('a', '<f4')]", False, "(4, 3)"),
+        ):
+            text = f"{{'descr': {descr}, 'fortran_order': {fortran}, 'shape': {shape}, }}\n".encode()
+            length = struct.pack("<H" if version == 1 else "<I", len(text))
+            write("npy", f"{name}{version}", b"\x93NUMPY" + bytes([version, 0]) + length + text + SAMPLES)
+
+    write("raw", "all", b'{"dims": [2, 3, 4], "type": "int16", "endian": "big", "skip": 3, "spacing": [1, 2, 0.5], "origin": [0, 0, 0], "unit": "um", "space": "RAS"}')
+    write("raw", "few", b'{"dims": [2, 3], "type": "u8"}')
+    write("raw", "name", b"foo_512x512x128_float32_be.raw")
+
+
+main()
