@@ -16,11 +16,41 @@ namespace {
 
 constexpr std::int64_t kDefaultTop = 24;
 
-std::string measure_title(const VolumeInfo& info, const MeasureUnit& unit) {
-    return std::string(info.extent.rank == 2 ? "area" : "volume") + " [" + unit.name + "]";
-}
+/// Voxel counts, and physical sizes where they say something else.
+class Sizes {
+public:
+    Sizes(const VolumeInfo& info, double largest) : unit_(measure_unit(info, largest)), flat_(info.extent.rank == 2) {}
 
-std::string dashed(std::int64_t count) { return count == 0 ? "-" : count_text(count); }
+    void add_titles(std::vector<Table::Column>& columns) const {
+        columns.push_back({"voxels"});
+        if (is_physical()) columns.push_back({std::string(flat_ ? "area" : "volume") + " [" + unit_.name + "]"});
+        columns.push_back({flat_ ? "holes" : "tunnels"});
+        if (!flat_) columns.push_back({"cavities"});
+    }
+    void add(std::vector<std::string>& row, std::int64_t voxels, double measure, std::int64_t b1, std::int64_t b2) const {
+        row.push_back(count_text(voxels));
+        if (is_physical()) row.push_back(measure_text(measure * unit_.factor));
+        row.push_back(dashed(b1));
+        if (!flat_) row.push_back(dashed(b2));
+    }
+
+private:
+    [[nodiscard]] bool is_physical() const { return unit_.name != "voxels"; }
+    static std::string dashed(std::int64_t count) { return count == 0 ? "-" : count_text(count); }
+    static std::string measure_text(double measure) {
+        return measure < 1000 ? fmt::format("{:.4g}", measure) : count_text(static_cast<std::int64_t>(std::round(measure)));
+    }
+
+    MeasureUnit unit_;
+    bool flat_;
+};
+
+template <class Objects>
+double largest_measure(const Objects& objects) {
+    double largest = 0;
+    for (const auto& object : objects) largest = std::max(largest, object.measure);
+    return largest;
+}
 
 std::string extract_command(const Arguments& arguments, std::int64_t id, const std::string& tau) {
     return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
@@ -63,32 +93,30 @@ std::string best_tau_text(const ObjectEntry& entry, const Analysis& analysis, co
     return scale.text_within(entry.best_tau, zone.tau_low, zone.tau_high);
 }
 
+void tell_table(Terminal& terminal, const ObjectTable& table, double slope) {
+    const auto lines = static_cast<std::int64_t>(table.entries.size());
+    const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * slope) : "";
+    terminal.say(fmt::format("{} in all; {} to look at, some objects at several isovalues{}", counted(table.branches, "maximum", "maxima"),
+                             counted(lines, "line"), noise));
+}
+
 void print_table_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis,
                       const ObjectTable& table) {
     const Scale scale(volume.info);
-    double largest = 0;
-    for (const ObjectEntry& entry : table.entries) largest = std::max(largest, entry.measure);
-    const MeasureUnit unit = measure_unit(volume.info, largest);
-    const bool flat = volume.info.extent.rank == 2;
-    Table text({{"#"},
-                {"id"},
-                {"appears"},
-                {"merges"},
-                {"best tau"},
-                {"voxels"},
-                {measure_title(volume.info, unit)},
-                {flat ? "holes" : "tunnels"},
-                {"cavities"},
-                {"note", true}});
+    const Sizes sizes(volume.info, largest_measure(table.entries));
+    std::vector<Table::Column> columns{{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
+    sizes.add_titles(columns);
+    columns.push_back({"note", true});
+    Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
-        text.add({fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears), scale.brief(entry.merges),
-                  best_tau_text(entry, analysis, scale), count_text(entry.voxels), fmt::format("{:.4g}", entry.measure * unit.factor),
-                  dashed(entry.tunnels), dashed(entry.cavities), entry.note});
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
+                                     scale.brief(entry.merges), best_tau_text(entry, analysis, scale)};
+        sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
+        row.push_back(entry.note);
+        text.add(row);
     }
-    terminal.say(fmt::format("{} in all, {} worth a line{}", counted(table.branches, "object"),
-                             count_text(static_cast<std::int64_t>(table.entries.size())),
-                             table.noise > 0 ? fmt::format(" (noise about {:.3g})", table.noise * volume.info.calibration.slope) : ""));
+    tell_table(terminal, table, volume.info.calibration.slope);
     text.print(terminal);
     if (table.entries.empty()) {
         terminal.say("nothing rises above the noise; --all lists everything");
@@ -148,23 +176,17 @@ std::string box_text(const CutObject& object, int rank) {
 }
 
 void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Cut& cut, std::int64_t shown) {
-    double largest = 0;
-    for (const CutObject& object : cut.objects) largest = std::max(largest, object.measure);
-    const MeasureUnit unit = measure_unit(volume.info, largest);
-    const bool flat = volume.info.extent.rank == 2;
-    Table text({{"#"},
-                {"id"},
-                {"voxels"},
-                {measure_title(volume.info, unit)},
-                {flat ? "holes" : "tunnels"},
-                {"cavities"},
-                {"contours"},
-                {"box", true}});
+    const Sizes sizes(volume.info, largest_measure(cut.objects));
+    std::vector<Table::Column> columns{{"#"}, {"id"}};
+    sizes.add_titles(columns);
+    columns.insert(columns.end(), {{"contours"}, {"box", true}});
+    Table text(columns);
     for (std::int64_t i = 0; i < shown; ++i) {
         const CutObject& object = cut.objects[static_cast<std::size_t>(i)];
-        text.add({fmt::format("{}", i + 1), fmt::format("{}", object.id), count_text(object.voxels),
-                  fmt::format("{:.4g}", object.measure * unit.factor), dashed(object.b1), dashed(object.b2),
-                  count_text(object.contour_count), box_text(object, volume.info.extent.rank)});
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
+        sizes.add(row, object.voxels, object.measure, object.b1, object.b2);
+        row.insert(row.end(), {count_text(object.contour_count), box_text(object, volume.info.extent.rank)});
+        text.add(row);
     }
     const auto all = static_cast<std::int64_t>(cut.objects.size());
     terminal.say(fmt::format("{} with {} at {}", counted(all, "object"), counted(static_cast<std::int64_t>(cut.contours.size()), "contour"),

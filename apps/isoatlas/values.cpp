@@ -72,7 +72,10 @@ std::string seconds_text(double seconds) {
     return fmt::format("about {:.0f} h", seconds / 3600);
 }
 
-std::string counted(std::int64_t count, const std::string& noun) { return count_text(count) + " " + noun + (count == 1 ? "" : "s"); }
+std::string counted(std::int64_t count, const std::string& noun, const std::string& plural) {
+    const std::string& many = plural.empty() ? noun + "s" : plural;
+    return count_text(count) + " " + (count == 1 ? noun : many);
+}
 
 std::string plain_measure_unit(const VolumeInfo& info) {
     if (has_no_geometry(info.geometry)) return "voxels";

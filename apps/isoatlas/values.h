@@ -36,8 +36,8 @@ private:
 [[nodiscard]] std::string bytes_text(double bytes);
 /// "about 40 s", "about 3 min"
 [[nodiscard]] std::string seconds_text(double seconds);
-/// "1 object", "2 objects"
-[[nodiscard]] std::string counted(std::int64_t count, const std::string& noun);
+/// "1 object", "2 objects"; irregular plurals are given
+[[nodiscard]] std::string counted(std::int64_t count, const std::string& noun, const std::string& plural = "");
 
 /// The unit of volumes (areas in 2D) that suits numbers up to `largest`: of mm3, cm3, dm3, ... Factor: multiply by it.
 struct MeasureUnit {

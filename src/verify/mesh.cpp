@@ -30,7 +30,10 @@ CheckResult points_are_finite(const Mesh& mesh) {
 }
 
 CheckResult surface_exists(const Mesh& mesh) {
-    return {"surface_exists", !mesh.triangles.empty(), number(static_cast<std::int64_t>(mesh.triangles.size()), "triangles")};
+    const bool exists = !mesh.triangles.empty();
+    return {
+        "surface_exists", exists,
+        exists ? number(static_cast<std::int64_t>(mesh.triangles.size()), "triangles") : "no triangles: empty, or curves of a 2D volume"};
 }
 
 CheckResult euler_numbers_are_even(const SurfaceReport& report) {

@@ -99,7 +99,7 @@ class Results(CliTest):
             self.assertEqual((found[0]["b1"], found[0]["b2"], found[0]["voxels"]), (entry["tunnels"], entry["cavities"], entry["voxels"]))
         text = self.run_ok("objects", "figure.nrrd", "--all").stdout.splitlines()
         self.assertEqual(len(text), 1 + len(table["objects"]))
-        for title in ("id", "appears", "merges", "best tau", "volume [voxels]", "tunnels", "cavities", "note"):
+        for title in ("id", "appears", "merges", "best tau", "voxels", "tunnels", "cavities", "note"):
             self.assertIn(title, text[0])
         self.assertEqual(len(self.run_json("objects", "figure.nrrd", "--top", "2", "--all")["objects"]), 2)
 
