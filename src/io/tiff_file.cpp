@@ -3,6 +3,7 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -108,6 +109,7 @@ struct TiffFile::Handle {
 
     void open();
     void list_pages();
+    void require_link() const;
     [[nodiscard]] TiffPage describe_page() const;
     [[nodiscard]] ValueType sample_type() const;
     void check_page(const TiffPage& page) const;
@@ -153,6 +155,7 @@ void TiffFile::Handle::list_pages() {
     do {
         client.messages.clear();
         current = TIFFCurrentDirOffset(tiff);
+        require_link();
         constexpr std::uint32_t kPreview = FILETYPE_REDUCEDIMAGE | FILETYPE_MASK;
         if ((tag<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0) & kPreview) != 0 && !pages.empty()) {
             ++previews;
@@ -167,6 +170,21 @@ void TiffFile::Handle::list_pages() {
     } while (TIFFReadDirectory(tiff) == 1);
     // A chain of directories that ends as it should says nothing and links to nothing.
     if (!client.messages.empty() || TIFFLastDirectory(tiff) == 0) corrupt(next_page(), "its directory cannot be read");
+}
+
+/// A directory ends with the offset of the next one. libtiff takes a missing one for the end of the file: pages would be lost silently.
+void TiffFile::Handle::require_link() const {
+    const bool big = TIFFIsBigTIFF(tiff) != 0;
+    std::array<std::byte, 8> raw{};
+    const auto count_bytes = std::span(raw).first(big ? 8 : 2);
+    read_fully(*client.file, client.path, static_cast<std::int64_t>(current), count_bytes);
+    if (TIFFIsBigEndian(tiff) == 0) std::reverse(count_bytes.begin(), count_bytes.end());
+    std::uint64_t entries = 0;
+    for (const std::byte byte : count_bytes) entries = entries << 8 | std::to_integer<std::uint64_t>(byte);
+    const auto room = static_cast<std::uint64_t>(client.file->size()) - current;   // libtiff has read the entries
+    if (entries > room || (big ? 8 + 20 * entries + 8 : 2 + 12 * entries + 4) > room) {
+        corrupt(next_page(), "the file ends inside the directory of this page");
+    }
 }
 
 TiffPage TiffFile::Handle::describe_page() const {
@@ -310,11 +328,7 @@ const TiffTags& TiffFile::tags() const { return handle_->tags; }
 bool TiffFile::big_endian() const { return TIFFIsBigEndian(handle_->tiff) != 0; }
 std::int64_t TiffFile::bytes() const { return handle_->client.file->size(); }
 
-bool TiffFile::is_big_tiff() const {
-    std::array<std::byte, 4> magic{};
-    read_fully(*handle_->client.file, path(), 0, magic);
-    return magic[2] == std::byte{43} || magic[3] == std::byte{43};
-}
+bool TiffFile::is_big_tiff() const { return TIFFIsBigTIFF(handle_->tiff) != 0; }
 
 std::string TiffFile::encoding() const {
     const int compression = pages()[0].compression;
