@@ -46,7 +46,7 @@ struct PartsPlan {
     std::int64_t size_bound = 0;
     bool random_access = false;
     std::function<std::unique_ptr<ByteSource>(std::int64_t part)> open{};
-    std::string file{};           ///< the file that lists the parts, for messages
+    std::string file{};  ///< the file that lists the parts, for messages
 };
 [[nodiscard]] std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan);
 

@@ -167,12 +167,13 @@ std::unique_ptr<ByteSource> open_payload(const PayloadPlan& plan) {
     }
     const std::int64_t part_bytes = plan.sample_bytes / count;
     const std::int64_t bound = check_parts(plan, part_bytes);
-    return open_parts_source({.count = count,
-                              .part_bytes = part_bytes,
-                              .size_bound = bound,
-                              .random_access = plan.encoding == Encoding::raw,
-                              .open = [plan, part_bytes](std::int64_t part) { return open_one(plan, data_file_path(plan, part), part_bytes); },
-                              .file = plan.header_path});
+    return open_parts_source(
+        {.count = count,
+         .part_bytes = part_bytes,
+         .size_bound = bound,
+         .random_access = plan.encoding == Encoding::raw,
+         .open = [plan, part_bytes](std::int64_t part) { return open_one(plan, data_file_path(plan, part), part_bytes); },
+         .file = plan.header_path});
 }
 
 std::int64_t bytes_on_disk(const PayloadPlan& plan) {

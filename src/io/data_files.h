@@ -32,14 +32,14 @@ enum class Encoding : std::uint8_t { raw, deflate, text };
 /// Where the samples are and how they are wrapped.
 struct PayloadPlan {
     std::string header_path;
-    DataFiles files;                    ///< no files: the samples are in header_path
+    DataFiles files;  ///< no files: the samples are in header_path
     Encoding encoding = Encoding::raw;
-    std::int64_t offset = 0;            ///< where the data begin in each file (an attached payload: behind its header)
-    std::int64_t line_skip = 0;         ///< then this many lines are passed over
-    std::int64_t skip = 0;              ///< then this many bytes; -1: as many as leave exactly the samples (raw only)
-    std::int64_t inflated_skip = 0;     ///< then this many decompressed bytes
+    std::int64_t offset = 0;         ///< where the data begin in each file (an attached payload: behind its header)
+    std::int64_t line_skip = 0;      ///< then this many lines are passed over
+    std::int64_t skip = 0;           ///< then this many bytes; -1: as many as leave exactly the samples (raw only)
+    std::int64_t inflated_skip = 0;  ///< then this many decompressed bytes
     ValueType type = ValueType::u8;
-    std::int64_t sample_bytes = 0;      ///< of all files together, decoded
+    std::int64_t sample_bytes = 0;  ///< of all files together, decoded
 };
 
 /// Path of data file i. Throws Error{input} for names with control bytes, which no sound header has and no terminal should get.

@@ -49,8 +49,7 @@ std::unique_ptr<FileHandle> open_system_file(const std::string& path) {
         throw Error(ErrorKind::input, {.file = path, .what = "is a directory", .expected = "a file", .next = "name a file inside it"});
     }
     if (!S_ISREG(status.st_mode)) {  // a pipe would block and cannot go back
-        throw Error(ErrorKind::input,
-                    {.file = path, .what = "is not a regular file", .next = "copy the data into a file and open that"});
+        throw Error(ErrorKind::input, {.file = path, .what = "is not a regular file", .next = "copy the data into a file and open that"});
     }
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) cannot_open(path, errno);

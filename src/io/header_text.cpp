@@ -11,8 +11,7 @@ constexpr std::int64_t kLongestHeader = 16 * 1024 * 1024;  // room for lists of 
 
 }  // namespace
 
-HeaderText read_header_text(const std::string& path,
-                            const std::function<std::optional<std::size_t>(std::string_view)>& find_end) {
+HeaderText read_header_text(const std::string& path, const std::function<std::optional<std::size_t>(std::string_view)>& find_end) {
     for (std::int64_t piece = kFirstPiece; piece <= kLongestHeader; piece *= 16) {
         const std::vector<std::byte> bytes = read_header_bytes(path, piece);
         std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

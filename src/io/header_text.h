@@ -10,8 +10,8 @@
 namespace isoatlas::io {
 
 struct HeaderText {
-    std::string text;       ///< everything before `end`, or the whole file
-    std::int64_t end = 0;   ///< offset of the first byte behind the header
+    std::string text;         ///< everything before `end`, or the whole file
+    std::int64_t end = 0;     ///< offset of the first byte behind the header
     bool terminated = false;  ///< an end was found (else the file is all header)
 };
 

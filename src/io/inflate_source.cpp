@@ -13,10 +13,10 @@
 namespace isoatlas::io {
 namespace {
 
-constexpr std::int64_t kMaximalRatio = 1032;      // zlib's documentation: the limit of the deflate format
+constexpr std::int64_t kMaximalRatio = 1032;  // zlib's documentation: the limit of the deflate format
 constexpr std::int64_t kBufferBytes = 256 * 1024;
-constexpr std::size_t kMostPerCall = 1U << 30;    // zlib counts in 32 bits
-constexpr int kDetectGzipOrZlib = 15 + 32;        // windowBits: largest window, the stream's header decides
+constexpr std::size_t kMostPerCall = 1U << 30;  // zlib counts in 32 bits
+constexpr int kDetectGzipOrZlib = 15 + 32;      // windowBits: largest window, the stream's header decides
 
 class InflateSource final : public ByteSource {
 public:

@@ -42,7 +42,8 @@ void for_each_slab(VolumeReader& reader, const Context& context, std::vector<std
     std::vector<std::byte> slab;
     if (whole == nullptr) allocate(slab, static_cast<std::size_t>(step) * slice_bytes, info);
     for (std::int64_t z = 0; z < slices; z += step) {
-        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.file = info.path, .what = "reading was cancelled"});
+        if (context.cancelled && context.cancelled())
+            throw Error(ErrorKind::cancelled, {.file = info.path, .what = "reading was cancelled"});
         context.report("read", 0, 1, static_cast<double>(z) / static_cast<double>(slices));
         const std::int64_t end = std::min(slices, z + step);
         std::byte* begin = whole == nullptr ? slab.data() : whole->data() + static_cast<std::size_t>(z) * slice_bytes;
@@ -58,9 +59,8 @@ Volume load_stored(VolumeReader& reader, io::MissingScan& scan, const Context& c
     Volume volume;
     const VolumeInfo& info = reader.info();
     allocate(volume.bytes, static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type), info);
-    for_each_slab(reader, context, &volume.bytes, [&](std::int64_t z, std::span<std::byte> samples) {
-        scan.look(info.type, samples, z * info.extent.slice());
-    });
+    for_each_slab(reader, context, &volume.bytes,
+                  [&](std::int64_t z, std::span<std::byte> samples) { scan.look(info.type, samples, z * info.extent.slice()); });
     volume.info = reader.info();  // behind the reading: notes about the end of the file are there now
     return volume;
 }

@@ -22,16 +22,16 @@ namespace {
 
 ValueType sample_type(const MetaHeader& header) {
     static constexpr std::array<std::pair<std::string_view, ValueType>, 11> kTypes = {{{"met_char", ValueType::i8},
-                                                                                      {"met_ascii_char", ValueType::i8},
-                                                                                      {"met_uchar", ValueType::u8},
-                                                                                      {"met_short", ValueType::i16},
-                                                                                      {"met_ushort", ValueType::u16},
-                                                                                      {"met_int", ValueType::i32},
-                                                                                      {"met_uint", ValueType::u32},
-                                                                                      {"met_long", ValueType::i32},  // 4 bytes in MetaIO
-                                                                                      {"met_ulong", ValueType::u32},
-                                                                                      {"met_float", ValueType::f32},
-                                                                                      {"met_double", ValueType::f64}}};
+                                                                                       {"met_ascii_char", ValueType::i8},
+                                                                                       {"met_uchar", ValueType::u8},
+                                                                                       {"met_short", ValueType::i16},
+                                                                                       {"met_ushort", ValueType::u16},
+                                                                                       {"met_int", ValueType::i32},
+                                                                                       {"met_uint", ValueType::u32},
+                                                                                       {"met_long", ValueType::i32},  // 4 bytes in MetaIO
+                                                                                       {"met_ulong", ValueType::u32},
+                                                                                       {"met_float", ValueType::f32},
+                                                                                       {"met_double", ValueType::f64}}};
     if (!header.has("elementtype")) header.fail(ErrorKind::input, "ElementType", "is missing", "MET_UCHAR, MET_SHORT, MET_FLOAT, ...");
     const std::string name = lower(header.text("elementtype"));
     for (const auto& [spelling, type] : kTypes) {
@@ -140,10 +140,12 @@ PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType 
     plan.offset = local ? header.data_offset : 0;
     plan.skip = header.integer("headersize", 0);
     if (plan.skip < (encoding == Encoding::raw ? -1 : 0)) {
-        header.fail(ErrorKind::input, "HeaderSize", "is " + std::to_string(plan.skip), "0 or more, or -1 for raw samples at the end of the file");
+        header.fail(ErrorKind::input, "HeaderSize", "is " + std::to_string(plan.skip),
+                    "0 or more, or -1 for raw samples at the end of the file");
     }
     if (local && plan.skip > 0) {  // counted from the start of the file, also when that holds this header
-        if (plan.skip < header.data_offset) header.fail(ErrorKind::input, "HeaderSize", "lies inside this header", "the start of the samples");
+        if (plan.skip < header.data_offset)
+            header.fail(ErrorKind::input, "HeaderSize", "lies inside this header", "the start of the samples");
         plan.skip -= header.data_offset;
     }
     return plan;

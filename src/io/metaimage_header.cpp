@@ -48,7 +48,11 @@ void parse_line(MetaHeader& header, std::string_view line, int number) {
 void MetaHeader::fail(ErrorKind kind, const std::string& field, const std::string& what, const std::string& expected,
                       const std::string& next) const {
     const auto found = spelling.find(field);
-    throw Error(kind, {.file = path, .where = "field " + (found == spelling.end() ? field : found->second), .what = what, .expected = expected, .next = next});
+    throw Error(kind, {.file = path,
+                       .where = "field " + (found == spelling.end() ? field : found->second),
+                       .what = what,
+                       .expected = expected,
+                       .next = next});
 }
 
 std::string MetaHeader::text(const std::string& field) const {

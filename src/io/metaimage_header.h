@@ -13,10 +13,10 @@ namespace isoatlas::io {
 
 struct MetaHeader {
     std::string path;
-    std::map<std::string, std::string> fields;  ///< names in lower case
+    std::map<std::string, std::string> fields;    ///< names in lower case
     std::map<std::string, std::string> spelling;  ///< the names as the file has them, for messages
-    std::vector<std::string> listed_files;      ///< lines behind ElementDataFile = LIST
-    std::int64_t data_offset = 0;               ///< local data begin here
+    std::vector<std::string> listed_files;        ///< lines behind ElementDataFile = LIST
+    std::int64_t data_offset = 0;                 ///< local data begin here
 
     [[nodiscard]] bool has(const std::string& field) const { return fields.contains(field); }
     [[nodiscard]] std::string text(const std::string& field) const;  ///< empty when absent

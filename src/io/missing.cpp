@@ -1,14 +1,15 @@
 #include "io/missing.h"
 
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <string>
 
 namespace isoatlas::io {
 namespace {
 
-constexpr const char* kBothOptions = "treat such samples as background with --missing below, or put a value in their place with --missing VALUE";
+constexpr const char* kBothOptions =
+    "treat such samples as background with --missing below, or put a value in their place with --missing VALUE";
 
 template <class Function>
 decltype(auto) visit_type(ValueType type, Function&& function) {
@@ -76,7 +77,8 @@ void MissingScan::look_at(std::span<const T> samples, std::int64_t first) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (is_missing(samples[i])) {
             if (policy_.action == MissingPolicy::Action::error) {
-                report(first + static_cast<std::int64_t>(i), static_cast<double>(samples[i]), std::isfinite(static_cast<double>(samples[i])));
+                report(first + static_cast<std::int64_t>(i), static_cast<double>(samples[i]),
+                       std::isfinite(static_cast<double>(samples[i])));
             }
             ++missing;
         } else if (samples[i] < smallest) {
@@ -92,14 +94,16 @@ void MissingScan::look(ValueType type, std::span<const std::byte> samples, std::
     visit_type(type, [&](auto zero) { look_at(as_samples<decltype(zero)>(samples), first); });
 }
 
-void MissingScan::calibrate(ValueType type, std::span<const std::byte> samples, const Calibration& calibration, std::span<double> out) const {
+void MissingScan::calibrate(ValueType type, std::span<const std::byte> samples, const Calibration& calibration,
+                            std::span<double> out) const {
     visit_type(type, [&](auto zero) {
         using T = decltype(zero);
         const std::span<const T> in = as_samples<T>(samples);
         for (std::size_t i = 0; i < in.size(); ++i) {
             bool no_data = false;
             if (policy_.no_data) {
-                no_data = std::is_floating_point_v<T> ? in[i] == static_cast<T>(*policy_.no_data) : static_cast<double>(in[i]) == *policy_.no_data;
+                no_data = std::is_floating_point_v<T> ? in[i] == static_cast<T>(*policy_.no_data)
+                                                      : static_cast<double>(in[i]) == *policy_.no_data;
             }
             out[i] = no_data ? std::numeric_limits<double>::quiet_NaN() : calibration.reported(static_cast<double>(in[i]));
         }
@@ -117,11 +121,11 @@ T MissingScan::replacement() const {
     }
     const T smallest = static_cast<T>(smallest_);
     if (smallest == std::numeric_limits<T>::lowest()) {
-        throw Error(ErrorKind::input, {.file = info_.path,
-                                       .what = std::string("no ") + name_of(value_type_of<T>) + " lies below the smallest sample, " +
-                                               text_of(smallest_),
-                                       .expected = "room for --missing below",
-                                       .next = "give a value instead: --missing " + text_of(smallest_)});
+        throw Error(ErrorKind::input,
+                    {.file = info_.path,
+                     .what = std::string("no ") + name_of(value_type_of<T>) + " lies below the smallest sample, " + text_of(smallest_),
+                     .expected = "room for --missing below",
+                     .next = "give a value instead: --missing " + text_of(smallest_)});
     }
     if constexpr (std::is_floating_point_v<T>) return std::nextafter(smallest, -std::numeric_limits<T>::infinity());
     return static_cast<T>(smallest - 1);
@@ -147,8 +151,7 @@ void MissingScan::replace(Volume& volume) const {
 
 void MissingScan::report(std::int64_t index, double value, bool is_no_data) const {
     const std::array<std::int64_t, 3> voxel = info_.extent.voxel(index);
-    const std::string position =
-        "(" + std::to_string(voxel[0]) + ", " + std::to_string(voxel[1]) + ", " + std::to_string(voxel[2]) + ")";
+    const std::string position = "(" + std::to_string(voxel[0]) + ", " + std::to_string(voxel[1]) + ", " + std::to_string(voxel[2]) + ")";
     const std::string shown = calibrated_ && !is_no_data ? "NaN, infinite or the no-data value" : text_of(value);
     throw Error(ErrorKind::input, {.file = info_.path,
                                    .where = "voxel " + position,

@@ -38,10 +38,10 @@ private:
     void replace_in(std::span<T> samples) const;
     [[noreturn]] void report(std::int64_t index, double value, bool is_no_data) const;
 
-    const VolumeInfo info_;        // of the file
+    const VolumeInfo info_;  // of the file
     const MissingPolicy policy_;
-    const bool calibrated_;        // samples are looked at after the calibration: no-data values are NaN by then
-    double value_ = 0;             // of the replacement, in the units of the samples looked at
+    const bool calibrated_;  // samples are looked at after the calibration: no-data values are NaN by then
+    double value_ = 0;       // of the replacement, in the units of the samples looked at
     std::int64_t count_ = 0;
     double smallest_ = std::numeric_limits<double>::infinity();  // exact: every sample type fits in double
 };

@@ -44,7 +44,8 @@ std::string header_dictionary(const std::string& path, std::int64_t& data_offset
     const std::int64_t begin = at(6) == 1 ? 10 : 12;
     data_offset = begin + length;
     if (data_offset > static_cast<std::int64_t>(bytes.size())) {
-        fail(path, ErrorKind::input, "offset 8", "the header claims " + std::to_string(length) + " bytes", "a header inside the file and below 1 MiB");
+        fail(path, ErrorKind::input, "offset 8", "the header claims " + std::to_string(length) + " bytes",
+             "a header inside the file and below 1 MiB");
     }
     return {reinterpret_cast<const char*>(bytes.data()) + begin, static_cast<std::size_t>(length)};
 }
@@ -108,9 +109,15 @@ NpyHeader read_header(const std::string& path) {
 }
 
 void set_type(const NpyHeader& header, VolumeInfo& info) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 9> kTypes = {
-        {{"u1", ValueType::u8}, {"b1", ValueType::u8}, {"i1", ValueType::i8}, {"u2", ValueType::u16}, {"i2", ValueType::i16},
-         {"u4", ValueType::u32}, {"i4", ValueType::i32}, {"f4", ValueType::f32}, {"f8", ValueType::f64}}};
+    static constexpr std::array<std::pair<std::string_view, ValueType>, 9> kTypes = {{{"u1", ValueType::u8},
+                                                                                      {"b1", ValueType::u8},
+                                                                                      {"i1", ValueType::i8},
+                                                                                      {"u2", ValueType::u16},
+                                                                                      {"i2", ValueType::i16},
+                                                                                      {"u4", ValueType::u32},
+                                                                                      {"i4", ValueType::i32},
+                                                                                      {"f4", ValueType::f32},
+                                                                                      {"f8", ValueType::f64}}};
     std::string name = header.type;
     char order = '=';
     if (!name.empty() && std::string_view("<>=|").find(name[0]) != std::string_view::npos) {

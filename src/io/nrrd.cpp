@@ -19,16 +19,36 @@ namespace {
 
 ValueType sample_type(const NrrdHeader& header) {
     static constexpr std::array<std::pair<std::string_view, ValueType>, 31> kTypes = {{
-        {"signed char", ValueType::i8},        {"int8", ValueType::i8},          {"int8_t", ValueType::i8},
-        {"char", ValueType::i8},               {"uchar", ValueType::u8},         {"unsigned char", ValueType::u8},
-        {"uint8", ValueType::u8},              {"uint8_t", ValueType::u8},       {"short", ValueType::i16},
-        {"short int", ValueType::i16},         {"signed short", ValueType::i16}, {"signed short int", ValueType::i16},
-        {"int16", ValueType::i16},             {"int16_t", ValueType::i16},      {"ushort", ValueType::u16},
-        {"unsigned short", ValueType::u16},    {"unsigned short int", ValueType::u16}, {"uint16", ValueType::u16},
-        {"uint16_t", ValueType::u16},          {"int", ValueType::i32},          {"signed int", ValueType::i32},
-        {"int32", ValueType::i32},             {"int32_t", ValueType::i32},      {"uint", ValueType::u32},
-        {"unsigned int", ValueType::u32},      {"uint32", ValueType::u32},       {"uint32_t", ValueType::u32},
-        {"float", ValueType::f32},             {"float32", ValueType::f32},      {"double", ValueType::f64},
+        {"signed char", ValueType::i8},
+        {"int8", ValueType::i8},
+        {"int8_t", ValueType::i8},
+        {"char", ValueType::i8},
+        {"uchar", ValueType::u8},
+        {"unsigned char", ValueType::u8},
+        {"uint8", ValueType::u8},
+        {"uint8_t", ValueType::u8},
+        {"short", ValueType::i16},
+        {"short int", ValueType::i16},
+        {"signed short", ValueType::i16},
+        {"signed short int", ValueType::i16},
+        {"int16", ValueType::i16},
+        {"int16_t", ValueType::i16},
+        {"ushort", ValueType::u16},
+        {"unsigned short", ValueType::u16},
+        {"unsigned short int", ValueType::u16},
+        {"uint16", ValueType::u16},
+        {"uint16_t", ValueType::u16},
+        {"int", ValueType::i32},
+        {"signed int", ValueType::i32},
+        {"int32", ValueType::i32},
+        {"int32_t", ValueType::i32},
+        {"uint", ValueType::u32},
+        {"unsigned int", ValueType::u32},
+        {"uint32", ValueType::u32},
+        {"uint32_t", ValueType::u32},
+        {"float", ValueType::f32},
+        {"float32", ValueType::f32},
+        {"double", ValueType::f64},
         {"float64", ValueType::f64},
     }};
     if (!header.has("type")) header.fail(ErrorKind::input, "type", "is missing", "the type of the samples");
@@ -37,8 +57,9 @@ ValueType sample_type(const NrrdHeader& header) {
         if (name == spelling) return type;
     }
     const bool known = name.find("long") != std::string::npos || name.find("int64") != std::string::npos || name == "block";
-    header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "type", quoted(name) + (known ? " samples are not read" : " is no NRRD type"),
-                "8 to 32 bit integers, float or double", "convert the file, for example: unu convert -t double -i IN.nrrd -o OUT.nrrd");
+    header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "type",
+                quoted(name) + (known ? " samples are not read" : " is no NRRD type"), "8 to 32 bit integers, float or double",
+                "convert the file, for example: unu convert -t double -i IN.nrrd -o OUT.nrrd");
 }
 
 struct NamedEncoding {
@@ -73,8 +94,8 @@ DataFiles data_files(const NrrdHeader& header) {
     const std::string value = header.text("data file");
     if (value.empty()) {
         if (header.ended) return {};
-        header.fail(ErrorKind::input, "data file", "is missing, and no samples follow the header", "a data file, or an empty line and samples",
-                    "the file is truncated, or its data file must be named in the header");
+        header.fail(ErrorKind::input, "data file", "is missing, and no samples follow the header",
+                    "a data file, or an empty line and samples", "the file is truncated, or its data file must be named in the header");
     }
     const std::vector<std::string_view> words = split_words(value);
     if (words[0] == "LIST") {

@@ -41,15 +41,23 @@ std::vector<std::int64_t> axis_sizes(const NrrdHeader& header) {
 
 [[noreturn]] void several_values(const NrrdHeader& header, std::size_t axis, const std::string& kind) {
     const std::string number = std::to_string(axis);
-    header.fail(ErrorKind::unsupported, "kinds", "axis " + number + " (" + kind + ") holds several values per sample", "one value per sample",
-                "extract one component, for example: unu slice -a " + number + " -p 0 -i IN.nrrd -o OUT.nrrd");
+    header.fail(ErrorKind::unsupported, "kinds", "axis " + number + " (" + kind + ") holds several values per sample",
+                "one value per sample", "extract one component, for example: unu slice -a " + number + " -p 0 -i IN.nrrd -o OUT.nrrd");
 }
 
 std::string space_name(const NrrdHeader& header) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kNames = {
-        {{"left-posterior-superior", "LPS"},  {"lps", "LPS"}, {"right-anterior-superior", "RAS"}, {"ras", "RAS"},
-         {"left-anterior-superior", "LAS"},   {"las", "LAS"}, {"left-posterior-superior-time", "LPS"}, {"lpst", "LPS"},
-         {"right-anterior-superior-time", "RAS"}, {"rast", "RAS"}, {"left-anterior-superior-time", "LAS"}, {"last", "LAS"}}};
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kNames = {{{"left-posterior-superior", "LPS"},
+                                                                                              {"lps", "LPS"},
+                                                                                              {"right-anterior-superior", "RAS"},
+                                                                                              {"ras", "RAS"},
+                                                                                              {"left-anterior-superior", "LAS"},
+                                                                                              {"las", "LAS"},
+                                                                                              {"left-posterior-superior-time", "LPS"},
+                                                                                              {"lpst", "LPS"},
+                                                                                              {"right-anterior-superior-time", "RAS"},
+                                                                                              {"rast", "RAS"},
+                                                                                              {"left-anterior-superior-time", "LAS"},
+                                                                                              {"last", "LAS"}}};
     const std::string text = header.text("space");
     for (const auto& [name, short_name] : kNames) {
         if (lower(text) == name) return std::string(short_name);
@@ -118,13 +126,15 @@ void read_per_axis(const NrrdHeader& header, const NrrdAxes& axes, VolumeInfo& i
         return header.has(field) ? header.numbers(field, dimension) : std::vector<double>(dimension, std::nan(""));
     };
     const std::vector<double> spacings = values("spacings"), mins = values("axis mins"), maxs = values("axis maxs");
-    const std::vector<std::string> centers = header.has("centers") ? header.words("centers", dimension) : std::vector<std::string>(dimension);
+    const std::vector<std::string> centers =
+        header.has("centers") ? header.words("centers", dimension) : std::vector<std::string>(dimension);
     for (std::size_t i = 0; i < axes.spatial.size(); ++i) {
         const std::size_t axis = axes.spatial[i];
         const bool cells = lower(centers[axis]) == "cell";
         const double steps = static_cast<double>(cells ? axes.sizes[axis] : axes.sizes[axis] - 1);
         double spacing = spacings[axis];
-        if (std::isnan(spacing) && std::isfinite(mins[axis]) && std::isfinite(maxs[axis]) && steps > 0) spacing = (maxs[axis] - mins[axis]) / steps;
+        if (std::isnan(spacing) && std::isfinite(mins[axis]) && std::isfinite(maxs[axis]) && steps > 0)
+            spacing = (maxs[axis] - mins[axis]) / steps;
         if (!std::isnan(spacing)) set_axis_spacing(info, static_cast<int>(i), spacing);  // NaN: "unknown" in NRRD
         if (std::isfinite(mins[axis])) info.geometry.origin[i] = mins[axis] + (cells && std::isfinite(spacing) ? spacing / 2 : 0);
     }
@@ -153,8 +163,8 @@ NrrdAxes choose_nrrd_axes(const NrrdHeader& header, std::vector<std::string>& no
     }
     while (kept.size() > 4 && axes.sizes[kept.back()] == 1) kept.pop_back();
     if (kept.size() < 2 || kept.size() > 4) {
-        header.fail(ErrorKind::unsupported, "dimension", "the file has " + std::to_string(kept.size()) + " axes", "2, 3, or 4 with time last",
-                    "slice it, for example: unu slice -a AXIS -p POSITION -i IN.nrrd -o OUT.nrrd");
+        header.fail(ErrorKind::unsupported, "dimension", "the file has " + std::to_string(kept.size()) + " axes",
+                    "2, 3, or 4 with time last", "slice it, for example: unu slice -a AXIS -p POSITION -i IN.nrrd -o OUT.nrrd");
     }
     if (kept.size() == 4) {
         for (std::size_t i = 0; i < 3; ++i) {

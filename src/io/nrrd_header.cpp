@@ -8,11 +8,36 @@
 namespace isoatlas::io {
 namespace {
 
-constexpr std::array<std::string_view, 30> kFields = {
-    "content",       "number",         "type",         "block size",  "dimension",       "space",           "space dimension", "sizes",
-    "spacings",      "thicknesses",    "axis mins",    "axis maxs",   "space directions", "centers",        "kinds",           "labels",
-    "units",         "space units",    "space origin", "measurement frame", "min",        "max",            "old min",         "old max",
-    "data file",     "endian",         "encoding",     "line skip",   "byte skip",       "sample units"};
+constexpr std::array<std::string_view, 30> kFields = {"content",
+                                                      "number",
+                                                      "type",
+                                                      "block size",
+                                                      "dimension",
+                                                      "space",
+                                                      "space dimension",
+                                                      "sizes",
+                                                      "spacings",
+                                                      "thicknesses",
+                                                      "axis mins",
+                                                      "axis maxs",
+                                                      "space directions",
+                                                      "centers",
+                                                      "kinds",
+                                                      "labels",
+                                                      "units",
+                                                      "space units",
+                                                      "space origin",
+                                                      "measurement frame",
+                                                      "min",
+                                                      "max",
+                                                      "old min",
+                                                      "old max",
+                                                      "data file",
+                                                      "endian",
+                                                      "encoding",
+                                                      "line skip",
+                                                      "byte skip",
+                                                      "sample units"};
 
 /// The one spelling of a field name; empty when NRRD has no such field.
 std::string canonical(std::string_view name) {
@@ -123,7 +148,8 @@ std::vector<std::optional<std::vector<double>>> NrrdHeader::vectors(const std::s
             continue;
         }
         const std::size_t close = value.find(')', at);
-        if (value[at] != '(' || close == std::string::npos) fail(ErrorKind::input, field, quoted(value) + " is not understood", "vectors like (1,0,0)");
+        if (value[at] != '(' || close == std::string::npos)
+            fail(ErrorKind::input, field, quoted(value) + " is not understood", "vectors like (1,0,0)");
         std::vector<double>& vector = result.emplace_back(std::vector<double>{}).value();
         for (std::size_t begin = at + 1; begin <= close;) {
             const std::size_t end = std::min(value.find(',', begin), close);

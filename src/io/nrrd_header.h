@@ -13,11 +13,11 @@ namespace isoatlas::io {
 
 struct NrrdHeader {
     std::string path;
-    std::map<std::string, std::string> fields;   ///< "space origin" -> text; names in lower case, spellings made one
-    std::map<std::string, std::string> values;   ///< key:=value
-    std::vector<std::string> listed_files;       ///< lines behind "data file: LIST"
-    std::int64_t data_offset = 0;                ///< attached data begin here
-    bool ended = false;                          ///< by an empty line (needed when data are attached)
+    std::map<std::string, std::string> fields;  ///< "space origin" -> text; names in lower case, spellings made one
+    std::map<std::string, std::string> values;  ///< key:=value
+    std::vector<std::string> listed_files;      ///< lines behind "data file: LIST"
+    std::int64_t data_offset = 0;               ///< attached data begin here
+    bool ended = false;                         ///< by an empty line (needed when data are attached)
     std::vector<std::string> notes;
 
     [[nodiscard]] bool has(const std::string& field) const { return fields.contains(field); }
@@ -34,7 +34,8 @@ struct NrrdHeader {
                            const std::string& next = "correct the header or get the file again") const;
 };
 
-/// Reads a header of version 1 to 5. Throws Error{input} for lines that are no fields, for fields given twice; unsupported for later versions.
+/// Reads a header of version 1 to 5. Throws Error{input} for lines that are no fields, for fields given twice; unsupported for later
+/// versions.
 [[nodiscard]] NrrdHeader read_nrrd_header(const std::string& path);
 
 }  // namespace isoatlas::io

@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
-    "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti), TIFF (.tif), a folder of slices, RAW";
+    "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti), TIFF (.tif), a folder of slices, "
+    "RAW";
 
 struct Format {
     const char* name;
@@ -87,9 +88,10 @@ bool has_extension(const std::string& path, const Format& format) {
             best_distance = distance;
         }
     }
-    throw Error(ErrorKind::input, {.file = path,
-                                   .what = "there is no such file",
-                                   .next = best.empty() ? "check the path" : "did you mean " + (whole.parent_path() / best).string() + "?"});
+    throw Error(ErrorKind::input,
+                {.file = path,
+                 .what = "there is no such file",
+                 .next = best.empty() ? "check the path" : "did you mean " + (whole.parent_path() / best).string() + "?"});
 }
 
 [[noreturn]] void unknown_format(const std::string& path) {
@@ -110,7 +112,8 @@ bool has_extension(const std::string& path, const Format& format) {
             if (extension.size() > 1 && edit_distance(extension, known) == 1) next = "did you mean " + std::string(known) + "? " + next;
         }
     }
-    throw Error(ErrorKind::unsupported, {.file = path, .what = "the format of the file is not known", .expected = kSupported, .next = next});
+    throw Error(ErrorKind::unsupported,
+                {.file = path, .what = "the format of the file is not known", .expected = kSupported, .next = next});
 }
 
 /// Whether the name is taken, also by something that cannot be read: then opening it says why.

@@ -59,14 +59,14 @@ std::string header_beside(const std::string& path) {
 [[noreturn]] void unknown_shape(const std::string& path, const RawDescription& known) {
     const std::string header = header_beside(path);
     const char* missing = known.dims ? "its type is not known" : known.type ? "its dims are not known" : "its dims and type are not known";
-    throw Error(ErrorKind::usage,
-                {.file = path,
-                 .what = std::string("a RAW file says nothing about itself: ") + missing,
-                 .expected = "Raw files need --dims and --type",
-                 .next = header.empty() ? "give --dims NXxNYxNZ --type TYPE, or write them into " +
-                                              std::filesystem::path(path).filename().string() + ".json, or name the file like "
-                                              "name_64x64x64_uint8.raw"
-                                        : "open " + header + " instead, which describes it"});
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = std::string("a RAW file says nothing about itself: ") + missing,
+                                   .expected = "Raw files need --dims and --type",
+                                   .next = header.empty() ? "give --dims NXxNYxNZ --type TYPE, or write them into " +
+                                                                std::filesystem::path(path).filename().string() +
+                                                                ".json, or name the file like "
+                                                                "name_64x64x64_uint8.raw"
+                                                          : "open " + header + " instead, which describes it"});
 }
 
 /// What would fit the file: other types for the same dims, another last size for the same type, or a header to skip.
@@ -74,7 +74,8 @@ std::string what_fits(const Extent& extent, ValueType type, std::int64_t skip, s
     const std::int64_t voxels = extent.voxels(), sample = static_cast<std::int64_t>(size_of(type));
     if (holds >= voxels && holds % voxels == 0) {
         const std::int64_t bytes = holds / voxels;
-        const std::array<const char*, 9> names = {"", "uint8 or int8", "uint16 or int16", "", "uint32, int32 or float32", "", "", "", "float64"};
+        const std::array<const char*, 9> names = {"", "uint8 or int8", "uint16 or int16", "", "uint32, int32 or float32", "", "",
+                                                  "", "float64"};
         if (bytes <= 8 && names[bytes][0] != '\0') return std::string("the size fits these dims with --type ") + names[bytes];
     }
     const int last = extent.rank - 1;

@@ -101,14 +101,14 @@ std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_pt
     const std::int64_t bound = source->size_bound();
     if (wanted > bound) {
         const std::string volumes = step.count > 1 ? std::to_string(step.count) + " volumes of " : "";
-        const std::string holds = (source->random_access() ? "the file holds " : "the file cannot hold more than ") +
-                                  std::to_string(bound) + " bytes of samples";
-        throw Error(ErrorKind::input, {.file = source->file(),
-                                       .where = "samples",
-                                       .what = holds,
-                                       .expected = std::to_string(wanted) + " bytes for " + volumes + shape_text(info.extent) + " " +
-                                                   name_of(info.type),
-                                       .next = "the file is truncated or its header is wrong: get it again"});
+        const std::string holds =
+            (source->random_access() ? "the file holds " : "the file cannot hold more than ") + std::to_string(bound) + " bytes of samples";
+        throw Error(ErrorKind::input,
+                    {.file = source->file(),
+                     .where = "samples",
+                     .what = holds,
+                     .expected = std::to_string(wanted) + " bytes for " + volumes + shape_text(info.extent) + " " + name_of(info.type),
+                     .next = "the file is truncated or its header is wrong: get it again"});
     }
     return std::make_unique<SampleReader>(std::move(info), std::move(source), step);
 }

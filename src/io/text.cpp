@@ -39,7 +39,8 @@ std::string lower(std::string_view text) {
 
 std::vector<std::string_view> split_words(std::string_view text) {
     std::vector<std::string_view> words;
-    for (std::size_t begin = text.find_first_not_of(kSpace); begin != std::string_view::npos; begin = text.find_first_not_of(kSpace, begin)) {
+    for (std::size_t begin = text.find_first_not_of(kSpace); begin != std::string_view::npos;
+         begin = text.find_first_not_of(kSpace, begin)) {
         const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
         words.push_back(text.substr(begin, end - begin));
         begin = end;

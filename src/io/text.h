@@ -9,8 +9,8 @@
 
 namespace isoatlas::io {
 
-[[nodiscard]] std::string_view trim(std::string_view text);  ///< without blanks, tabs and line ends around it
-[[nodiscard]] std::string lower(std::string_view text);      ///< ASCII only
+[[nodiscard]] std::string_view trim(std::string_view text);                      ///< without blanks, tabs and line ends around it
+[[nodiscard]] std::string lower(std::string_view text);                          ///< ASCII only
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);  ///< at white space, views into text
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);  ///< nothing: not an integer or out of range
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);         ///< also nan and inf

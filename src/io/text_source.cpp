@@ -118,7 +118,7 @@ private:
     std::int64_t consumed_ = 0;  // characters read into chunks
     std::int64_t samples_read_ = 0;
     std::string chunk_, word_;
-    std::size_t at_ = 0;         // in chunk_
+    std::size_t at_ = 0;  // in chunk_
 };
 
 }  // namespace

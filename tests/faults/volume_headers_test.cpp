@@ -33,7 +33,7 @@ struct Seed {
     std::string content;
     std::size_t header_bytes = 0;  ///< of content
     std::string samples;
-    bool payload_last = true;      ///< cutting the file cuts samples
+    bool payload_last = true;  ///< cutting the file cuts samples
 };
 
 std::string npy(const std::string& type, const std::string& shape, const std::string& samples) {
@@ -41,7 +41,8 @@ std::string npy(const std::string& type, const std::string& shape, const std::st
     return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(text.size()) + '\0' + text + samples;
 }
 
-Seed seed(const std::string& name, const std::string& header, const std::string& payload, const std::string& samples, bool payload_last = true) {
+Seed seed(const std::string& name, const std::string& header, const std::string& payload, const std::string& samples,
+          bool payload_last = true) {
     return {name, header + payload, header.size(), samples, payload_last};
 }
 
@@ -49,23 +50,27 @@ std::vector<Seed> seeds(const test::TestFolder& folder) {
     const std::string samples = test::telling_bytes(48);
     folder.write("data.raw", samples);
     for (int i = 1; i <= 4; ++i) folder.write("s" + std::to_string(i) + ".raw", samples.substr(static_cast<std::size_t>(i - 1) * 12, 12));
-    const std::string nrrd = "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 3 4\nspace: left-posterior-superior\n"
-                             "space directions: (1,0,0) (0,1,0) (0,0,2)\nspace origin: (1,2,3)\nkinds: domain domain domain\nendian: little\n";
-    const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nOffset = 1 2 3\n"
-                             "TransformMatrix = 1 0 0 0 1 0 0 0 1\nElementSpacing = 1 1 2\nDimSize = 2 3 4\nElementType = MET_SHORT\n";
+    const std::string nrrd =
+        "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 3 4\nspace: left-posterior-superior\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,2)\nspace origin: (1,2,3)\nkinds: domain domain domain\nendian: little\n";
+    const std::string meta =
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nOffset = 1 2 3\n"
+        "TransformMatrix = 1 0 0 0 1 0 0 0 1\nElementSpacing = 1 1 2\nDimSize = 2 3 4\nElementType = MET_SHORT\n";
     const std::string packed = test::zlib(samples);
     const std::string numpy = npy("<i2", "(4, 3, 2)", "");
-    std::vector<Seed> all = {seed("raw.nrrd", nrrd + "encoding: raw\n\n", samples, samples),
-            seed("gzip.nrrd", nrrd + "encoding: gzip\n\n", test::gzip(samples), samples),
-            seed("text.nrrd", "NRRD0001\ntype: uchar\ndimension: 2\nsizes: 2 2\nspacings: 1 2\naxis mins: 0 0\nencoding: ascii\n\n", "10 20 30 4 ",
-                 std::string("\x0a\x14\x1e\x04", 4), false),
-            seed("series.nhdr", nrrd + "encoding: raw\ndata file: s%d.raw 1 4 1\n", "", samples, false),
-            seed("list.nhdr", nrrd + "encoding: raw\ndata file: LIST\ns1.raw\ns2.raw\ns3.raw\ns4.raw\n", "", samples, false),
-            seed("raw.mha", meta + "ElementDataFile = LOCAL\n", samples, samples),
-            seed("zlib.mha", meta + "CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size()) + "\nElementDataFile = LOCAL\n",
-                 packed, samples),
-            seed("detached.mhd", meta + "ElementDataFile = data.raw\n", "", samples, false),
-            seed("v.npy", numpy, samples, samples)};
+    std::vector<Seed> all = {
+        seed("raw.nrrd", nrrd + "encoding: raw\n\n", samples, samples),
+        seed("gzip.nrrd", nrrd + "encoding: gzip\n\n", test::gzip(samples), samples),
+        seed("text.nrrd", "NRRD0001\ntype: uchar\ndimension: 2\nsizes: 2 2\nspacings: 1 2\naxis mins: 0 0\nencoding: ascii\n\n",
+             "10 20 30 4 ", std::string("\x0a\x14\x1e\x04", 4), false),
+        seed("series.nhdr", nrrd + "encoding: raw\ndata file: s%d.raw 1 4 1\n", "", samples, false),
+        seed("list.nhdr", nrrd + "encoding: raw\ndata file: LIST\ns1.raw\ns2.raw\ns3.raw\ns4.raw\n", "", samples, false),
+        seed("raw.mha", meta + "ElementDataFile = LOCAL\n", samples, samples),
+        seed("zlib.mha",
+             meta + "CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size()) + "\nElementDataFile = LOCAL\n", packed,
+             samples),
+        seed("detached.mhd", meta + "ElementDataFile = data.raw\n", "", samples, false),
+        seed("v.npy", numpy, samples, samples)};
     for (const Seed& seed : all) folder.write(seed.name, seed.content);
     return all;
 }
@@ -82,7 +87,8 @@ bool load_by_the_rules(const std::string& path, const std::string& content, std:
         bytes = test::text_of_bytes(volume);
         read = true;
     } catch (const Error& error) {
-        const bool documented = error.kind() == ErrorKind::input || error.kind() == ErrorKind::unsupported || error.kind() == ErrorKind::usage;
+        const bool documented =
+            error.kind() == ErrorKind::input || error.kind() == ErrorKind::unsupported || error.kind() == ErrorKind::usage;
         EXPECT_TRUE(documented) << error.what();
         EXPECT_FALSE(error.text().file.empty()) << error.what();
         EXPECT_FALSE(error.text().next.empty()) << error.what();
@@ -132,8 +138,20 @@ TEST(VolumeHeaders, EveryBitFlipped) {
 /// Every run of digits in the header replaced by every absurd number.
 TEST(VolumeHeaders, AbsurdNumbers) {
     const test::TestFolder folder;
-    const std::vector<std::string> absurd = {"0", "-1", "1e9", "nan", "", "1099511627776", "9223372036854775807", "9223372036854775808",
-                                             "-9223372036854775808", "4294967296", "2147483648", "99999999999999999999999999", "0x10", "1.5"};
+    const std::vector<std::string> absurd = {"0",
+                                             "-1",
+                                             "1e9",
+                                             "nan",
+                                             "",
+                                             "1099511627776",
+                                             "9223372036854775807",
+                                             "9223372036854775808",
+                                             "-9223372036854775808",
+                                             "4294967296",
+                                             "2147483648",
+                                             "99999999999999999999999999",
+                                             "0x10",
+                                             "1.5"};
     for (const Seed& seed : seeds(folder)) {
         const std::string header = seed.content.substr(0, seed.header_bytes), rest = seed.content.substr(seed.header_bytes);
         for (std::size_t begin = header.find_first_of("0123456789"); begin != std::string::npos;) {

@@ -27,7 +27,8 @@ int main(int count, char** arguments) {
             const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
             const std::vector<std::uint8_t> bytes(text.begin(), text.end());
             for (std::size_t size = bytes.size() <= kAllCuts ? 0 : bytes.size(); size < bytes.size(); ++size) {
-                const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));  // its end is the heap's
+                const std::vector<std::uint8_t> cut(bytes.begin(),
+                                                    bytes.begin() + static_cast<std::ptrdiff_t>(size));  // its end is the heap's
                 LLVMFuzzerTestOneInput(cut.data(), cut.size());
             }
             LLVMFuzzerTestOneInput(bytes.data(), bytes.size());

@@ -41,7 +41,8 @@ private:
 
 inline void use_content(std::span<const std::byte> content) {
     isoatlas::io::replace_file_opener([content, left = 200](const std::string& path) mutable -> std::unique_ptr<isoatlas::io::FileHandle> {
-        if (left-- == 0) throw isoatlas::Error(isoatlas::ErrorKind::input, {.file = path, .what = "no such file", .next = "check the path"});
+        if (left-- == 0)
+            throw isoatlas::Error(isoatlas::ErrorKind::input, {.file = path, .what = "no such file", .next = "check the path"});
         return std::make_unique<OnlyFile>(content);
     });
 }

@@ -39,9 +39,8 @@ private:
 class WithBadDisk {
 public:
     explicit WithBadDisk(std::size_t most, std::int64_t fails_at = INT64_MAX, int error = 0) {
-        io::replace_file_opener([=](const std::string& path) {
-            return std::make_unique<BadDisk>(io::open_system_file(path), most, fails_at, error);
-        });
+        io::replace_file_opener(
+            [=](const std::string& path) { return std::make_unique<BadDisk>(io::open_system_file(path), most, fails_at, error); });
     }
     WithBadDisk(const WithBadDisk&) = delete;
     WithBadDisk& operator=(const WithBadDisk&) = delete;
@@ -60,17 +59,20 @@ std::vector<std::unique_ptr<ByteSource>> sources_of(const test::TestFolder& fold
     const auto part_bytes = static_cast<std::int64_t>(payload.size()) / 3;
     std::vector<std::unique_ptr<ByteSource>> sources;
     sources.push_back(io::open_file_source(folder.write("plain", payload)));
-    sources.push_back(io::open_file_source(folder.write("inside", "head" + payload + "tail"), 4, static_cast<std::int64_t>(payload.size())));
+    sources.push_back(
+        io::open_file_source(folder.write("inside", "head" + payload + "tail"), 4, static_cast<std::int64_t>(payload.size())));
     sources.push_back(io::open_inflate_source(folder.write("gz", test::gzip(payload))));
     sources.push_back(io::open_inflate_source(folder.write("z", "head" + test::zlib(payload)), 4));
-    sources.push_back(io::open_inflate_source(folder.write("members", test::gzip(payload.substr(0, 5)) + test::gzip("") + test::gzip(payload.substr(5)))));
+    sources.push_back(io::open_inflate_source(
+        folder.write("members", test::gzip(payload.substr(0, 5)) + test::gzip("") + test::gzip(payload.substr(5)))));
     sources.push_back(io::open_inflate_source(folder.write("padded", test::gzip(payload) + std::string(9, '\0'))));
-    sources.push_back(io::open_parts_source({.count = 3,
-                                             .part_bytes = part_bytes,
-                                             .size_bound = 3 * part_bytes,
-                                             .random_access = true,
-                                             .open = [=](std::int64_t part) { return io::open_file_source(parts, part * part_bytes, part_bytes); },
-                                             .file = parts}));
+    sources.push_back(
+        io::open_parts_source({.count = 3,
+                               .part_bytes = part_bytes,
+                               .size_bound = 3 * part_bytes,
+                               .random_access = true,
+                               .open = [=](std::int64_t part) { return io::open_file_source(parts, part * part_bytes, part_bytes); },
+                               .file = parts}));
     return sources;
 }
 
@@ -86,7 +88,8 @@ RC_GTEST_PROP(ByteSource, AnyWalkReadsTheRightBytes, ()) {
             const auto count = *rc::gen::inRange<std::int64_t>(0, size - begin + 1);
             source->seek(begin);
             RC_ASSERT(source->at_end() == (begin == size));
-            RC_ASSERT(read_text(*source, static_cast<std::size_t>(count)) == payload.substr(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)));
+            RC_ASSERT(read_text(*source, static_cast<std::size_t>(count)) ==
+                      payload.substr(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)));
             RC_ASSERT(source->at_end() == (begin + count == size));
         }
     }
@@ -126,9 +129,12 @@ TEST(ByteSource, FailingDisksAreReported) {
 TEST(ByteSource, RangesBeyondTheFile) {
     const test::TestFolder folder;
     const std::string path = folder.write("v", "12345");
-    for (const auto& [offset, length] : std::vector<std::pair<std::int64_t, std::int64_t>>{{6, -1}, {0, 6}, {3, 3}, {-1, 2}, {INT64_MAX, 1}, {1, INT64_MAX}}) {
-        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(io::open_file_source(path, o, l)); }), ErrorKind::input, "5 bytes");
-        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(io::open_inflate_source(path, o, l)); }), ErrorKind::input, "5 bytes");
+    for (const auto& [offset, length] :
+         std::vector<std::pair<std::int64_t, std::int64_t>>{{6, -1}, {0, 6}, {3, 3}, {-1, 2}, {INT64_MAX, 1}, {1, INT64_MAX}}) {
+        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(io::open_file_source(path, o, l)); }), ErrorKind::input,
+                       "5 bytes");
+        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(io::open_inflate_source(path, o, l)); }),
+                       ErrorKind::input, "5 bytes");
     }
 }
 

@@ -128,7 +128,8 @@ TEST(LoadVolume, NoDataOfIntegers) {
 TEST(LoadVolume, NothingFinite) {
     const test::TestFolder folder;
     const std::string path = nrrd_of(folder, std::vector<float>(8, kNan), "2 2 2");
-    expect_helpful(failure_of([&] { static_cast<void>(load_volume(path, {}, policy_of(below))); }), ErrorKind::input, "every sample is missing");
+    expect_helpful(failure_of([&] { static_cast<void>(load_volume(path, {}, policy_of(below))); }), ErrorKind::input,
+                   "every sample is missing");
     EXPECT_EQ(loaded<float>(path, policy_of(replace, 4)), std::vector<float>(8, 4));
     const std::string lowest = nrrd_of(folder, std::vector<float>{std::numeric_limits<float>::lowest(), kNan}, "2 1 1");
     expect_helpful(failure_of([&] { static_cast<void>(load_volume(lowest, {}, policy_of(below))); }), ErrorKind::input, "lies below");

@@ -13,9 +13,10 @@ struct MetaType {
     const char* spelling;
     ValueType type;
 };
-constexpr MetaType kTypes[] = {{"MET_UCHAR", ValueType::u8}, {"MET_CHAR", ValueType::i8},   {"MET_USHORT", ValueType::u16}, {"MET_SHORT", ValueType::i16},
-                               {"MET_UINT", ValueType::u32}, {"MET_INT", ValueType::i32},   {"MET_ULONG", ValueType::u32},  {"MET_LONG", ValueType::i32},
-                               {"MET_FLOAT", ValueType::f32}, {"MET_DOUBLE", ValueType::f64}};
+constexpr MetaType kTypes[] = {{"MET_UCHAR", ValueType::u8},  {"MET_CHAR", ValueType::i8},  {"MET_USHORT", ValueType::u16},
+                               {"MET_SHORT", ValueType::i16}, {"MET_UINT", ValueType::u32}, {"MET_INT", ValueType::i32},
+                               {"MET_ULONG", ValueType::u32}, {"MET_LONG", ValueType::i32}, {"MET_FLOAT", ValueType::f32},
+                               {"MET_DOUBLE", ValueType::f64}};
 
 std::string header(const std::string& type, const std::string& more, const std::string& file = "LOCAL") {
     return "ObjectType = Image\nNDims = 3\nDimSize = 5 4 3\nElementType = " + type + "\n" + more + "ElementDataFile = " + file + "\n";
@@ -95,12 +96,14 @@ TEST(MetaImage, LocalHeaderSizeCountsFromTheStart) {
     const std::string text = header("MET_UCHAR", "HeaderSize = 200\n");
     const std::string path = folder.write("v.mha", text + std::string(200 - text.size(), '.') + samples);
     EXPECT_EQ(samples_of(path), samples);
-    expect_helpful(failure_of_loading(folder.write("v.mha", header("MET_UCHAR", "HeaderSize = 20\n") + samples)), ErrorKind::input, "inside this header");
+    expect_helpful(failure_of_loading(folder.write("v.mha", header("MET_UCHAR", "HeaderSize = 20\n") + samples)), ErrorKind::input,
+                   "inside this header");
 }
 
 TEST(MetaImage, TextSamples) {
     const test::TestFolder folder;
-    const std::string path = folder.write("v.mha", "NDims = 2\nDimSize = 2 2\nElementType = MET_SHORT\nBinaryData = False\nElementDataFile = LOCAL\n1 -2\n3 400\n");
+    const std::string path = folder.write(
+        "v.mha", "NDims = 2\nDimSize = 2 2\nElementType = MET_SHORT\nBinaryData = False\nElementDataFile = LOCAL\n1 -2\n3 400\n");
     EXPECT_EQ(samples_of(path), test::bytes_of<std::int16_t>({1, -2, 3, 400}));
 }
 
@@ -111,7 +114,8 @@ Geometry geometry_of(const std::string& more) {
 
 TEST(MetaImage, Geometry) {
     // Axis 0 runs along physical y, axis 1 along z, axis 2 along x: rows of the matrix are axes.
-    const Geometry turned = geometry_of("TransformMatrix = 0 1 0 0 0 1 1 0 0\nOffset = 1 2 3\nElementSpacing = 4 5 6\nAnatomicalOrientation = RAI\n");
+    const Geometry turned =
+        geometry_of("TransformMatrix = 0 1 0 0 0 1 1 0 0\nOffset = 1 2 3\nElementSpacing = 4 5 6\nAnatomicalOrientation = RAI\n");
     EXPECT_EQ(to_physical(turned, {1, 0, 0}), (Vec3{1, 6, 3}));
     EXPECT_EQ(to_physical(turned, {0, 1, 0}), (Vec3{1, 2, 8}));
     EXPECT_EQ(to_physical(turned, {0, 0, 1}), (Vec3{7, 2, 3}));
@@ -128,13 +132,17 @@ TEST(MetaImage, Geometry) {
 TEST(MetaImage, TwoAndFourDimensions) {
     const test::TestFolder folder;
     const std::string samples = test::telling_bytes(24);
-    const std::string flat = folder.write("flat.mha", "NDims = 2\nDimSize = 6 4\nTransformMatrix = 0 1 -1 0\nElementSpacing = 2 3\nElementType = MET_UCHAR\n"
-                                                      "ElementToIntensityFunctionSlope = 2\nElementDataFile = LOCAL\n" + samples);
+    const std::string flat =
+        folder.write("flat.mha",
+                     "NDims = 2\nDimSize = 6 4\nTransformMatrix = 0 1 -1 0\nElementSpacing = 2 3\nElementType = MET_UCHAR\n"
+                     "ElementToIntensityFunctionSlope = 2\nElementDataFile = LOCAL\n" +
+                         samples);
     const auto reader = open_volume(flat);
     EXPECT_EQ(reader->info().extent, (Extent{2, {6, 4, 1}}));
     EXPECT_EQ(reader->info().geometry.direction, (Mat3{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}));
     EXPECT_EQ(reader->info().calibration, (Calibration{2, 0}));
-    const std::string series = folder.write("series.mha", "NDims = 4\nDimSize = 1 2 3 4\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + samples);
+    const std::string series =
+        folder.write("series.mha", "NDims = 4\nDimSize = 1 2 3 4\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + samples);
     expect_helpful(failure_of_loading(series), ErrorKind::usage, "--time-step N");
     for (std::int64_t step = 0; step < 4; ++step) {
         OpenOptions options;
@@ -171,11 +179,14 @@ TEST(MetaImage, Refusals) {
         {header("MET_UCHAR", "CompressedData = True\n") + packed.substr(0, packed.size() - 5), ErrorKind::input, "ends early"},
         {"ObjectType = Tube\nNDims = 3\nElementDataFile = LOCAL\n", ErrorKind::unsupported, "Tube"},
         {"ObjectType = Image\nNDims = 3\n", ErrorKind::input, "ElementDataFile"},
-        {"ObjectType = Image\nNDims = 5\nDimSize = 1 1 1 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::unsupported, "5 axes"},
+        {"ObjectType = Image\nNDims = 5\nDimSize = 1 1 1 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::unsupported,
+         "5 axes"},
         {"ObjectType = Image\nNDims = 0\nElementDataFile = LOCAL\nx", ErrorKind::input, "NDims"},
         {"NDims = 2\nDimSize = 0 4\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::input, "0 samples"},
-        {"NDims = 2\nDimSize = 1099511627776 1099511627776\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::input, "63 bits"},
-        {"NDims = 2\nDimSize = 1099511627776 1048576\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::input, "the file holds 1 bytes"},
+        {"NDims = 2\nDimSize = 1099511627776 1099511627776\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::input,
+         "63 bits"},
+        {"NDims = 2\nDimSize = 1099511627776 1048576\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::input,
+         "the file holds 1 bytes"},
         {"NDims = 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx", ErrorKind::input, "DimSize"},
         {"NDims = 2\nDimSize = 1 1\nElementDataFile = LOCAL\nx", ErrorKind::input, "ElementType"},
         {"ObjectType = Image\nDimSize = 1 1\nElementDataFile = LOCAL\nx", ErrorKind::input, "NDims"},

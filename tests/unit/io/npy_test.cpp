@@ -26,14 +26,16 @@ std::string dictionary(const std::string& type, const std::string& shape, bool f
 
 TEST(Npy, EveryTypeAndByteOrder) {
     const test::TestFolder folder;
-    const std::pair<std::string, ValueType> types[] = {{"u1", ValueType::u8},  {"i1", ValueType::i8},  {"u2", ValueType::u16}, {"i2", ValueType::i16},
-                                                       {"u4", ValueType::u32}, {"i4", ValueType::i32}, {"f4", ValueType::f32}, {"f8", ValueType::f64}};
+    const std::pair<std::string, ValueType> types[] = {{"u1", ValueType::u8},  {"i1", ValueType::i8},  {"u2", ValueType::u16},
+                                                       {"i2", ValueType::i16}, {"u4", ValueType::u32}, {"i4", ValueType::i32},
+                                                       {"f4", ValueType::f32}, {"f8", ValueType::f64}};
     for (const auto& [name, type] : types) {
         const std::string samples = test::telling_bytes(24 * size_of(type)), big = test::swapped(samples, size_of(type));
         for (const std::string order : {"<", ">", "="}) {
             for (const int version : {1, 2, 3}) {
                 SCOPED_TRACE(order + name);
-                const std::string path = folder.write("v.npy", npy(dictionary(order + name, "(4, 3, 2)"), order == ">" ? big : samples, version));
+                const std::string path =
+                    folder.write("v.npy", npy(dictionary(order + name, "(4, 3, 2)"), order == ">" ? big : samples, version));
                 const auto reader = open_volume(path);
                 EXPECT_EQ(reader->info().type, type);
                 EXPECT_EQ(reader->info().extent, (Extent{3, {2, 3, 4}}));
@@ -63,7 +65,8 @@ TEST(Npy, BooleansAndSeries) {
     EXPECT_EQ(test::text_of_bytes(load_volume(path)), std::string("\0\1\1\0", 4));
     const std::string samples = test::telling_bytes(24);
     for (const bool fortran : {false, true}) {
-        const std::string series = folder.write("t.npy", npy(dictionary("|u1", fortran ? "(1, 2, 3, 4)" : "(4, 3, 2, 1)", fortran), samples));
+        const std::string series =
+            folder.write("t.npy", npy(dictionary("|u1", fortran ? "(1, 2, 3, 4)" : "(4, 3, 2, 1)", fortran), samples));
         expect_helpful(failure_of_loading(series), ErrorKind::usage, "--time-step");
         OpenOptions options;
         options.time_step = 2;

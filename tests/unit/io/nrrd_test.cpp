@@ -13,19 +13,25 @@ struct NrrdType {
     const char* spelling;
     ValueType type;
 };
-constexpr NrrdType kTypes[] = {{"uchar", ValueType::u8},           {"uint8_t", ValueType::u8},      {"signed char", ValueType::i8},
-                               {"unsigned short int", ValueType::u16}, {"uint16", ValueType::u16}, {"short", ValueType::i16},
-                               {"signed short int", ValueType::i16}, {"uint", ValueType::u32},      {"unsigned int", ValueType::u32},
-                               {"int32_t", ValueType::i32},        {"signed int", ValueType::i32},  {"float", ValueType::f32},
+constexpr NrrdType kTypes[] = {{"uchar", ValueType::u8},
+                               {"uint8_t", ValueType::u8},
+                               {"signed char", ValueType::i8},
+                               {"unsigned short int", ValueType::u16},
+                               {"uint16", ValueType::u16},
+                               {"short", ValueType::i16},
+                               {"signed short int", ValueType::i16},
+                               {"uint", ValueType::u32},
+                               {"unsigned int", ValueType::u32},
+                               {"int32_t", ValueType::i32},
+                               {"signed int", ValueType::i32},
+                               {"float", ValueType::f32},
                                {"double", ValueType::f64}};
 
 std::string header(const std::string& type, const std::string& more, const std::string& sizes = "5 4 3") {
     return "NRRD0004\n# comment\ntype: " + type + "\ndimension: 3\nsizes: " + sizes + "\n" + more;
 }
 
-std::string samples_of(const std::string& path, const OpenOptions& options = {}) {
-    return test::text_of_bytes(load_volume(path, options));
-}
+std::string samples_of(const std::string& path, const OpenOptions& options = {}) { return test::text_of_bytes(load_volume(path, options)); }
 
 TEST(Nrrd, EveryTypeEndianAndEncoding) {
     const test::TestFolder folder;
@@ -35,8 +41,10 @@ TEST(Nrrd, EveryTypeEndianAndEncoding) {
         const std::string samples = test::telling_bytes(60 * bytes), big = test::swapped(samples, bytes);
         const std::string gzipped = test::gzip(samples);
         const std::vector<std::pair<std::string, std::string>> files = {
-            {"endian: little\nencoding: raw\n\n", samples},        {"endian: big\nencoding: raw\n\n", big},
-            {"endian: little\nencoding: gzip\n\n", gzipped},       {"endian: big\nencoding: gz\n\n", test::gzip(big)},
+            {"endian: little\nencoding: raw\n\n", samples},
+            {"endian: big\nencoding: raw\n\n", big},
+            {"endian: little\nencoding: gzip\n\n", gzipped},
+            {"endian: big\nencoding: gz\n\n", test::gzip(big)},
             {"endian: little\nencoding: raw\nbyteskip: 7\n\n", "1234567" + samples},
             {"endian: little\nencoding: raw\nbyte skip: -1\n\n", "any number of bytes" + samples},
             {"endian: little\nencoding: raw\nline skip: 2\nbyte skip: 1\n\n", "a line\nanother\n." + samples},
@@ -74,7 +82,8 @@ TEST(Nrrd, SlabsInAnyOrder) {
 
 TEST(Nrrd, Text) {
     const test::TestFolder folder;
-    const std::string path = folder.write("v.nrrd", "NRRD0005\ntype: float\ndimension: 2\nsizes: 3 2\nencoding: ascii\n\n1 -2.5,+3e2\n 1e-50 nan\tinf\n");
+    const std::string path =
+        folder.write("v.nrrd", "NRRD0005\ntype: float\ndimension: 2\nsizes: 3 2\nencoding: ascii\n\n1 -2.5,+3e2\n 1e-50 nan\tinf\n");
     const auto reader = open_volume(path);
     const std::string bytes = test::read_all(*reader, 1);
     float samples[6];
@@ -107,7 +116,12 @@ TEST(Nrrd, DetachedListsAndSeries) {
     folder.write("data/all.raw.gz", test::gzip(samples));
     for (int i = 0; i < 3; ++i) {
         folder.write("data/s" + std::to_string(8 + 2 * i) + ".raw", samples.substr(static_cast<std::size_t>(i) * 40, 40));
-        folder.write("data/p" + std::string(i == 0 ? "008" : i == 1 ? "010" : "012") + ".raw", "xy" + samples.substr(static_cast<std::size_t>(i) * 40, 40));
+        folder.write("data/p" +
+                         std::string(i == 0   ? "008"
+                                     : i == 1 ? "010"
+                                              : "012") +
+                         ".raw",
+                     "xy" + samples.substr(static_cast<std::size_t>(i) * 40, 40));
         folder.write("data/z" + std::to_string(i) + ".gz", test::gzip(samples.substr(static_cast<std::size_t>(i) * 40, 40)));
     }
     const std::string start = "endian: little\n";
@@ -142,7 +156,9 @@ TEST(Nrrd, TwoDimensionsAndThinVolumes) {
     const test::TestFolder folder;
     const auto extent = [&](const std::string& dimension, const std::string& more) {
         return open_volume(folder.write("v.nrrd", "NRRD0004\ntype: uchar\ndimension: " + dimension + "\nencoding: raw\n" + more + "\n\n" +
-                                                      std::string(24, 'x')))->info().extent;
+                                                      std::string(24, 'x')))
+            ->info()
+            .extent;
     };
     EXPECT_EQ(extent("2", "sizes: 6 4"), (Extent{2, {6, 4, 1}}));
     EXPECT_EQ(extent("3", "sizes: 6 4 1"), (Extent{3, {6, 4, 1}}));
@@ -157,8 +173,9 @@ TEST(Nrrd, FourDimensionsNeedATimeStep) {
     const test::TestFolder folder;
     const std::string samples = test::telling_bytes(2 * 3 * 4 * 5 * 2);
     for (const std::string encoding : {"raw", "gzip"}) {
-        const std::string path = folder.write("v.nrrd", "NRRD0004\ntype: short\ndimension: 4\nsizes: 2 3 4 5\nkinds: space space space time\nendian: little\nencoding: " +
-                                                            encoding + "\n\n" + (encoding == "raw" ? samples : test::gzip(samples)));
+        const std::string path = folder.write(
+            "v.nrrd", "NRRD0004\ntype: short\ndimension: 4\nsizes: 2 3 4 5\nkinds: space space space time\nendian: little\nencoding: " +
+                          encoding + "\n\n" + (encoding == "raw" ? samples : test::gzip(samples)));
         expect_helpful(failure_of_loading(path), ErrorKind::usage, "--time-step N");
         for (std::int64_t step = 0; step < 5; ++step) {
             OpenOptions options;
@@ -175,13 +192,16 @@ TEST(Nrrd, FourDimensionsNeedATimeStep) {
 
 Geometry geometry_of(const std::string& dimension, const std::string& sizes, const std::string& more) {
     const test::TestFolder folder;
-    return open_volume(folder.write("v.nrrd", "NRRD0005\ntype: uchar\ndimension: " + dimension + "\nsizes: " + sizes + "\nencoding: raw\n" + more +
-                                                  "\n\n" + std::string(400, 'x')))->info().geometry;
+    return open_volume(folder.write("v.nrrd", "NRRD0005\ntype: uchar\ndimension: " + dimension + "\nsizes: " + sizes + "\nencoding: raw\n" +
+                                                  more + "\n\n" + std::string(400, 'x')))
+        ->info()
+        .geometry;
 }
 
 TEST(Nrrd, Geometry) {
-    const Geometry oriented = geometry_of("3", "2 3 4", "space: right-anterior-superior\nspace directions: (0,0,2) (-3,0,0) (0, 4 ,0)\n"
-                                                        "space origin: (1,2.5,-3)\nspace units: \"mm\" \"mm\" \"mm\"");
+    const Geometry oriented = geometry_of("3", "2 3 4",
+                                          "space: right-anterior-superior\nspace directions: (0,0,2) (-3,0,0) (0, 4 ,0)\n"
+                                          "space origin: (1,2.5,-3)\nspace units: \"mm\" \"mm\" \"mm\"");
     EXPECT_EQ(oriented.spacing, (Vec3{2, 3, 4}));
     EXPECT_EQ(oriented.direction, (Mat3{{{0, -1, 0}, {0, 0, 1}, {1, 0, 0}}}));
     EXPECT_EQ(oriented.origin, (Vec3{1, 2.5, -3}));
@@ -204,20 +224,25 @@ TEST(Nrrd, Geometry) {
     EXPECT_EQ(slice.direction, (Mat3{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}));
     EXPECT_EQ(slice.origin, (Vec3{1, 2, 3}));
 
-    const Geometry series = geometry_of("4", "2 3 4 1", "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,2) none\nkinds: domain domain domain list");
+    const Geometry series =
+        geometry_of("4", "2 3 4 1", "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,2) none\nkinds: domain domain domain list");
     EXPECT_EQ(series.spacing, (Vec3{1, 1, 2}));
     EXPECT_EQ(geometry_of("3", "2 3 4", "space directions: (1,0,0) (1,0,0) (0,0,2)").direction, Geometry{}.direction);
 }
 
 TEST(Nrrd, CalibrationUnitsAndDescription) {
     const test::TestFolder folder;
-    const auto info = open_volume(folder.write("v.nrrd", header("uchar", "encoding: raw\ncontent: a thing\nsample units: HU\ncalibration_slope:=-2\n"
-                                                                          "calibration_intercept:=0.5\nother key:=value\n\n") + std::string(60, 'x')))->info();
+    const auto info = open_volume(folder.write("v.nrrd", header("uchar",
+                                                                "encoding: raw\ncontent: a thing\nsample units: HU\ncalibration_slope:=-2\n"
+                                                                "calibration_intercept:=0.5\nother key:=value\n\n") +
+                                                             std::string(60, 'x')))
+                          ->info();
     EXPECT_EQ(info.calibration, (Calibration{-2, 0.5}));
     EXPECT_EQ(info.value_unit, "HU");
     EXPECT_EQ(info.description, "a thing");
     EXPECT_EQ(info.format, "NRRD");
-    const auto zero = open_volume(folder.write("v.nrrd", header("uchar", "encoding: raw\ncalibration_slope:=0\n\n") + std::string(60, 'x')))->info();
+    const auto zero =
+        open_volume(folder.write("v.nrrd", header("uchar", "encoding: raw\ncalibration_slope:=0\n\n") + std::string(60, 'x')))->info();
     EXPECT_TRUE(zero.calibration.is_identity());
     EXPECT_EQ(zero.notes.size(), 1U);
 }
@@ -262,7 +287,8 @@ TEST(Nrrd, Refusals) {
         {"NRRD\n", ErrorKind::input, "NRRD version"},
         {"NRRD0004\ntype: uchar\ndimension: 1\nsizes: 5\n" + raw, ErrorKind::unsupported, "1 axes"},
         {"NRRD0004\ntype: uchar\ndimension: 17\nsizes: 5\n" + raw, ErrorKind::input, "17"},
-        {"NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 2 2\nkinds: time space space space\n" + raw, ErrorKind::unsupported, "unu permute"},
+        {"NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 2 2\nkinds: time space space space\n" + raw, ErrorKind::unsupported,
+         "unu permute"},
         {"NRRD0004\ntype: uchar\ndimension: 5\nsizes: 2 2 2 2 2\n" + raw, ErrorKind::unsupported, "5 axes"},
         {"NRRD0004\ntype: uchar\nsizes: 2 2 2 2 2\n" + raw, ErrorKind::input, "dimension"},
         {"NRRD0004\ntype: uchar\ndimension: 3\n" + raw, ErrorKind::input, "sizes"},
@@ -284,10 +310,12 @@ TEST(Nrrd, TrailingBytesAndCorruptChecksums) {
     EXPECT_EQ(inflated.info.notes.size(), 1U);
     std::string damaged = test::gzip(samples);
     damaged[damaged.size() - 6] ^= 1;  // in the CRC
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + damaged)), ErrorKind::input, "corrupt");
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + test::gzip(samples.substr(1)))), ErrorKind::input,
-                   "1 more bytes");
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + samples)), ErrorKind::input, "corrupt");
+    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + damaged)), ErrorKind::input,
+                   "corrupt");
+    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + test::gzip(samples.substr(1)))),
+                   ErrorKind::input, "1 more bytes");
+    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + samples)), ErrorKind::input,
+                   "corrupt");
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 using test::expect_helpful;
 using test::failure_of_loading;
 
-const std::string kNrrd = "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\nspacings: 1 2 3\n\n" + std::string(16, 'x');
+const std::string kNrrd =
+    "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\nspacings: 1 2 3\n\n" + std::string(16, 'x');
 
 TEST(OpenVolume, ContentDecides) {
     const test::TestFolder folder;
@@ -62,13 +63,14 @@ TEST(OpenVolume, OptionsMayRepeatAHeaderButNotContradictIt) {
     same.skip_bytes = 0;
     same.time_step = 0;
     EXPECT_EQ(open_volume(path, same)->info().format, "NRRD");
-    const std::pair<std::string, std::function<void(OpenOptions&)>> changes[] = {{"--dims", [](OpenOptions& o) { o.dims = std::vector<std::int64_t>{2, 4}; }},
-                                                                               {"--type", [](OpenOptions& o) { o.type = ValueType::u16; }},
-                                                                               {"--endian", [](OpenOptions& o) { o.big_endian = true; }},
-                                                                               {"--spacing", [](OpenOptions& o) { o.spacing = Vec3{1, 1, 1}; }},
-                                                                               {"--origin", [](OpenOptions& o) { o.origin = Vec3{1, 1, 1}; }},
-                                                                               {"--skip", [](OpenOptions& o) { o.skip_bytes = 4; }},
-                                                                               {"--time-step", [](OpenOptions& o) { o.time_step = 1; }}};
+    const std::pair<std::string, std::function<void(OpenOptions&)>> changes[] = {
+        {"--dims", [](OpenOptions& o) { o.dims = std::vector<std::int64_t>{2, 4}; }},
+        {"--type", [](OpenOptions& o) { o.type = ValueType::u16; }},
+        {"--endian", [](OpenOptions& o) { o.big_endian = true; }},
+        {"--spacing", [](OpenOptions& o) { o.spacing = Vec3{1, 1, 1}; }},
+        {"--origin", [](OpenOptions& o) { o.origin = Vec3{1, 1, 1}; }},
+        {"--skip", [](OpenOptions& o) { o.skip_bytes = 4; }},
+        {"--time-step", [](OpenOptions& o) { o.time_step = 1; }}};
     for (const auto& [option, change] : changes) {
         OpenOptions other = same;
         change(other);

@@ -19,7 +19,8 @@ OpenOptions options_of(std::vector<std::int64_t> dims, ValueType type) {
 
 TEST(Raw, OptionsForEveryType) {
     const test::TestFolder folder;
-    for (const ValueType type : {ValueType::u8, ValueType::i8, ValueType::u16, ValueType::i16, ValueType::u32, ValueType::i32, ValueType::f32, ValueType::f64}) {
+    for (const ValueType type :
+         {ValueType::u8, ValueType::i8, ValueType::u16, ValueType::i16, ValueType::u32, ValueType::i32, ValueType::f32, ValueType::f64}) {
         const std::string samples = test::telling_bytes(24 * size_of(type)), big = test::swapped(samples, size_of(type));
         OpenOptions options = options_of({2, 3, 4}, type);
         const auto little = open_volume(folder.write("v.raw", samples), options);
@@ -58,7 +59,8 @@ TEST(Raw, Names) {
     EXPECT_EQ(test::text_of_bytes(volume), samples);
     EXPECT_EQ(volume.info.notes.size(), 3U);  // dims and type from the name, byte order assumed
     EXPECT_EQ(test::text_of_bytes(load_volume(folder.write("v_3x2_uint16_big.bin", test::swapped(samples, 2)))), samples);
-    EXPECT_EQ(load_volume(folder.write("w_3x2_uint16.raw", samples), options_of({2, 3}, ValueType::i16)).info.extent, (Extent{2, {2, 3, 1}}));
+    EXPECT_EQ(load_volume(folder.write("w_3x2_uint16.raw", samples), options_of({2, 3}, ValueType::i16)).info.extent,
+              (Extent{2, {2, 3, 1}}));
 }
 
 TEST(Raw, Sidecar) {
@@ -80,10 +82,26 @@ TEST(Raw, Sidecar) {
         expect_helpful(failure_of_loading(path, options_of({4, 3, 2}, ValueType::i16)), ErrorKind::usage, "--dims contradicts the sidecar");
         std::filesystem::remove(sidecar);
     }
-    for (const char* bad : {"{", "[]", "", "{\"dims\": 5}", "{\"dims\": [1]}", "{\"dims\": [1, 2, 3, 4]}", "{\"dims\": [1, 2.5]}", "{\"dims\": [0, 2]}",
-                            "{\"dims\": [2, 18446744073709551615]}", "{\"type\": \"long\"}", "{\"type\": 5}", "{\"endian\": \"middle\"}",
-                            "{\"skip\": -1}", "{\"skip\": \"1\"}", "{\"spacing\": [1, \"2\"]}", "{\"origin\": 3}", "{\"unit\": 3}", "{\"unit\": null}",
-                            "{\"spacing\": [1e999, 1]}", "{\"a\": [[[[[[[[[[1]]]]]]]]]]}"}) {
+    for (const char* bad : {"{",
+                            "[]",
+                            "",
+                            "{\"dims\": 5}",
+                            "{\"dims\": [1]}",
+                            "{\"dims\": [1, 2, 3, 4]}",
+                            "{\"dims\": [1, 2.5]}",
+                            "{\"dims\": [0, 2]}",
+                            "{\"dims\": [2, 18446744073709551615]}",
+                            "{\"type\": \"long\"}",
+                            "{\"type\": 5}",
+                            "{\"endian\": \"middle\"}",
+                            "{\"skip\": -1}",
+                            "{\"skip\": \"1\"}",
+                            "{\"spacing\": [1, \"2\"]}",
+                            "{\"origin\": 3}",
+                            "{\"unit\": 3}",
+                            "{\"unit\": null}",
+                            "{\"spacing\": [1e999, 1]}",
+                            "{\"a\": [[[[[[[[[[1]]]]]]]]]]}"}) {
         SCOPED_TRACE(bad);
         folder.write("v.raw.json", bad);
         const test::Failure failure = failure_of_loading(path);
@@ -119,7 +137,8 @@ TEST(Raw, Refusals) {
     expect_helpful(failure_of_loading(path, options_of({4, 4, 2, 2}, ValueType::u8)), ErrorKind::usage, "4 sizes");
     expect_helpful(failure_of_loading(path, options_of({4, 0, 4}, ValueType::u8)), ErrorKind::input, "0 samples");
     expect_helpful(failure_of_loading(path, options_of({4, -4, -4}, ValueType::u8)), ErrorKind::input, "-4 samples");
-    expect_helpful(failure_of_loading(path, options_of({std::int64_t{1} << 40, std::int64_t{1} << 40}, ValueType::u8)), ErrorKind::input, "63 bits");
+    expect_helpful(failure_of_loading(path, options_of({std::int64_t{1} << 40, std::int64_t{1} << 40}, ValueType::u8)), ErrorKind::input,
+                   "63 bits");
     OpenOptions skip = options_of({4, 4, 4}, ValueType::u8);
     skip.skip_bytes = 65;
     expect_helpful(failure_of_loading(path, skip), ErrorKind::input, "cannot skip 65");

@@ -62,11 +62,12 @@ TEST(SharedData, EverySampleIsTheRightOne) {
 TEST(SharedData, OriginalsEqualTheConvertedFiles) {
     const nlohmann::json stats = read_stats();
     if (stats.empty()) GTEST_SKIP() << "no shared data";
-    const std::vector<std::pair<std::string, std::string>> pairs = {{"tooth/original/tooth.nhdr", "tooth/tooth.nrrd"},
-                                                                    {"frog_labels/original/frogtissue.mhd", "frog_labels/frog_labels.nrrd"},
-                                                                    {"lung_ct/original/3DCT_lung_baseline_small.mha", "lung_ct/lung_lo.nrrd"},
-                                                                    {"dens40/original/dens40.npy", "dens40/dens40.nrrd"},
-                                                                    {"avf/original/avf_float_32.nrrd", "avf/avf.nrrd"}};
+    const std::vector<std::pair<std::string, std::string>> pairs = {
+        {"tooth/original/tooth.nhdr", "tooth/tooth.nrrd"},
+        {"frog_labels/original/frogtissue.mhd", "frog_labels/frog_labels.nrrd"},
+        {"lung_ct/original/3DCT_lung_baseline_small.mha", "lung_ct/lung_lo.nrrd"},
+        {"dens40/original/dens40.npy", "dens40/dens40.nrrd"},
+        {"avf/original/avf_float_32.nrrd", "avf/avf.nrrd"}};
     for (const auto& [original, converted] : pairs) {
         SCOPED_TRACE(original);
         const auto whole = open_volume(kData + original), other = open_volume(kData + converted);
@@ -74,7 +75,8 @@ TEST(SharedData, OriginalsEqualTheConvertedFiles) {
         EXPECT_EQ(whole->info().type, other->info().type);
     }
     EXPECT_EQ(checksum(kData + "tooth/original/tooth.nhdr", 1, 5), stats.at("tooth/tooth.nrrd").at("sha256_samples"));
-    EXPECT_EQ(checksum(kData + "lung_ct/original/3DCT_lung_baseline_small.mha", 1, 9), stats.at("lung_ct/lung_lo.nrrd").at("sha256_samples"));
+    EXPECT_EQ(checksum(kData + "lung_ct/original/3DCT_lung_baseline_small.mha", 1, 9),
+              stats.at("lung_ct/lung_lo.nrrd").at("sha256_samples"));
     EXPECT_EQ(checksum(kData + "dens40/original/dens40.npy", 1, 9), stats.at("dens40/dens40.nrrd").at("sha256_samples"));
 }
 

@@ -126,8 +126,9 @@ inline std::string read_all(VolumeReader& reader, std::int64_t slices) {
     std::string bytes(static_cast<std::size_t>(info.extent.size[2]) * slice_bytes, '\0');
     for (std::int64_t z = 0; z < info.extent.size[2]; z += slices) {
         const std::int64_t end = std::min(info.extent.size[2], z + slices);
-        reader.read(z, end, std::as_writable_bytes(std::span(bytes)).subspan(static_cast<std::size_t>(z) * slice_bytes,
-                                                                             static_cast<std::size_t>(end - z) * slice_bytes));
+        reader.read(z, end,
+                    std::as_writable_bytes(std::span(bytes))
+                        .subspan(static_cast<std::size_t>(z) * slice_bytes, static_cast<std::size_t>(end - z) * slice_bytes));
     }
     return bytes;
 }
