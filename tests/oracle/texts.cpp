@@ -24,6 +24,14 @@ std::string sorted_text(std::vector<std::string> lines) {
     return text;
 }
 
+/// Long texts by their FNV-1a hash: a deep tree would otherwise repeat its leaves at every level.
+std::string shortened(std::string text) {
+    if (text.size() < 2000) return text;
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return "#" + std::to_string(hash) + "\n";
+}
+
 /// Every event with the texts of its children inside: equal for equal trees, whatever the numbering. Children have smaller ids.
 template <class Describe, class Children>
 std::string tree_text(Index events, Describe describe, Children children) {
@@ -31,7 +39,7 @@ std::string tree_text(Index events, Describe describe, Children children) {
     for (Index e = 0; e < events; ++e) {
         std::vector<std::string> inside;
         for (const Index child : children(e)) inside.push_back(std::move(text[static_cast<std::size_t>(child)]));
-        text[static_cast<std::size_t>(e)] = describe(e) + "(" + sorted_text(std::move(inside)) + ")\n";
+        text[static_cast<std::size_t>(e)] = shortened(describe(e) + "(" + sorted_text(std::move(inside)) + ")\n");
     }
     return events > 0 ? text.back() : "";
 }
