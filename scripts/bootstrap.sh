@@ -22,9 +22,12 @@ demo|nlohmann-json3-dev|JSON output of the command line
 test|libgtest-dev|test framework
 test|librapidcheck-dev|random volumes that shrink to the smallest failing one
 test|python3|layering test, schema test, documentation test
+test|assimp-utils|independent reader of the surfaces we write
+test|python3-vtk9|independent reader of the surfaces and trees we write
+test|python3-numpy|arrays of python3-vtk9
+test|python3-networkx|independent reader of the trees we write
 test|clang-format-19|format check
 test|clang-tidy-19|lint
-bench|libbenchmark-dev|micro benchmarks
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK
 fuzz|clang-19|compiler with libFuzzer
