@@ -1,5 +1,6 @@
 #include "io/missing.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -71,7 +72,34 @@ bool MissingScan::is_missing(T sample) const {
 }
 
 template <class T>
+bool MissingScan::any_missing(std::span<const T> samples) const {
+    const bool compare = !calibrated_ && policy_.no_data.has_value();
+    const double no_data = compare ? *policy_.no_data : 0;
+    int found = 0;  // no early exit: such a loop is vectorised, and memory is the limit then
+    for (const T sample : samples) {
+        if constexpr (std::is_floating_point_v<T>) {
+            found |= !(std::abs(sample) <= std::numeric_limits<T>::max());
+            found |= compare && sample == static_cast<T>(no_data);
+        } else {
+            found |= compare && static_cast<double>(sample) == no_data;
+        }
+    }
+    return found != 0;
+}
+
+template <class T>
 void MissingScan::look_at(std::span<const T> samples, std::int64_t first) {
+    constexpr std::size_t kBlock = 4096;  // stays in the fastest cache for the second look
+    for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
+        const std::span<const T> block = samples.subspan(begin, std::min(kBlock, samples.size() - begin));
+        if (policy_.action == MissingPolicy::Action::below || any_missing(block)) {
+            look_closely(block, first + static_cast<std::int64_t>(begin));
+        }
+    }
+}
+
+template <class T>
+void MissingScan::look_closely(std::span<const T> samples, std::int64_t first) {
     T smallest = std::numeric_limits<T>::max();
     std::int64_t missing = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -31,6 +31,10 @@ private:
     template <class T>
     [[nodiscard]] bool is_missing(T sample) const;
     template <class T>
+    [[nodiscard]] bool any_missing(std::span<const T> samples) const;
+    template <class T>
+    void look_closely(std::span<const T> samples, std::int64_t first);
+    template <class T>
     void look_at(std::span<const T> samples, std::int64_t first);
     template <class T>
     [[nodiscard]] T replacement() const;
