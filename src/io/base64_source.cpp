@@ -60,7 +60,10 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& what, const std::string& expected) const {
-        throw Error(ErrorKind::input, {.file = path_, .where = "offset " + std::to_string(next_), .what = what, .expected = expected,
+        throw Error(ErrorKind::input, {.file = path_,
+                                       .where = "offset " + std::to_string(next_),
+                                       .what = what,
+                                       .expected = expected,
                                        .next = "the file is damaged or truncated: get it again"});
     }
     void require_more(std::int64_t wanted) {
@@ -102,7 +105,7 @@ private:
             const signed char code = kCodes[static_cast<unsigned char>(c)];
             if (code == kBlank) continue;
             if (code == kEnd) {
-                end_ = next_;   // the text ends in this piece
+                end_ = next_;  // the text ends in this piece
                 return;
             }
             if (code == kBad) fail("a character is not base64: " + quoted(std::string_view(&c, 1)), "A-Z a-z 0-9 + / =");
@@ -121,12 +124,12 @@ private:
     std::string path_;
     std::unique_ptr<FileHandle> file_;
     std::int64_t begin_, end_;
-    std::int64_t next_;                 ///< offset in the file behind the text decoded so far
+    std::int64_t next_;  ///< offset in the file behind the text decoded so far
     std::vector<std::byte> text_;
-    std::vector<std::byte> ready_;      ///< decoded bytes
-    std::size_t taken_ = 0;             ///< of ready_
-    std::int64_t position_ = 0;         ///< in the decoded stream
-    std::uint32_t bits_ = 0;            ///< the group so far: 6 bits a character
+    std::vector<std::byte> ready_;  ///< decoded bytes
+    std::size_t taken_ = 0;         ///< of ready_
+    std::int64_t position_ = 0;     ///< in the decoded stream
+    std::uint32_t bits_ = 0;        ///< the group so far: 6 bits a character
     int count_ = 0, padding_ = 0;
 };
 

@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Listing {
-    std::vector<std::string> slices;   ///< TIFF files in natural order
-    std::string dicom, other_image;    ///< the first of these
-    std::int64_t others = 0;           ///< files that are no TIFF files
+    std::vector<std::string> slices;  ///< TIFF files in natural order
+    std::string dicom, other_image;   ///< the first of these
+    std::int64_t others = 0;          ///< files that are no TIFF files
 };
 
 bool has_extension(const std::string& name, std::initializer_list<const char*> extensions) {
@@ -33,8 +33,8 @@ bool is_dicom(const fs::path& file) {
     if (file.has_extension()) return false;
     const std::vector<std::byte> first = read_header_bytes(file.string(), 132);
     static constexpr char kMagic[] = {'D', 'I', 'C', 'M'};
-    return first.size() == 132 && std::equal(first.begin() + 128, first.end(), std::begin(kMagic),
-                                             [](std::byte a, char b) { return static_cast<char>(a) == b; });
+    return first.size() == 132 &&
+           std::equal(first.begin() + 128, first.end(), std::begin(kMagic), [](std::byte a, char b) { return static_cast<char>(a) == b; });
 }
 
 Listing list_folder(const std::string& path) {
@@ -55,8 +55,9 @@ Listing list_folder(const std::string& path) {
         }
     }
     if (error) {
-        throw Error(ErrorKind::input, {.file = path, .what = "the folder cannot be listed: " + error.message(),
-                                       .next = "check the path and its permissions"});
+        throw Error(
+            ErrorKind::input,
+            {.file = path, .what = "the folder cannot be listed: " + error.message(), .next = "check the path and its permissions"});
     }
     std::sort(listing.slices.begin(), listing.slices.end(), natural_less);
     return listing;
@@ -64,16 +65,22 @@ Listing list_folder(const std::string& path) {
 
 [[noreturn]] void no_slices(const std::string& path, const Listing& listing) {
     if (!listing.dicom.empty()) {
-        throw Error(ErrorKind::unsupported, {.file = path, .where = listing.dicom, .what = "is a folder of DICOM files",
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .where = listing.dicom,
+                                             .what = "is a folder of DICOM files",
                                              .expected = "a folder of TIFF files, or a volume file",
                                              .next = "convert the series, e.g. with `dcm2niix -z y -o . FOLDER`, and open the .nii.gz"});
     }
     if (!listing.other_image.empty()) {
-        throw Error(ErrorKind::unsupported, {.file = path, .where = listing.other_image, .what = "is a folder of images that are not TIFF",
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .where = listing.other_image,
+                                             .what = "is a folder of images that are not TIFF",
                                              .expected = "TIFF files",
                                              .next = "convert them, e.g. with `mogrify -format tif *.png`"});
     }
-    throw Error(ErrorKind::input, {.file = path, .what = "the folder has no slices", .expected = "files named *.tif or *.tiff",
+    throw Error(ErrorKind::input, {.file = path,
+                                   .what = "the folder has no slices",
+                                   .expected = "files named *.tif or *.tiff",
                                    .next = "name the folder that holds the slices, or a volume file"});
 }
 
@@ -104,15 +111,16 @@ private:
         const std::int64_t page = z - first_page_[file];
         const std::vector<TiffPage>& pages = open_->pages();
         if (page >= static_cast<std::int64_t>(pages.size()) || pages[0].bytes() != page_bytes_ || pages[0].width != info_.extent.size[0]) {
-            throw Error(ErrorKind::input, {.file = files_[file], .what = "the file has changed since the volume was opened",
-                                           .next = "open the folder again"});
+            throw Error(
+                ErrorKind::input,
+                {.file = files_[file], .what = "the file has changed since the volume was opened", .next = "open the folder again"});
         }
         open_->read(page, out);
     }
 
     std::vector<std::string> files_;
-    std::vector<std::int64_t> first_page_;   ///< of each file
-    std::unique_ptr<TiffFile> open_;         ///< one file at a time: thousands would exceed the limit of open files
+    std::vector<std::int64_t> first_page_;  ///< of each file
+    std::unique_ptr<TiffFile> open_;        ///< one file at a time: thousands would exceed the limit of open files
     std::size_t open_index_ = 0;
     std::int64_t page_bytes_ = 0;
 };
@@ -125,7 +133,8 @@ void add_file(const TiffFile& file, const std::string& first_file, VolumeInfo& i
     };
     const std::string is = shape(page.width, page.height, page.type), wanted = shape(info.extent.size[0], info.extent.size[1], info.type);
     if (is != wanted) {
-        throw Error(ErrorKind::input, {.file = file.path(), .what = "the slice is " + is,
+        throw Error(ErrorKind::input, {.file = file.path(),
+                                       .what = "the slice is " + is,
                                        .expected = wanted + " like " + fs::path(first_file).filename().string(),
                                        .next = "all slices of a folder must have one size and type: move other images elsewhere"});
     }

@@ -16,7 +16,7 @@ namespace isoatlas::io {
 
 namespace {
 
-constexpr double kLargestOffset = 9.0e15;   ///< below 2^53: exact
+constexpr double kLargestOffset = 9.0e15;  ///< below 2^53: exact
 
 /// A source whose position 0 is a later position of another one.
 class LaterSource final : public ByteSource {
@@ -35,7 +35,10 @@ private:
 };
 
 [[noreturn]] void bad_header(const std::string& path, const std::string& field, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path, .where = "header, " + field, .what = what, .expected = expected,
+    throw Error(ErrorKind::input, {.file = path,
+                                   .where = "header, " + field,
+                                   .what = what,
+                                   .expected = expected,
                                    .next = "the header is damaged: get the file again or correct it"});
 }
 
@@ -81,15 +84,15 @@ ValueType value_type(const std::string& path, const NiftiHeader& header) {
         int code;
         ValueType type;
     };
-    static constexpr Known kKnown[] = {{2, ValueType::u8},    {4, ValueType::i16},   {8, ValueType::i32},   {16, ValueType::f32},
-                                       {64, ValueType::f64},  {256, ValueType::i8},  {512, ValueType::u16}, {768, ValueType::u32}};
+    static constexpr Known kKnown[] = {{2, ValueType::u8},   {4, ValueType::i16},  {8, ValueType::i32},   {16, ValueType::f32},
+                                       {64, ValueType::f64}, {256, ValueType::i8}, {512, ValueType::u16}, {768, ValueType::u32}};
     struct Other {
         int code;
         const char* name;
     };
-    static constexpr Other kOther[] = {{1, "single bits"},          {32, "complex numbers"},    {128, "RGB colours"},
-                                       {1024, "64-bit integers"},   {1280, "64-bit integers"},  {1536, "128-bit floating point numbers"},
-                                       {1792, "complex numbers"},   {2048, "complex numbers"},  {2304, "RGBA colours"}};
+    static constexpr Other kOther[] = {{1, "single bits"},        {32, "complex numbers"},   {128, "RGB colours"},
+                                       {1024, "64-bit integers"}, {1280, "64-bit integers"}, {1536, "128-bit floating point numbers"},
+                                       {1792, "complex numbers"}, {2048, "complex numbers"}, {2304, "RGBA colours"}};
     for (const Known& known : kKnown) {
         if (known.code != header.datatype) continue;
         if (header.bits != 0 && header.bits != static_cast<int>(8 * size_of(known.type))) {
@@ -115,12 +118,14 @@ struct Shape {
 Shape read_shape(const std::string& path, const NiftiHeader& header) {
     const std::int64_t dimensions = header.dim[0];
     if (dimensions < 1 || dimensions > 7) bad_header(path, "dim[0]", std::to_string(dimensions) + " dimensions", "2 to 7");
-    if (dimensions == 1) unsupported(path, "the file has one dimension", "2 or 3 (4 with --time-step)", "reshape it to the size of the image");
+    if (dimensions == 1)
+        unsupported(path, "the file has one dimension", "2 or 3 (4 with --time-step)", "reshape it to the size of the image");
     for (std::int64_t i = 1; i <= dimensions; ++i) {
         const std::int64_t size = header.dim[static_cast<std::size_t>(i)];
         if (size < 1) bad_header(path, "dim[" + std::to_string(i) + "]", "an axis has " + std::to_string(size) + " samples", "at least 1");
         if (i > 4 && size > 1) {
-            unsupported(path, "dimension " + std::to_string(i) + " has " + std::to_string(size) + " values (vectors or more than 4 dimensions)",
+            unsupported(path,
+                        "dimension " + std::to_string(i) + " has " + std::to_string(size) + " values (vectors or more than 4 dimensions)",
                         "one value per voxel", "save one component as a file, e.g. in Python: nibabel, image.dataobj[..., 0]");
         }
     }
@@ -156,11 +161,16 @@ NiftiHeader read_header(const std::string& path) {
     }
     const std::int64_t size = kind == NiftiKind::nifti2 ? kNifti2HeaderBytes : kNifti1HeaderBytes;
     if (static_cast<std::int64_t>(bytes.size()) < size) {
-        throw Error(ErrorKind::input, {.file = path, .where = "header", .what = "the file ends after " + std::to_string(bytes.size()) + " bytes",
-                                       .expected = std::to_string(size) + " bytes of header", .next = "the file is truncated: get it again"});
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "header",
+                                       .what = "the file ends after " + std::to_string(bytes.size()) + " bytes",
+                                       .expected = std::to_string(size) + " bytes of header",
+                                       .next = "the file is truncated: get it again"});
     }
     if (kind == NiftiKind::no) {
-        throw Error(ErrorKind::input, {.file = path, .where = "header", .what = "is not a NIfTI file",
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "header",
+                                       .what = "is not a NIfTI file",
                                        .expected = "the size 348 or 540 and the mark 'n+1' or 'n+2'",
                                        .next = "check the file, or give it the extension of its real format"});
     }
@@ -198,8 +208,11 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     const NiftiHeader header = read_header(header_path);
     const std::string data_path = !header.pair ? header_path : header_path == path ? find_partner(path, ".hdr", ".img") : path;
     if (header.pair && data_path == header_path) {
-        throw Error(ErrorKind::input, {.file = path, .where = "header", .what = "says that its samples are in a second file",
-                                       .expected = "a pair NAME.hdr and NAME.img", .next = "rename the header to .hdr and put the .img beside it"});
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "header",
+                                       .what = "says that its samples are in a second file",
+                                       .expected = "a pair NAME.hdr and NAME.img",
+                                       .next = "rename the header to .hdr and put the .img beside it"});
     }
     VolumeInfo info;
     info.path = path;
@@ -212,7 +225,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     info.extent = shape.extent;
     const TimeStep step = choose_time_step(path, options, shape.volumes);
     info.geometry = nifti_geometry(header, shape.extent.rank, info.notes);
-    if (header.slope != 0) set_calibration(info, header.slope, header.intercept);   // 0: no scaling
+    if (header.slope != 0) set_calibration(info, header.slope, header.intercept);  // 0: no scaling
     info.description = header.description;
     info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
     const std::int64_t offset = data_offset(header_path, header, info.notes);

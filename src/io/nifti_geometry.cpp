@@ -8,14 +8,12 @@ namespace isoatlas::io {
 
 namespace {
 
-constexpr double kSameAngle = 1e-3;      ///< float headers are good to about 1e-6; scanners round more
+constexpr double kSameAngle = 1e-3;  ///< float headers are good to about 1e-6; scanners round more
 constexpr double kSmallest = 1e-30;
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
 bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
@@ -87,7 +85,8 @@ bool agree(const Geometry& a, const Geometry& b) {
     for (int row = 0; row < 3; ++row) {
         difference = std::max(difference, std::abs(a.origin[row] - b.origin[row]));
         for (int axis = 0; axis < 3; ++axis) {
-            difference = std::max(difference, std::abs(a.direction[row][axis] * a.spacing[axis] - b.direction[row][axis] * b.spacing[axis]));
+            difference =
+                std::max(difference, std::abs(a.direction[row][axis] * a.spacing[axis] - b.direction[row][axis] * b.spacing[axis]));
         }
     }
     return difference <= 10 * kSameAngle * scale;

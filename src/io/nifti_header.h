@@ -14,17 +14,17 @@ inline constexpr std::int64_t kNifti1HeaderBytes = 348, kNifti2HeaderBytes = 540
 struct NiftiHeader {
     int version = 1;
     bool big_endian = false;
-    bool pair = false;                         ///< samples in an .img file
-    std::array<std::int64_t, 8> dim{};         ///< dim[0]: number of dimensions
+    bool pair = false;                  ///< samples in an .img file
+    std::array<std::int64_t, 8> dim{};  ///< dim[0]: number of dimensions
     int datatype = 0, bits = 0;
-    std::array<double, 8> pixdim{};            ///< pixdim[0]: the sign of the third axis of the qform
+    std::array<double, 8> pixdim{};  ///< pixdim[0]: the sign of the third axis of the qform
     double vox_offset = 0;
     double slope = 0, intercept = 0;
     int units = 0;
     std::string description;
     int qform_code = 0, sform_code = 0;
     std::array<double, 3> quaternion{}, offset{};
-    std::array<std::array<double, 4>, 3> rows{};   ///< the sform
+    std::array<std::array<double, 4>, 3> rows{};  ///< the sform
 };
 
 /// What the first bytes of a file say about NIfTI.

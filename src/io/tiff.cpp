@@ -15,7 +15,7 @@ constexpr double kMillimetresPerInch = 25.4;
 /// Which pages of a file are the slices: first, first + stride, ...
 struct PageChoice {
     std::int64_t first = 0, stride = 1, count = 1;
-    bool is_image = false;   ///< one page of a series: rank 2
+    bool is_image = false;  ///< one page of a series: rank 2
 };
 
 class TiffReader final : public VolumeReader {
@@ -43,7 +43,7 @@ private:
 
     TiffFile file_;
     PageChoice choice_;
-    std::int64_t contiguous_;   ///< offset of page 0 when the pages lie in one piece behind a single directory, else -1
+    std::int64_t contiguous_;  ///< offset of page 0 when the pages lie in one piece behind a single directory, else -1
     std::int64_t page_bytes_;
 };
 
@@ -58,7 +58,8 @@ std::int64_t pages_behind(TiffFile& file, const TiffDescription& description) {
 PageChoice choose_pages(const std::string& path, const TiffDescription& description, std::int64_t pages, const OpenOptions& options,
                         std::vector<std::string>& notes) {
     if (description.channels > 1) {
-        throw Error(ErrorKind::unsupported, {.file = path, .what = "holds " + std::to_string(description.channels) + " channels",
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .what = "holds " + std::to_string(description.channels) + " channels",
                                              .expected = "one value per voxel",
                                              .next = "save one channel as a file, e.g. in Fiji: Image > Color > Split Channels"});
     }
@@ -69,7 +70,8 @@ PageChoice choose_pages(const std::string& path, const TiffDescription& descript
                         " time steps, the file has " + std::to_string(pages) + " pages: all pages are taken as slices");
     }
     if (is_series && slices == 1 && !options.time_step) {
-        notes.push_back("the " + std::to_string(frames) + " time steps of one slice are taken as the third axis (one of them: --time-step N)");
+        notes.push_back("the " + std::to_string(frames) +
+                        " time steps of one slice are taken as the third axis (one of them: --time-step N)");
         return {.count = pages};
     }
     const TimeStep step = choose_time_step(path, options, is_series ? frames : 1);

@@ -11,11 +11,11 @@ namespace isoatlas::io {
 
 struct TiffDescription {
     enum class Kind : std::uint8_t { none, imagej, ome } kind = Kind::none;
-    std::int64_t images = 0;                    ///< pages in all; 0: not said
+    std::int64_t images = 0;  ///< pages in all; 0: not said
     std::int64_t channels = 1, slices = 1, frames = 1;
-    bool frames_are_fastest = false;            ///< page = frame + frames * slice, else slice + slices * frame
-    Vec3 spacing{0, 0, 0};                      ///< 0: not said
-    std::string unit;                           ///< "um", "mm", ...; empty: not said, or pixels
+    bool frames_are_fastest = false;  ///< page = frame + frames * slice, else slice + slices * frame
+    Vec3 spacing{0, 0, 0};            ///< 0: not said
+    std::string unit;                 ///< "um", "mm", ...; empty: not said, or pixels
     Calibration calibration;
     std::string value_unit;
 };

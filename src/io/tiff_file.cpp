@@ -25,7 +25,7 @@ struct Client {
     std::string path;
     std::unique_ptr<FileHandle> file;
     std::int64_t position = 0;
-    std::string messages;   ///< what libtiff said since the last clear
+    std::string messages;  ///< what libtiff said since the last clear
 
     void say(const std::string& text) {
         if (messages.size() + text.size() < kLongestMessage) messages += (messages.empty() ? "" : "; ") + text;
@@ -97,7 +97,7 @@ struct TiffFile::Handle {
     std::vector<TiffPage> pages;
     std::int64_t previews = 0;
     TiffTags tags;
-    std::uint64_t current = 0;   ///< offset of the directory that is loaded
+    std::uint64_t current = 0;  ///< offset of the directory that is loaded
     std::vector<std::byte> tile;
 
     explicit Handle(const std::string& path) : client{.path = path, .file = open_file(path), .messages = {}} {}
@@ -129,8 +129,9 @@ struct TiffFile::Handle {
 
     [[noreturn]] void corrupt(const std::string& where, const std::string& what) const {
         const std::string text = client.messages.empty() ? what : what + ": " + client.messages;
-        throw Error(ErrorKind::input, {.file = client.path, .where = where, .what = text,
-                                       .next = "the file is damaged or incomplete: copy or export it again"});
+        throw Error(
+            ErrorKind::input,
+            {.file = client.path, .where = where, .what = text, .next = "the file is damaged or incomplete: copy or export it again"});
     }
     [[noreturn]] void unsupported(const std::string& what, const std::string& expected, const std::string& next) const {
         throw Error(ErrorKind::unsupported, {.file = client.path, .where = next_page(), .what = what, .expected = expected, .next = next});
@@ -144,8 +145,8 @@ void TiffFile::Handle::open() {
     TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, &client);
     // libtiff itself needs compressed strips, tables and codec states: in proportion to the file, never to what it claims.
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, (std::int64_t{64} << 20) + 2 * client.file->size());
-    tiff = TIFFClientOpenExt(client.path.c_str(), "rmc", &client, read_bytes, write_bytes, seek_bytes, close_bytes, size_of_bytes,
-                             nullptr, nullptr, options);
+    tiff = TIFFClientOpenExt(client.path.c_str(), "rmc", &client, read_bytes, write_bytes, seek_bytes, close_bytes, size_of_bytes, nullptr,
+                             nullptr, options);
     TIFFOpenOptionsFree(options);
     if (tiff == nullptr) corrupt("header", "cannot be read as TIFF");
     list_pages();
@@ -181,7 +182,7 @@ void TiffFile::Handle::require_link() const {
     if (TIFFIsBigEndian(tiff) == 0) std::reverse(count_bytes.begin(), count_bytes.end());
     std::uint64_t entries = 0;
     for (const std::byte byte : count_bytes) entries = entries << 8 | std::to_integer<std::uint64_t>(byte);
-    const auto room = static_cast<std::uint64_t>(client.file->size()) - current;   // libtiff has read the entries
+    const auto room = static_cast<std::uint64_t>(client.file->size()) - current;  // libtiff has read the entries
     if (entries > room || (big ? 8 + 20 * entries + 8 : 2 + 12 * entries + 4) > room) {
         corrupt(next_page(), "the file ends inside the directory of this page");
     }
@@ -219,8 +220,10 @@ ValueType TiffFile::Handle::sample_type() const {
     if (bits == 32 && format == SAMPLEFORMAT_INT) return ValueType::i32;
     if (bits == 32 && format == SAMPLEFORMAT_IEEEFP) return ValueType::f32;
     if (bits == 64 && format == SAMPLEFORMAT_IEEEFP) return ValueType::f64;
-    const char* name = is_unsigned ? "unsigned integers" : format == SAMPLEFORMAT_INT ? "signed integers"
-                       : format == SAMPLEFORMAT_IEEEFP ? "floating point numbers" : "complex numbers";
+    const char* name = is_unsigned                     ? "unsigned integers"
+                       : format == SAMPLEFORMAT_INT    ? "signed integers"
+                       : format == SAMPLEFORMAT_IEEEFP ? "floating point numbers"
+                                                       : "complex numbers";
     unsupported("samples are " + std::to_string(bits) + "-bit " + name, "8, 16 or 32-bit integers, 32 or 64-bit floating point",
                 "convert it, e.g. in Fiji: Image > Type > 8-bit, 16-bit or 32-bit");
 }
@@ -230,10 +233,10 @@ void TiffFile::Handle::check_page(const TiffPage& page) const {
     if (page.width > most / page.height) corrupt(next_page(), "its size does not fit in 63 bits");
     check_pieces(page);
     if (pages.empty() || page.same_shape(pages[0])) return;
-    const auto shape = [](const TiffPage& p) {
-        return std::to_string(p.width) + " x " + std::to_string(p.height) + " " + name_of(p.type);
-    };
-    throw Error(ErrorKind::input, {.file = client.path, .where = next_page(), .what = "the page is " + shape(page),
+    const auto shape = [](const TiffPage& p) { return std::to_string(p.width) + " x " + std::to_string(p.height) + " " + name_of(p.type); };
+    throw Error(ErrorKind::input, {.file = client.path,
+                                   .where = next_page(),
+                                   .what = "the page is " + shape(page),
                                    .expected = shape(pages[0]) + " like page 0",
                                    .next = "split the file: all pages of a volume must have one size and type"});
 }

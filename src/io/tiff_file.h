@@ -15,8 +15,8 @@ namespace isoatlas::io {
 struct TiffPage {
     std::int64_t width = 0, height = 0;
     ValueType type = ValueType::u8;
-    int compression = 1;           ///< TIFF tag 259; 1: none
-    std::uint64_t directory = 0;   ///< byte offset of its directory
+    int compression = 1;          ///< TIFF tag 259; 1: none
+    std::uint64_t directory = 0;  ///< byte offset of its directory
 
     [[nodiscard]] std::int64_t row_bytes() const { return width * static_cast<std::int64_t>(size_of(type)); }
     [[nodiscard]] std::int64_t bytes() const { return height * row_bytes(); }
@@ -27,10 +27,10 @@ struct TiffPage {
 
 /// Tags of the first page that describe the whole file.
 struct TiffTags {
-    std::string description;                  ///< ImageDescription: free text, ImageJ or OME
+    std::string description;                    ///< ImageDescription: free text, ImageJ or OME
     double x_resolution = 0, y_resolution = 0;  ///< pixels per unit; 0: not given
-    int resolution_unit = 2;                  ///< 1: none, 2: inch, 3: centimetre
-    int photometric = 1;                      ///< 0: white is zero, 1: black is zero, 3: palette
+    int resolution_unit = 2;                    ///< 1: none, 2: inch, 3: centimetre
+    int photometric = 1;                        ///< 0: white is zero, 1: black is zero, 3: palette
 };
 
 /// Reads all directories and checks every page before anything is allocated for samples: every strip or tile must be able to hold
@@ -47,11 +47,11 @@ public:
     [[nodiscard]] const std::string& path() const;
     /// At least one. Previews (reduced images, masks) are not listed.
     [[nodiscard]] const std::vector<TiffPage>& pages() const;
-    [[nodiscard]] std::int64_t previews() const;   ///< number of pages left out
+    [[nodiscard]] std::int64_t previews() const;  ///< number of pages left out
     [[nodiscard]] const TiffTags& tags() const;
     [[nodiscard]] bool big_endian() const;
     [[nodiscard]] bool is_big_tiff() const;
-    [[nodiscard]] std::int64_t bytes() const;      ///< size of the file
+    [[nodiscard]] std::int64_t bytes() const;  ///< size of the file
     /// Name of the compression of the first page; "raw" for none.
     [[nodiscard]] std::string encoding() const;
     /// Offset of the first sample when the first page is uncompressed and in one piece, else -1.

@@ -21,7 +21,10 @@ namespace {
 }
 
 [[noreturn]] void bad_xml(const std::string& path, const std::string& where, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path, .where = where, .what = what, .expected = expected,
+    throw Error(ErrorKind::input, {.file = path,
+                                   .where = where,
+                                   .what = what,
+                                   .expected = expected,
                                    .next = "the file is damaged: write it again, e.g. with ParaView"});
 }
 
@@ -53,7 +56,8 @@ VtkFile describe_file(const std::string& path, const pugi::xml_node& root, const
     file.appended = skeleton.appended;
     const std::string_view encoding = attribute(root.child("AppendedData"), "encoding");
     file.appended_is_raw = encoding == "raw";
-    if (!encoding.empty() && encoding != "raw" && encoding != "base64") bad_xml(path, "AppendedData encoding", quoted(encoding), "raw or base64");
+    if (!encoding.empty() && encoding != "raw" && encoding != "base64")
+        bad_xml(path, "AppendedData encoding", quoted(encoding), "raw or base64");
     return file;
 }
 
@@ -91,7 +95,8 @@ VtkArray describe_array(const std::string& path, const pugi::xml_node& node) {
         array.offset = *offset;
         return array;
     }
-    if (!format.empty() && format != "ascii" && format != "binary") bad_xml(path, where, "format " + quoted(format), "ascii, binary or appended");
+    if (!format.empty() && format != "ascii" && format != "binary")
+        bad_xml(path, where, "format " + quoted(format), "ascii, binary or appended");
     array.format = format == "binary" ? VtkFormat::binary : VtkFormat::ascii;
     array.begin = parse_integer(attribute(node, kContentBegin)).value_or(0);
     array.end = parse_integer(attribute(node, kContentEnd)).value_or(0);
@@ -155,7 +160,7 @@ pugi::xml_node find_grid(const std::string& path, const pugi::xml_node& root) {
     if (type != "ImageData" && type != "RectilinearGrid") {
         unsupported(path, "VTKFile type", "is " + quoted(type), "ImageData or RectilinearGrid",
                     type.starts_with('P') && type != "PolyData" ? "open the .vti or .vtr file that it lists"
-                                                                 : "resample it, e.g. in ParaView with the filter Resample To Image");
+                                                                : "resample it, e.g. in ParaView with the filter Resample To Image");
     }
     const pugi::xml_node grid = root.child(std::string(type).c_str());
     if (!grid) bad_xml(path, "VTKFile", "has no element " + quoted(type), "the grid");
@@ -192,7 +197,9 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     if (is_element(grid, "ImageData")) {
         set_image_geometry(grid, points, choice.cells, info);
     } else {
-        const auto open_coordinates = [&](const pugi::xml_node& node, std::int64_t count) { return read_doubles(file, describe_array(path, node), count); };
+        const auto open_coordinates = [&](const pugi::xml_node& node, std::int64_t count) {
+            return read_doubles(file, describe_array(path, node), count);
+        };
         info.geometry = rectilinear_geometry(path, piece, points, choice.cells, open_coordinates);
     }
     if (info.extent.rank == 2) info.notes.push_back("the grid has a single slice along z: read as a 2D image");

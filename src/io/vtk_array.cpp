@@ -17,10 +17,13 @@ namespace isoatlas::io {
 
 namespace {
 
-constexpr std::int64_t kDeflateRatio = 1032;   ///< deflate cannot do better: see open_inflate_source
+constexpr std::int64_t kDeflateRatio = 1032;  ///< deflate cannot do better: see open_inflate_source
 
 [[noreturn]] void bad_array(const VtkFile& file, const VtkArray& array, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = file.path, .where = "array " + quoted(array.name), .what = what, .expected = expected,
+    throw Error(ErrorKind::input, {.file = file.path,
+                                   .where = "array " + quoted(array.name),
+                                   .what = what,
+                                   .expected = expected,
                                    .next = "the file is truncated or damaged: get it again"});
 }
 
@@ -72,10 +75,10 @@ private:
 
 /// Where the blocks of a compressed array are.
 struct BlockTable {
-    std::int64_t data_begin = 0;            ///< position of the first block in the inner source
-    std::int64_t block_bytes = 0;           ///< of every block but the last, decompressed
+    std::int64_t data_begin = 0;   ///< position of the first block in the inner source
+    std::int64_t block_bytes = 0;  ///< of every block but the last, decompressed
     std::int64_t last_bytes = 0;
-    std::vector<std::int64_t> begin;        ///< of each block, from data_begin; and the end of the last
+    std::vector<std::int64_t> begin;  ///< of each block, from data_begin; and the end of the last
     [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(begin.size()) - 1; }
     [[nodiscard]] std::int64_t bytes_of(std::int64_t block) const { return block + 1 == count() ? last_bytes : block_bytes; }
     [[nodiscard]] std::int64_t bytes() const { return count() == 0 ? 0 : (count() - 1) * block_bytes + last_bytes; }
@@ -113,9 +116,11 @@ private:
         const std::int64_t word = file_.wide_headers ? 8 : 4, bound = inner_->size_bound();
         table_.block_bytes = read_word(*inner_, file_, array_);
         const std::int64_t partial = read_word(*inner_, file_, array_);
-        if (count > bound / word) bad_array(file_, array_, "its header lists " + std::to_string(count) + " blocks", "no more than the file holds");
+        if (count > bound / word)
+            bad_array(file_, array_, "its header lists " + std::to_string(count) + " blocks", "no more than the file holds");
         if (count > 0 && (table_.block_bytes < 1 || partial > table_.block_bytes)) {
-            bad_array(file_, array_, "its blocks have " + std::to_string(table_.block_bytes) + " bytes, the last one " + std::to_string(partial),
+            bad_array(file_, array_,
+                      "its blocks have " + std::to_string(table_.block_bytes) + " bytes, the last one " + std::to_string(partial),
                       "blocks of one size, the last one smaller");
         }
         table_.last_bytes = partial == 0 ? table_.block_bytes : partial;
@@ -125,8 +130,10 @@ private:
             table_.begin.push_back(table_.begin.back() + compressed);
             const std::int64_t wanted = block + 1 == count ? table_.last_bytes : table_.block_bytes;
             if (table_.begin.back() > bound || wanted / kDeflateRatio > compressed) {
-                bad_array(file_, array_, "block " + std::to_string(block) + " of " + std::to_string(wanted) + " bytes cannot be in " +
-                                             std::to_string(compressed) + " bytes", "blocks inside the file");
+                bad_array(file_, array_,
+                          "block " + std::to_string(block) + " of " + std::to_string(wanted) + " bytes cannot be in " +
+                              std::to_string(compressed) + " bytes",
+                          "blocks inside the file");
             }
         }
         table_.data_begin = (count + 3) * word;
@@ -143,8 +150,9 @@ private:
         const int result = ::uncompress(reinterpret_cast<Bytef*>(block_.data()), &size, reinterpret_cast<const Bytef*>(compressed_.data()),
                                         compressed_.size());
         if (result != Z_OK || size != block_.size()) {
-            bad_array(file_, array_, "block " + std::to_string(block) + " is corrupt (" +
-                                         (result == Z_OK ? "it is too short" : zError(result)) + ")", std::to_string(block_.size()) + " bytes");
+            bad_array(file_, array_,
+                      "block " + std::to_string(block) + " is corrupt (" + (result == Z_OK ? "it is too short" : zError(result)) + ")",
+                      std::to_string(block_.size()) + " bytes");
         }
         loaded_ = block;
     }
@@ -186,7 +194,8 @@ std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& 
         length = read_word(*source, file, array);
         source = std::make_unique<PartSource>(std::move(source), file.wide_headers ? 8 : 4, length);
     }
-    if (length != wanted) bad_array(file, array, "it has " + std::to_string(length) + " bytes", std::to_string(wanted) + " bytes for the extent");
+    if (length != wanted)
+        bad_array(file, array, "it has " + std::to_string(length) + " bytes", std::to_string(wanted) + " bytes for the extent");
     return source;
 }
 

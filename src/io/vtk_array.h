@@ -17,18 +17,18 @@ enum class VtkFormat : std::uint8_t { ascii, binary, appended };
 struct VtkFile {
     std::string path;
     bool big_endian = false;
-    bool wide_headers = false;       ///< header_type UInt64 instead of UInt32
-    bool compressed = false;         ///< vtkZLibDataCompressor
-    std::int64_t appended = -1;      ///< offset of the appended section; -1: none
-    bool appended_is_raw = true;     ///< else base64
+    bool wide_headers = false;    ///< header_type UInt64 instead of UInt32
+    bool compressed = false;      ///< vtkZLibDataCompressor
+    std::int64_t appended = -1;   ///< offset of the appended section; -1: none
+    bool appended_is_raw = true;  ///< else base64
 };
 
 struct VtkArray {
     std::string name;
     ValueType type = ValueType::u8;
     VtkFormat format = VtkFormat::ascii;
-    std::int64_t begin = 0, end = 0;   ///< bytes of the file with the text (ascii, binary)
-    std::int64_t offset = 0;           ///< in the appended section
+    std::int64_t begin = 0, end = 0;  ///< bytes of the file with the text (ascii, binary)
+    std::int64_t offset = 0;          ///< in the appended section
 };
 
 /// The `count` samples of an array, in the byte order of the file (ascii: of this machine). Random access for appended raw.

@@ -15,7 +15,10 @@ namespace {
 constexpr std::int64_t kLargestIndex = std::int64_t{1} << 40;
 
 [[noreturn]] void bad_field(const std::string& path, const std::string& where, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path, .where = where, .what = what, .expected = expected,
+    throw Error(ErrorKind::input, {.file = path,
+                                   .where = where,
+                                   .what = what,
+                                   .expected = expected,
                                    .next = "the header is damaged: get the file again or correct it"});
 }
 
@@ -75,7 +78,8 @@ Extent VtkExtent::samples(bool cells) const {
     return extent;
 }
 
-VtkExtent read_vtk_extent(const std::string& path, const pugi::xml_node& grid, const pugi::xml_node& piece, std::vector<std::string>& notes) {
+VtkExtent read_vtk_extent(const std::string& path, const pugi::xml_node& grid, const pugi::xml_node& piece,
+                          std::vector<std::string>& notes) {
     const VtkExtent whole = parse_extent(path, grid, "WholeExtent");
     if (!piece.attribute("Extent")) return whole;
     const VtkExtent part = parse_extent(path, piece, "Extent");
@@ -111,8 +115,10 @@ Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& pie
         std::vector<double> values = read(node, points.size[axis]);
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (std::isfinite(values[i]) && (i == 0 || values[i] > values[i - 1])) continue;
-            throw Error(ErrorKind::unsupported, {.file = path, .where = where + ", number " + std::to_string(i),
-                                                 .what = "the coordinates do not ascend", .expected = "ascending finite numbers",
+            throw Error(ErrorKind::unsupported, {.file = path,
+                                                 .where = where + ", number " + std::to_string(i),
+                                                 .what = "the coordinates do not ascend",
+                                                 .expected = "ascending finite numbers",
                                                  .next = "flip or sort the axis, with its samples, before writing the file"});
         }
         geometry.coordinates[axis] = cells ? cell_centres(values) : std::move(values);

@@ -28,7 +28,8 @@ public:
     /// Moves behind the next such character; false: there is none.
     [[nodiscard]] bool skip_behind(char wanted) {
         while (cursor_ < filled_ || fill()) {
-            const auto begin = buffer_.begin() + static_cast<std::ptrdiff_t>(cursor_), end = buffer_.begin() + static_cast<std::ptrdiff_t>(filled_);
+            const auto begin = buffer_.begin() + static_cast<std::ptrdiff_t>(cursor_),
+                       end = buffer_.begin() + static_cast<std::ptrdiff_t>(filled_);
             const auto found = std::find(begin, end, static_cast<std::byte>(wanted));
             cursor_ = static_cast<std::size_t>(found - buffer_.begin());
             if (found == end) continue;
@@ -50,7 +51,7 @@ private:
     std::string path_;
     std::unique_ptr<FileHandle> file_;
     std::vector<std::byte> buffer_;
-    std::int64_t start_ = 0;   ///< offset of the buffer in the file
+    std::int64_t start_ = 0;  ///< offset of the buffer in the file
     std::size_t filled_ = 0, cursor_ = 0;
 };
 
@@ -76,8 +77,11 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& what, const std::string& expected) const {
-        throw Error(ErrorKind::input, {.file = path_, .where = "offset " + std::to_string(characters_.offset()), .what = what,
-                                       .expected = expected, .next = "the file is damaged or truncated: get it again"});
+        throw Error(ErrorKind::input, {.file = path_,
+                                       .where = "offset " + std::to_string(characters_.offset()),
+                                       .what = what,
+                                       .expected = expected,
+                                       .next = "the file is damaged or truncated: get it again"});
     }
 
     /// The tag behind a '<' into tag_, without '<' and '>'. False: a comment or instruction, skipped.
@@ -104,7 +108,7 @@ private:
 
     void keep_tag() {
         if (is_element("DataArray") && !tag_.ends_with('/')) {
-            pending_ = tag_;   // where its content ends is known at the next tag
+            pending_ = tag_;  // where its content ends is known at the next tag
             return;
         }
         skeleton_.text += "<" + tag_ + ">";
@@ -114,8 +118,8 @@ private:
         if (end < 0) fail("the file ends inside a data array", "</DataArray>");
         const std::size_t name = std::string_view("DataArray").size();
         // Ours come first: an attribute of the same name in the file does not count.
-        skeleton_.text += "<" + pending_.substr(0, name) + " " + kContentBegin + "=\"" + std::to_string(begin) + "\" " + kContentEnd + "=\"" +
-                          std::to_string(end) + "\"" + pending_.substr(name) + ">";
+        skeleton_.text += "<" + pending_.substr(0, name) + " " + kContentBegin + "=\"" + std::to_string(begin) + "\" " + kContentEnd +
+                          "=\"" + std::to_string(end) + "\"" + pending_.substr(name) + ">";
         pending_.clear();
     }
     /// What follows is binary: the section is closed here and the document with it.

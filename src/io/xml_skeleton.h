@@ -11,8 +11,8 @@ inline constexpr const char* kContentBegin = "content-begin";
 inline constexpr const char* kContentEnd = "content-end";
 
 struct XmlSkeleton {
-    std::string text;                    ///< well formed when the file is; text, comments and instructions are left out
-    std::int64_t appended = -1;          ///< offset of the first byte behind the '_' of AppendedData; -1: no such section
+    std::string text;            ///< well formed when the file is; text, comments and instructions are left out
+    std::int64_t appended = -1;  ///< offset of the first byte behind the '_' of AppendedData; -1: no such section
 };
 
 /// Scans the file up to its AppendedData section, or to its end. Cost: one pass with a fixed buffer; memory: the tags, at most 16 MiB.

@@ -28,25 +28,16 @@ int fault_error = 0;
 std::string next_step(int error_number) {
     switch (error_number) {
         case ENOSPC:
-        case EDQUOT:
-            return "free some space or write to another disk";
-        case EFBIG:
-            return "write to a file system (or under a limit) that takes files of this size";
-        case ENOENT:
-            return "create the folder first, or check its name";
+        case EDQUOT: return "free some space or write to another disk";
+        case EFBIG: return "write to a file system (or under a limit) that takes files of this size";
+        case ENOENT: return "create the folder first, or check its name";
         case EACCES:
-        case EPERM:
-            return "choose a folder you may write to, or change its permissions";
-        case EROFS:
-            return "choose a folder on a disk that is not read-only";
-        case EISDIR:
-            return "give the name of a file, not of a folder";
-        case EWOULDBLOCK:
-            return "wait until the other program has finished, or choose another name";
-        case ENAMETOOLONG:
-            return "choose a shorter name";
-        default:
-            return "check the disk and the folder, then run the command again";
+        case EPERM: return "choose a folder you may write to, or change its permissions";
+        case EROFS: return "choose a folder on a disk that is not read-only";
+        case EISDIR: return "give the name of a file, not of a folder";
+        case EWOULDBLOCK: return "wait until the other program has finished, or choose another name";
+        case ENAMETOOLONG: return "choose a shorter name";
+        default: return "check the disk and the folder, then run the command again";
     }
 }
 
@@ -85,7 +76,7 @@ WriteFault::~WriteFault() {
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(resolve(path_)) {
     buffer_.reserve(kBufferBytes);
-    struct stat status {};
+    struct stat status{};
     const bool exists = ::stat(target_.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode)) fail("cannot be written", EISDIR);
     if (exists && !S_ISREG(status.st_mode)) {

@@ -13,8 +13,8 @@ namespace isoatlas::output {
 
 namespace {
 
-constexpr int kLevel = 4;          ///< labels: half the time of level 6 for a few percent more bytes
-constexpr int kGzipWindow = 15 + 16;   ///< 32 KiB window, gzip header without name and time
+constexpr int kLevel = 4;             ///< labels: half the time of level 6 for a few percent more bytes
+constexpr int kGzipWindow = 15 + 16;  ///< 32 KiB window, gzip header without name and time
 constexpr int kMemory = 8;
 constexpr std::size_t kOutBytes = std::size_t{1} << 16;
 
@@ -37,7 +37,7 @@ void GzipStream::write(std::span<const std::byte> bytes) {
     z_stream& stream = state_->stream;
     while (!bytes.empty()) {
         const std::size_t count = std::min<std::size_t>(bytes.size(), std::numeric_limits<uInt>::max());
-        stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));   // zlib only reads
+        stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));  // zlib only reads
         stream.avail_in = static_cast<uInt>(count);
         while (stream.avail_in > 0) run(Z_NO_FLUSH);
         bytes = bytes.subspan(count);

@@ -45,7 +45,8 @@ SampleFeed feed_of(std::span<const std::uint32_t> labels, ValueType type) {
 
 void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels) {
     if (static_cast<std::int64_t>(labels.size()) != info.extent.voxels()) {
-        throw Error(ErrorKind::usage, {.file = path, .what = "the number of labels does not match the extent",
+        throw Error(ErrorKind::usage, {.file = path,
+                                       .what = "the number of labels does not match the extent",
                                        .expected = std::to_string(info.extent.voxels()) + " labels"});
     }
     VolumeInfo header;
@@ -59,7 +60,8 @@ void write_labels(const std::string& path, const VolumeInfo& info, std::span<con
     if (ends(".nii")) return output::write_nifti(path, header, feed, Packing::raw);
     if (ends(".nii.gz")) return output::write_nifti(path, header, feed, Packing::gzip);
     if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, header, feed);
-    throw Error(ErrorKind::usage, {.file = path, .what = "the name does not say in which format to write labels",
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = "the name does not say in which format to write labels",
                                    .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",
                                    .next = "change the extension of the output file"});
 }

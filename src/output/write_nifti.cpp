@@ -41,8 +41,8 @@ int datatype(ValueType type) {
 }
 
 struct LengthUnit {
-    int code = 0;         ///< 1: m, 2: mm, 3: um
-    double factor = 1;    ///< to that unit
+    int code = 0;       ///< 1: m, 2: mm, 3: um
+    double factor = 1;  ///< to that unit
 };
 
 LengthUnit length_unit(const std::string& unit) {
@@ -64,9 +64,7 @@ struct Contents {
     std::string description;
 };
 
-bool is_default(const Geometry& geometry) {
-    return geometry.direction == Geometry{}.direction && geometry.origin == Geometry{}.origin;
-}
+bool is_default(const Geometry& geometry) { return geometry.direction == Geometry{}.direction && geometry.origin == Geometry{}.origin; }
 
 Contents contents_of(const VolumeInfo& info) {
     Contents contents;
@@ -79,7 +77,8 @@ Contents contents_of(const VolumeInfo& info) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         contents.dim[axis + 1] = info.extent.size[axis];
         contents.pixdim[axis + 1] = geometry.spacing[axis] * unit.factor;
-        for (std::size_t row = 0; row < 3; ++row) contents.rows[row][axis] = geometry.direction[row][axis] * geometry.spacing[axis] * unit.factor;
+        for (std::size_t row = 0; row < 3; ++row)
+            contents.rows[row][axis] = geometry.direction[row][axis] * geometry.spacing[axis] * unit.factor;
         contents.rows[axis][3] = geometry.origin[axis] * unit.factor;
     }
     // A grid at the origin without orientation stays one.
@@ -88,7 +87,8 @@ Contents contents_of(const VolumeInfo& info) {
         contents.slope = info.calibration.slope;
         contents.intercept = info.calibration.intercept;
     }
-    contents.description = is_rectilinear(info.geometry) ? "rectilinear coordinates replaced by their mean spacing" : one_line(info.description);
+    contents.description =
+        is_rectilinear(info.geometry) ? "rectilinear coordinates replaced by their mean spacing" : one_line(info.description);
     return contents;
 }
 
@@ -102,7 +102,7 @@ void set_rows(Fields& fields, std::size_t offset, const Contents& contents) {
 Fields header_1(const Contents& contents, ValueType type) {
     Fields fields(kHeader1 + kExtension);
     fields.set(0, static_cast<std::int32_t>(kHeader1));
-    fields.set(38, 'r');   // "regular", as ANALYZE readers expect
+    fields.set(38, 'r');  // "regular", as ANALYZE readers expect
     for (std::size_t i = 0; i < 8; ++i) fields.set(40 + 2 * i, static_cast<std::int16_t>(contents.dim[i]));
     fields.set(70, static_cast<std::int16_t>(datatype(type)));
     fields.set(72, static_cast<std::int16_t>(8 * size_of(type)));

@@ -22,7 +22,8 @@ void write_file(const std::string& path, const std::string& header, const Sample
 }
 
 const char* meta_type(ValueType type) {
-    static constexpr const char* kNames[] = {"MET_UCHAR", "MET_CHAR", "MET_USHORT", "MET_SHORT", "MET_UINT", "MET_INT", "MET_FLOAT", "MET_DOUBLE"};
+    static constexpr const char* kNames[] = {"MET_UCHAR", "MET_CHAR", "MET_USHORT", "MET_SHORT",
+                                             "MET_UINT",  "MET_INT",  "MET_FLOAT",  "MET_DOUBLE"};
     return kNames[static_cast<int>(type)];
 }
 
@@ -58,16 +59,20 @@ std::string meta_header(const VolumeInfo& info) {
     if (rank == 3 && is_anatomical(geometry)) text += "AnatomicalOrientation = " + anatomical_orientation(geometry) + "\n";
     const std::string unit = one_line(geometry.unit);
     if (!unit.empty()) text += "DistanceUnits = " + unit + "\n";
-    return text + "ElementSpacing =" + spacing + "\nDimSize =" + sizes + "\nElementType = " + meta_type(info.type) + "\nElementDataFile = LOCAL\n";
+    return text + "ElementSpacing =" + spacing + "\nDimSize =" + sizes + "\nElementType = " + meta_type(info.type) +
+           "\nElementDataFile = LOCAL\n";
 }
 
 std::string npy_header(const VolumeInfo& info) {
     static constexpr const char* kTypes[] = {"u1", "i1", "u2", "i2", "u4", "i4", "f4", "f8"};
-    std::string text = std::string("{'descr': '") + (size_of(info.type) == 1 ? '|' : kBigEndian ? '>' : '<') + kTypes[static_cast<int>(info.type)] +
-                       "', 'fortran_order': False, 'shape': (";
+    std::string text = std::string("{'descr': '") +
+                       (size_of(info.type) == 1 ? '|'
+                        : kBigEndian            ? '>'
+                                                : '<') +
+                       kTypes[static_cast<int>(info.type)] + "', 'fortran_order': False, 'shape': (";
     for (int axis = info.extent.rank - 1; axis >= 0; --axis) text += std::to_string(info.extent.size[axis]) + (axis > 0 ? ", " : "");
     text += "), }";
-    constexpr std::size_t kPreamble = 10, kAlignment = 64;   // version 1.0
+    constexpr std::size_t kPreamble = 10, kAlignment = 64;  // version 1.0
     const std::size_t padding = (kAlignment - (kPreamble + text.size() + 1) % kAlignment) % kAlignment;
     text += std::string(padding, ' ') + "\n";
     const auto size = static_cast<std::uint16_t>(text.size());
@@ -78,10 +83,12 @@ std::string npy_header(const VolumeInfo& info) {
 bool name_is_enough(const std::string& path, const VolumeInfo& info) {
     const io::RawDescription name = io::description_from_name(path);
     const std::vector<std::int64_t> dims(info.extent.size.begin(), info.extent.size.begin() + info.extent.rank);
-    if ((name.dims && *name.dims != dims) || (name.type && *name.type != info.type) || (name.big_endian && *name.big_endian != kBigEndian)) {
+    if ((name.dims && *name.dims != dims) || (name.type && *name.type != info.type) ||
+        (name.big_endian && *name.big_endian != kBigEndian)) {
         std::string size;
         for (const std::int64_t side : dims) size += (size.empty() ? "" : "x") + std::to_string(side);
-        throw Error(ErrorKind::usage, {.file = path, .what = "the name says other dims, another type or byte order than the volume has",
+        throw Error(ErrorKind::usage, {.file = path,
+                                       .what = "the name says other dims, another type or byte order than the volume has",
                                        .expected = size + " " + name_of(info.type) + (kBigEndian ? ", big endian" : ", little endian"),
                                        .next = "choose a name like volume_" + size + "_" + name_of(info.type) + ".raw"});
     }
@@ -108,7 +115,9 @@ void write_sidecar(const std::string& path, const VolumeInfo& info) {
 
 }  // namespace
 
-void write_metaimage(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) { write_file(path, meta_header(info), samples); }
+void write_metaimage(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
+    write_file(path, meta_header(info), samples);
+}
 
 void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) { write_file(path, npy_header(info), samples); }
 
@@ -118,7 +127,7 @@ void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed
     const std::string sidecar = path + ".json";
     if (!alone) return write_sidecar(sidecar, info);
     std::error_code ignored;
-    std::filesystem::remove(sidecar, ignored);   // an older one would speak of another volume
+    std::filesystem::remove(sidecar, ignored);  // an older one would speak of another volume
 }
 
 }  // namespace isoatlas::output

@@ -17,7 +17,7 @@ namespace isoatlas::output {
 
 namespace {
 
-constexpr std::int64_t kBigTiffFrom = 3'900'000'000;   ///< raw bytes; offsets of plain TIFF end at 4 GiB
+constexpr std::int64_t kBigTiffFrom = 3'900'000'000;  ///< raw bytes; offsets of plain TIFF end at 4 GiB
 constexpr std::int64_t kStripBytes = std::int64_t{1} << 18;
 constexpr int kLevel = 4;
 
@@ -83,8 +83,10 @@ public:
     /// The bytes of the directory with a link of 0, and of the values that do not fit into it.
     [[nodiscard]] std::string bytes() const {
         std::string head, tail;
-        if (big_) append(head, static_cast<std::uint64_t>(entries_.size()));
-        else append(head, static_cast<std::uint16_t>(entries_.size()));
+        if (big_)
+            append(head, static_cast<std::uint64_t>(entries_.size()));
+        else
+            append(head, static_cast<std::uint16_t>(entries_.size()));
         for (const Entry& entry : entries_) {
             append(head, entry.tag);
             append(head, static_cast<std::uint16_t>(entry.type));
@@ -108,7 +110,7 @@ private:
         std::uint16_t tag;
         FieldType type;
         std::size_t count;
-        std::string value;   ///< bytes
+        std::string value;  ///< bytes
     };
     [[nodiscard]] std::int64_t word() const { return big_ ? 8 : 4; }
     [[nodiscard]] std::int64_t size() const {
@@ -119,8 +121,10 @@ private:
         out.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
     void append_word(std::string& out, std::uint64_t value) const {
-        if (big_) append(out, value);
-        else append(out, static_cast<std::uint32_t>(value));
+        if (big_)
+            append(out, value);
+        else
+            append(out, static_cast<std::uint32_t>(value));
     }
 
     bool big_;
@@ -195,12 +199,14 @@ private:
     Directory describe_page(std::int64_t offset) const {
         Directory directory(big_, offset);
         const ValueType type = info_.type;
-        const std::uint16_t format = is_floating(type) ? 3 : type == ValueType::i8 || type == ValueType::i16 || type == ValueType::i32 ? 2 : 1;
+        const std::uint16_t format = is_floating(type)                                                           ? 3
+                                     : type == ValueType::i8 || type == ValueType::i16 || type == ValueType::i32 ? 2
+                                                                                                                 : 1;
         directory.add(256, static_cast<std::uint32_t>(info_.extent.size[0]));
         directory.add(257, static_cast<std::uint32_t>(info_.extent.size[1]));
         directory.add(258, static_cast<std::uint16_t>(8 * size_of(type)));
-        directory.add(259, std::uint16_t{8});   // deflate
-        directory.add(262, std::uint16_t{1});   // 0 is black
+        directory.add(259, std::uint16_t{8});  // deflate
+        directory.add(262, std::uint16_t{1});  // 0 is black
         if (first_) directory.add_text(270, description_);
         directory.add_positions(273, offsets_);
         directory.add(277, std::uint16_t{1});
@@ -209,15 +215,17 @@ private:
         const std::array<std::uint32_t, 2> x = resolution(geometry_.spacing[0]), y = resolution(geometry_.spacing[1]);
         directory.add(282, FieldType::rational, std::vector<std::uint32_t>(x.begin(), x.end()));
         directory.add(283, FieldType::rational, std::vector<std::uint32_t>(y.begin(), y.end()));
-        directory.add(296, std::uint16_t{1});   // the unit is in the description
+        directory.add(296, std::uint16_t{1});  // the unit is in the description
         directory.add(339, format);
         return directory;
     }
     void set_link(std::int64_t offset) {
         const auto wide = static_cast<std::uint64_t>(offset);
         const auto narrow = static_cast<std::uint32_t>(offset);
-        if (big_) file_.overwrite(link_, std::as_bytes(std::span(&wide, 1)));
-        else file_.overwrite(link_, std::as_bytes(std::span(&narrow, 1)));
+        if (big_)
+            file_.overwrite(link_, std::as_bytes(std::span(&wide, 1)));
+        else
+            file_.overwrite(link_, std::as_bytes(std::span(&narrow, 1)));
     }
 
     AtomicFile file_;
@@ -225,9 +233,9 @@ private:
     Geometry geometry_;
     std::string description_;
     bool big_ = false, first_ = true;
-    std::int64_t rows_ = 1, row_bytes_ = 0;      ///< of a strip; of a row
-    std::int64_t row_ = 0;                       ///< rows of this page that are written
-    std::int64_t link_ = 0;                      ///< where the offset of the next directory goes
+    std::int64_t rows_ = 1, row_bytes_ = 0;  ///< of a strip; of a row
+    std::int64_t row_ = 0;                   ///< rows of this page that are written
+    std::int64_t link_ = 0;                  ///< where the offset of the next directory goes
     std::vector<std::byte> strip_, packed_;
     std::vector<std::int64_t> offsets_, counts_;
 };
@@ -236,7 +244,8 @@ private:
 
 void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
     if (std::max(info.extent.size[0], info.extent.size[1]) > std::int64_t{0xffffffff}) {
-        throw Error(ErrorKind::usage, {.file = path, .what = "an axis has more than 2^32 samples, TIFF cannot say that",
+        throw Error(ErrorKind::usage, {.file = path,
+                                       .what = "an axis has more than 2^32 samples, TIFF cannot say that",
                                        .next = "choose another format, e.g. .nrrd"});
     }
     TiffWriter writer(path, info);

@@ -26,9 +26,11 @@ protected:
 
 TEST_F(Folder, NaturalOrder) {
     using io::natural_less;
-    const std::vector<std::string> sorted = {"", "a", "a0", "a1", "a2", "a10", "a10b", "a010c", "a99999999999999999999998", "a99999999999999999999999", "b"};
+    const std::vector<std::string> sorted = {
+        "", "a", "a0", "a1", "a2", "a10", "a10b", "a010c", "a99999999999999999999998", "a99999999999999999999999", "b"};
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-        for (std::size_t j = 0; j < sorted.size(); ++j) EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
+        for (std::size_t j = 0; j < sorted.size(); ++j)
+            EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
     }
     EXPECT_NE(natural_less("a1", "a01"), natural_less("a01", "a1"));
 }
@@ -61,7 +63,9 @@ TEST_F(Folder, OneSliceIsAnImage) {
 }
 
 TEST_F(Folder, VoxelSizeOfTheFirstFile) {
-    for (const int i : {0, 1}) slice("s" + std::to_string(i) + ".tif", i, 1, {.description = "ImageJ=1.53f\nunit=um\nspacing=3\n", .x_resolution = 2, .y_resolution = 2, .resolution_unit = RESUNIT_NONE});
+    for (const int i : {0, 1})
+        slice("s" + std::to_string(i) + ".tif", i, 1,
+              {.description = "ImageJ=1.53f\nunit=um\nspacing=3\n", .x_resolution = 2, .y_resolution = 2, .resolution_unit = RESUNIT_NONE});
     EXPECT_EQ(open_volume(path())->info().geometry, (Geometry{.spacing = {0.5, 0.5, 3}, .unit = "um"}));
 }
 

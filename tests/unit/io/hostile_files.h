@@ -63,7 +63,8 @@ inline void expect_slabs_equal_whole(const std::string& path, const OpenOptions&
         for (std::int64_t end = begin; end <= info.extent.size[2]; ++end) {
             std::string slab(static_cast<std::size_t>(end - begin) * slice, '?');
             reader->read(begin, end, std::as_writable_bytes(std::span(slab)));
-            ASSERT_TRUE(whole.compare(static_cast<std::size_t>(begin) * slice, slab.size(), slab) == 0) << path << " [" << begin << ", " << end << ")";
+            ASSERT_TRUE(whole.compare(static_cast<std::size_t>(begin) * slice, slab.size(), slab) == 0)
+                << path << " [" << begin << ", " << end << ")";
         }
     }
 }

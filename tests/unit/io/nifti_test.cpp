@@ -18,7 +18,8 @@ using namespace test;
 /// A header under construction: fields by byte offset, swapped at the end.
 class NiftiFile {
 public:
-    explicit NiftiFile(int version = 1, bool big_endian = false) : version_(version), big_(big_endian), bytes_(version == 1 ? 352 : 544, '\0') {
+    explicit NiftiFile(int version = 1, bool big_endian = false)
+        : version_(version), big_(big_endian), bytes_(version == 1 ? 352 : 544, '\0') {
         set<std::int32_t>(0, version == 1 ? 348 : 540);
         if (version == 1) {
             bytes_.replace(344, 4, std::string("n+1\0", 4));
@@ -31,10 +32,12 @@ public:
         type(4, 16);
         for (int i = 0; i < 8; ++i) pixdim(i, 1);
     }
-    NiftiFile& dims(const std::vector<std::int64_t>& sizes) {   // dim[0] first
+    NiftiFile& dims(const std::vector<std::int64_t>& sizes) {  // dim[0] first
         for (std::size_t i = 0; i < sizes.size(); ++i) {
-            if (version_ == 1) set<std::int16_t>(40 + 2 * i, static_cast<std::int16_t>(sizes[i]));
-            else set<std::int64_t>(16 + 8 * i, sizes[i]);
+            if (version_ == 1)
+                set<std::int16_t>(40 + 2 * i, static_cast<std::int16_t>(sizes[i]));
+            else
+                set<std::int64_t>(16 + 8 * i, sizes[i]);
         }
         return *this;
     }
@@ -46,10 +49,15 @@ public:
     NiftiFile& offset(double value) {
         return version_ == 1 ? set<float>(108, static_cast<float>(value)) : set<std::int64_t>(168, static_cast<std::int64_t>(value));
     }
-    NiftiFile& scale(double slope, double intercept) { return real(version_ == 1 ? 112 : 176, slope).real(version_ == 1 ? 116 : 184, intercept); }
-    NiftiFile& units(int code) { return version_ == 1 ? set<std::uint8_t>(123, static_cast<std::uint8_t>(code)) : set<std::int32_t>(500, code); }
+    NiftiFile& scale(double slope, double intercept) {
+        return real(version_ == 1 ? 112 : 176, slope).real(version_ == 1 ? 116 : 184, intercept);
+    }
+    NiftiFile& units(int code) {
+        return version_ == 1 ? set<std::uint8_t>(123, static_cast<std::uint8_t>(code)) : set<std::int32_t>(500, code);
+    }
     NiftiFile& codes(int qform, int sform) {
-        if (version_ == 1) return set<std::int16_t>(252, static_cast<std::int16_t>(qform)).set<std::int16_t>(254, static_cast<std::int16_t>(sform));
+        if (version_ == 1)
+            return set<std::int16_t>(252, static_cast<std::int16_t>(qform)).set<std::int16_t>(254, static_cast<std::int16_t>(sform));
         return set<std::int32_t>(344, qform).set<std::int32_t>(348, sform);
     }
     NiftiFile& qform(std::array<double, 3> quaternion, std::array<double, 3> at) {
@@ -85,7 +93,8 @@ public:
 
 private:
     NiftiFile& real(int at, double value) {
-        return version_ == 1 ? set<float>(static_cast<std::size_t>(at), static_cast<float>(value)) : set<double>(static_cast<std::size_t>(at), value);
+        return version_ == 1 ? set<float>(static_cast<std::size_t>(at), static_cast<float>(value))
+                             : set<double>(static_cast<std::size_t>(at), value);
     }
     int version_;
     bool big_;
@@ -96,8 +105,8 @@ struct TypeCase {
     int code;
     ValueType type;
 };
-constexpr TypeCase kTypes[] = {{2, ValueType::u8},   {256, ValueType::i8}, {4, ValueType::i16},  {512, ValueType::u16},
-                               {8, ValueType::i32},  {768, ValueType::u32}, {16, ValueType::f32}, {64, ValueType::f64}};
+constexpr TypeCase kTypes[] = {{2, ValueType::u8},  {256, ValueType::i8},  {4, ValueType::i16},  {512, ValueType::u16},
+                               {8, ValueType::i32}, {768, ValueType::u32}, {16, ValueType::f32}, {64, ValueType::f64}};
 
 TEST(Nifti, EveryTypeByteOrderAndVersion) {
     const TestFolder folder;
@@ -159,10 +168,18 @@ TEST(Nifti, SformBeforeQformBeforePixdim) {
     file.pixdim(0, -1).pixdim(1, 2).pixdim(2, 3).pixdim(3, 4).units(2);
     const auto geometry = [&] { return open_volume(folder.write("v.nii", file.with(samples)))->info().geometry; };
     EXPECT_EQ(geometry(), (Geometry{.spacing = {2, 3, 4}, .space = "unknown", .unit = "mm"}));
-    file.codes(1, 0).qform({0, 0, 1}, {10, 20, 30}).units(3);   // half a turn about z; the third axis is mirrored
-    EXPECT_EQ(geometry(), (Geometry{.spacing = {2, 3, 4}, .origin = {10, 20, 30}, .direction = {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}, .space = "RAS", .unit = "um"}));
+    file.codes(1, 0).qform({0, 0, 1}, {10, 20, 30}).units(3);  // half a turn about z; the third axis is mirrored
+    EXPECT_EQ(geometry(), (Geometry{.spacing = {2, 3, 4},
+                                    .origin = {10, 20, 30},
+                                    .direction = {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}},
+                                    .space = "RAS",
+                                    .unit = "um"}));
     file.codes(1, 2).sform({0, 0, 5, -1, 0.5, 0, 0, -2, 0, 0.25, 0, -3}).units(1);
-    EXPECT_EQ(geometry(), (Geometry{.spacing = {0.5, 0.25, 5}, .origin = {-1, -2, -3}, .direction = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}, .space = "RAS", .unit = "m"}));
+    EXPECT_EQ(geometry(), (Geometry{.spacing = {0.5, 0.25, 5},
+                                    .origin = {-1, -2, -3},
+                                    .direction = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}},
+                                    .space = "RAS",
+                                    .unit = "m"}));
 }
 
 TEST(Nifti, OddGeometriesAreNoted) {
@@ -186,7 +203,9 @@ TEST(Nifti, OddGeometriesAreNoted) {
 
 TEST(Nifti, CalibrationAndDescription) {
     const TestFolder folder;
-    const auto info = [&](NiftiFile file) { return open_volume(folder.write("v.nii", file.text("made by hand").with(telling_bytes(48))))->info(); };
+    const auto info = [&](NiftiFile file) {
+        return open_volume(folder.write("v.nii", file.text("made by hand").with(telling_bytes(48))))->info();
+    };
     EXPECT_EQ(info(NiftiFile().scale(0, 5)).calibration, Calibration{});
     EXPECT_EQ(info(NiftiFile().scale(1, 0)).calibration, Calibration{});
     EXPECT_EQ(info(NiftiFile().scale(0.5, -3)).calibration, (Calibration{0.5, -3}));
@@ -272,10 +291,12 @@ TEST(NiftiSharedData, ChecksumsAndOriginals) {
         ++files;
     }
     EXPECT_EQ(files, 4);
-    const std::pair<const char*, const char*> originals[] = {
-        {"avg152T1/original/avg152T1_RL_nifti.nii.gz", "avg152T1/avg152T1.nrrd"}, {"engine/original/engine.nii.gz", "engine/engine.nrrd"},
-        {"fuel/original/fuel.nii.gz", "fuel/fuel.nrrd"}, {"stroke/original/T1.nii.gz", "stroke/T1.nrrd"}};
-    for (const auto& [original, converted] : originals) EXPECT_EQ(checksum(kData + original, 16), stats.at(converted).at("sha256_samples")) << original;
+    const std::pair<const char*, const char*> originals[] = {{"avg152T1/original/avg152T1_RL_nifti.nii.gz", "avg152T1/avg152T1.nrrd"},
+                                                             {"engine/original/engine.nii.gz", "engine/engine.nrrd"},
+                                                             {"fuel/original/fuel.nii.gz", "fuel/fuel.nrrd"},
+                                                             {"stroke/original/T1.nii.gz", "stroke/T1.nrrd"}};
+    for (const auto& [original, converted] : originals)
+        EXPECT_EQ(checksum(kData + original, 16), stats.at(converted).at("sha256_samples")) << original;
 }
 
 TEST(NiftiSharedData, FourDimensionsAndCalibration) {
