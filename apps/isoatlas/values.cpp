@@ -40,7 +40,7 @@ std::string Scale::brief(double stored) const {
 }
 
 std::string Scale::text_within(double stored, double low, double high) const {
-    for (int digits = 3; digits < 17; ++digits) {
+    for (int digits = 7; digits < 17; ++digits) {
         const double rounded = std::stod(fmt::format("{:.{}g}", reported(stored), digits));
         const double back = this->stored(rounded);
         if (back > low && back <= high) return fmt::format("{}", rounded);

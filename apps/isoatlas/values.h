@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::string text(double stored) const;
     /// For tables: as text(), but never more than about nine characters.
     [[nodiscard]] std::string brief(double stored) const;
-    /// The shortest text of a value in (low, high] near `stored`: nothing changes between low and high.
+    /// Seven digits, or as many more as it takes to stay in (low, high]: where nothing changes.
     [[nodiscard]] std::string text_within(double stored, double low, double high) const;
 
 private:

@@ -24,25 +24,28 @@ int exit_code(const std::vector<CheckResult>& checks) {
     return all ? 0 : static_cast<int>(ErrorKind::verification);
 }
 
-void print_checks(Terminal& terminal, const Arguments& arguments, Json head, const std::vector<CheckResult>& checks) {
-    if (arguments.json) {
-        head["holds"] = exit_code(checks) == 0;
-        head["checks"] = Json::array();
-        for (const CheckResult& check : checks)
-            head["checks"].push_back({{"name", check.name}, {"holds", check.holds}, {"detail", check.detail}});
-        print(terminal, head);
-    } else {
-        for (const CheckResult& check : checks) {
-            terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<32}", check.name) << ' ' << check.detail << '\n';
-        }
+void print_json(Terminal& terminal, Json head, const std::vector<CheckResult>& checks) {
+    head["holds"] = exit_code(checks) == 0;
+    head["checks"] = Json::array();
+    for (const CheckResult& check : checks) {
+        head["checks"].push_back({{"name", check.name}, {"holds", check.holds}, {"detail", check.detail}});
     }
-    const auto failed = std::count_if(checks.begin(), checks.end(), [](const CheckResult& check) { return !check.holds; });
-    if (failed > 0) {
-        terminal.warn(fmt::format("{}: {} of {} do not hold", arguments.file, failed,
-                                  counted(static_cast<std::int64_t>(checks.size()), "guarantee")));
-    } else {
-        terminal.say(fmt::format("{}: all {} hold", arguments.file, counted(static_cast<std::int64_t>(checks.size()), "guarantee")));
+    print(terminal, head);
+}
+
+/// One line per guarantee and a last one for all; with --quiet only what fails and the last one.
+void print_text(Terminal& terminal, const Arguments& arguments, const std::vector<CheckResult>& checks) {
+    const auto all = static_cast<std::int64_t>(checks.size());
+    std::int64_t failed = 0;
+    for (const CheckResult& check : checks) {
+        failed += check.holds ? 0 : 1;
+        if (check.holds && arguments.quiet) continue;
+        terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<26}", check.name) << check.detail << '\n';
     }
+    terminal.out() << arguments.file << ": "
+                   << (failed == 0 ? "all " + counted(all, "guarantee") + " hold"
+                                   : fmt::format("{} of {} FAIL", failed, counted(all, "guarantee")))
+                   << '\n';
 }
 
 std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
@@ -69,7 +72,12 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
         head["what"] = "volume";
         head["levels"] = arguments.levels;
     }
-    print_checks(terminal, arguments, std::move(head), checks);
+    if (arguments.json) {
+        print_json(terminal, std::move(head), checks);
+    } else {
+        print_text(terminal, arguments, checks);
+    }
+    if (exit_code(checks) != 0) terminal.warn(arguments.file + ": a guarantee does not hold");
     return exit_code(checks);
 }
 
