@@ -2,8 +2,12 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <new>
 
 namespace isoatlas {
@@ -26,22 +30,94 @@ char* map_memory(std::size_t size) {
     return begin + head;
 }
 
+/// Memory in use and memory kept for reuse. Their sum never exceeds the most that was ever in use at once: keeping costs nothing.
+class Pool {
+public:
+    char* take(std::size_t size) {
+        const std::lock_guard lock(mutex_);
+        char* memory = reuse(size);
+        if (memory == nullptr) {
+            most_used_ = std::max(most_used_, used_ + size);
+            while (!free_.empty() && used_ + size + kept_ > most_used_) drop_one();
+            memory = map_memory(size);
+            if (memory == nullptr) throw std::bad_alloc();
+        }
+        used_ += size;
+        most_used_ = std::max(most_used_, used_);
+        return memory;
+    }
+
+    void put(char* memory, std::size_t size) {
+        const std::lock_guard lock(mutex_);
+        used_ -= size;
+        kept_ += size;
+        auto piece = free_.emplace(memory, size).first;
+        if (const auto next = std::next(piece); next != free_.end() && memory + size == next->first) {
+            piece->second += next->second;
+            free_.erase(next);
+        }
+        if (piece == free_.begin()) return;
+        const auto before = std::prev(piece);
+        if (before->first + before->second != piece->first) return;
+        before->second += piece->second;
+        free_.erase(piece);
+    }
+
+    void give_back() {
+        const std::lock_guard lock(mutex_);
+        while (!free_.empty()) drop_one();
+        most_used_ = used_;
+    }
+
+private:
+    /// Cuts size from the smallest free piece that holds it.
+    char* reuse(std::size_t size) {
+        auto best = free_.end();
+        for (auto piece = free_.begin(); piece != free_.end(); ++piece) {
+            if (piece->second >= size && (best == free_.end() || piece->second < best->second)) best = piece;
+        }
+        if (best == free_.end()) return nullptr;
+        char* const memory = best->first;
+        const std::size_t rest = best->second - size;
+        free_.erase(best);
+        if (rest > 0) free_.emplace(memory + size, rest);
+        kept_ -= size;
+        return memory;
+    }
+
+    void drop_one() {
+        const auto piece = std::prev(free_.end());
+        munmap(piece->first, piece->second);
+        kept_ -= piece->second;
+        free_.erase(piece);
+    }
+
+    std::mutex mutex_;
+    std::map<char*, std::size_t> free_;  // by address; neighbours are joined
+    std::size_t used_ = 0, kept_ = 0, most_used_ = 0;
+};
+
+Pool& pool() {
+    static auto* const pool = new Pool;  // never destroyed: vectors may outlive it at exit
+    return *pool;
+}
+
 }  // namespace
 
 void* allocate_big(std::size_t bytes) {
     if (bytes < kSmall) return ::operator new(bytes);
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
-    char* const memory = map_memory(rounded(bytes));
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
+    return pool().take(rounded(bytes));
 }
 
 void free_big(void* memory, std::size_t bytes) noexcept {
     if (bytes < kSmall) {
         ::operator delete(memory);
     } else {
-        munmap(memory, rounded(bytes));
+        pool().put(static_cast<char*>(memory), rounded(bytes));
     }
 }
+
+void return_big_memory() noexcept { pool().give_back(); }
 
 }  // namespace isoatlas

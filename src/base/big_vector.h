@@ -1,7 +1,8 @@
 // BigVector: a vector for the large arrays of the engine.
 //
-// Memory comes from the system in huge pages where it offers them (random access to an array of 100 MB costs half as much) and goes back to it
-// at once when the vector dies. New elements are not initialised: resize() before writing every element.
+// Memory comes from the system in huge pages where it offers them (random access to an array of 100 MB costs half as much). Freed memory is
+// kept for the next array (fresh pages cost more than much of the work done on them), but never more than was in use at once;
+// return_big_memory() gives it back. New elements are not initialised: resize() before writing every element.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,8 @@ namespace isoatlas {
 /// Memory for `bytes`; throws std::bad_alloc.
 [[nodiscard]] void* allocate_big(std::size_t bytes);
 void free_big(void* memory, std::size_t bytes) noexcept;
+/// Gives the memory that is kept for reuse back to the system.
+void return_big_memory() noexcept;
 
 template <class T>
 struct BigAllocator {

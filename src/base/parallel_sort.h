@@ -13,7 +13,7 @@
 
 namespace isoatlas {
 
-/// Sorts items by before(p, q), where before must agree with key: key(p) < key(q) implies before(p, q). Uses a second array of the same size.
+/// Sorts items by before(p, q), where before must agree with key (a double): key(p) < key(q) implies before(p, q). Uses a second array.
 template <class T, class Key, class Before>
 void bucket_sort(int threads, BigVector<T>& items, const Key& key, const Before& before) {
     constexpr std::size_t kSmall = 1 << 14, kBucket = 1 << 10, kBlocks = 64;
@@ -31,8 +31,18 @@ void bucket_sort(int threads, BigVector<T>& items, const Key& key, const Before&
         std::sort(samples.begin(), samples.end());
         for (std::size_t b = 1; b < buckets; ++b) splitters.push_back(samples[b * samples.size() / buckets]);
     }
+    // Equal steps over the keys narrow the search down to the splitters within a step.
+    const double low = splitters.front(), width = splitters.back() - low;
+    const double steps = static_cast<double>(4 * buckets), factor = width > 0 && steps / width < 1e300 ? steps / width : 0;
+    const auto step_of = [&](double k) { return static_cast<std::size_t>(std::clamp((k - low) * factor, 0.0, steps)); };
+    std::vector<std::uint16_t> first_of_step(4 * buckets + 2, 0);
+    for (const double splitter : splitters) ++first_of_step[step_of(splitter) + 1];
+    for (std::size_t s = 1; s < first_of_step.size(); ++s) first_of_step[s] = static_cast<std::uint16_t>(first_of_step[s] + first_of_step[s - 1]);
     const auto bucket_of = [&](const T& item) {
-        return static_cast<std::uint16_t>(std::lower_bound(splitters.begin(), splitters.end(), key(item)) - splitters.begin());
+        const double k = key(item);
+        const std::size_t step = step_of(k);
+        const auto begin = splitters.begin() + first_of_step[step], end = splitters.begin() + first_of_step[step + 1];
+        return static_cast<std::uint16_t>(std::lower_bound(begin, end, k) - splitters.begin());
     };
     // Count per block and bucket, turn counts into places, scatter, sort every bucket.
     const auto block_range = [&](std::size_t block) { return std::array{n * block / kBlocks, n * (block + 1) / kBlocks}; };

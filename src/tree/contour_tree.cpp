@@ -1,8 +1,10 @@
 #include "tree/contour_tree.h"
 
+#include <optional>
 #include <utility>
 
 #include "base/check.h"
+#include "base/parallel.h"
 
 namespace isoatlas {
 namespace {
@@ -50,9 +52,12 @@ constexpr std::uint8_t kLowerLeaf = 1;
 }  // namespace
 
 template <class Id>
-ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_parents, std::span<const std::int8_t> delta_chi) {
+ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_parents, std::span<const std::int8_t> delta_chi, int threads) {
     using Signed = typename ContourTree<Id>::Signed;
-    ShrinkingTree<Id> join(std::move(join_parents)), split(std::move(split_parents));
+    std::optional<ShrinkingTree<Id>> join_tree, split_tree;
+    run_both(threads, [&] { join_tree.emplace(std::move(join_parents)); }, [&] { split_tree.emplace(std::move(split_parents)); });
+    ShrinkingTree<Id>& join = *join_tree;
+    ShrinkingTree<Id>& split = *split_tree;
     const std::size_t nodes = join.parent.size();
     BigVector<std::uint8_t> count = child_counts(join, split);
     ContourTree<Id> tree;
@@ -95,7 +100,7 @@ ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_par
     return tree;
 }
 
-template ContourTree<std::uint32_t> contour_tree(BigVector<std::uint32_t>, BigVector<std::uint32_t>, std::span<const std::int8_t>);
-template ContourTree<std::uint64_t> contour_tree(BigVector<std::uint64_t>, BigVector<std::uint64_t>, std::span<const std::int8_t>);
+template ContourTree<std::uint32_t> contour_tree(BigVector<std::uint32_t>, BigVector<std::uint32_t>, std::span<const std::int8_t>, int);
+template ContourTree<std::uint64_t> contour_tree(BigVector<std::uint64_t>, BigVector<std::uint64_t>, std::span<const std::int8_t>, int);
 
 }  // namespace isoatlas

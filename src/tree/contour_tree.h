@@ -31,6 +31,6 @@ struct ContourTree {
 /// empty: Euler numbers are not wanted (2D), half_chi is 0.
 /// Cost: O(n) time; 14 bytes a node beyond input and output for 32-bit ids.
 template <class Id>
-ContourTree<Id> contour_tree(BigVector<Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi);
+ContourTree<Id> contour_tree(BigVector<Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
 
 }  // namespace isoatlas

@@ -80,36 +80,43 @@ CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const I
 }
 
 template <class Id>
-EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow,
-                                 std::span<const std::int8_t> delta_chi) {
-    using Signed = std::make_signed_t<Id>;
+EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow) {
     const std::size_t events = tree.size();
-    EventMeasures<Id> measures{BigVector<Id>(events, Id{0}), BigVector<Id>(events, Id{0}), BigVector<Signed>(events, Signed{0}), {}, {}};
+    EventMeasures<Id> measures;
+    measures.lows_out.assign(events, Id{0});
+    measures.contours.assign(events, Id{0});
     measures.kind.assign(events, Criticality::complex);
-    for (std::size_t r = level.size(); r-- > 0;) {  // the highest level comes last: it names the kind, others must agree
+    for (std::size_t r = 0; r < level.size(); ++r) {
         if (level[r] != static_cast<Id>(r) || flow[r].is_trivial()) continue;
         const std::size_t e = tree.event_of_element[r];
-        const bool first = measures.lows_out[e] == 0 && measures.contours[e] == 0;
         const Criticality kind = flow[r].kind();
+        const bool first = measures.lows_out[e] == 0 && measures.contours[e] == 0;  // every non-trivial level changes one of them or more
         measures.kind[e] = first || measures.kind[e] == kind ? kind : Criticality::complex;
         measures.lows_out[e] += flow[r].out;
         measures.contours[e] += flow[r].out - flow[r].in;  // unsigned sums wrap around and back
     }
-    for (std::size_t i = 0; i < level.size(); ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
+    return measures;
+}
+
+template <class Id>
+void sum_objects(const CriticalityTree<Id>& tree, std::span<const std::int8_t> delta_chi, EventMeasures<Id>& measures) {
+    using Signed = std::make_signed_t<Id>;
+    measures.delta_chi.assign(tree.size(), Signed{0});
+    for (std::size_t i = 0; i < delta_chi.size(); ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
     measures.chi = measures.delta_chi;
-    for (std::size_t e = 0; e < events; ++e) {
+    for (std::size_t e = 0; e < tree.size(); ++e) {
         if (tree.is_root(e)) continue;
         measures.chi[tree.parent[e]] += measures.chi[e];
         measures.contours[tree.parent[e]] += measures.contours[e];
     }
     // Below the root the object is the whole box: a ball with one contour.
     ISOATLAS_CHECK(measures.chi.back() == 1 && measures.contours.back() == 1);
-    return measures;
 }
 
-#define ISOATLAS_CRITICALITY_TREE(Id)                                                                                            \
+#define ISOATLAS_CRITICALITY_TREE(Id)                                                                                                  \
     template CriticalityTree<Id> criticality_tree(std::span<const Id>, std::span<const Id>, std::span<const LevelFlow<Id>>, std::span<const double>); \
-    template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, std::span<const Id>, std::span<const LevelFlow<Id>>, std::span<const std::int8_t>);
+    template EventMeasures<Id> gather_levels(const CriticalityTree<Id>&, std::span<const Id>, std::span<const LevelFlow<Id>>);           \
+    template void sum_objects(const CriticalityTree<Id>&, std::span<const std::int8_t>, EventMeasures<Id>&);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)
 ISOATLAS_CRITICALITY_TREE(std::uint64_t)
 #undef ISOATLAS_CRITICALITY_TREE

@@ -38,9 +38,12 @@ struct EventMeasures {
 template <class Id>
 CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, std::span<const double> value);
 
-/// delta_chi: per element.
+/// What the events do by themselves: kind, lows_out, and in `contours` their gain of contours.
 template <class Id>
-EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow,
-                                 std::span<const std::int8_t> delta_chi);
+EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow);
+
+/// The rest: delta_chi, and chi and contours summed over the objects. delta_chi: per element.
+template <class Id>
+void sum_objects(const CriticalityTree<Id>& tree, std::span<const std::int8_t> delta_chi, EventMeasures<Id>& measures);
 
 }  // namespace isoatlas

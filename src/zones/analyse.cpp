@@ -41,19 +41,17 @@ BigVector<Id> elements_of_maxima(const CriticalSet<Id>& set) {
     return element;
 }
 
-/// Zones of all voxels and their sizes. The basins become the zones in place.
+/// Zones of all voxels and their sizes. maxima: their elements. The basins become the zones in place.
 template <class T, class Id>
-void make_zones(const GridView<T>& grid, std::span<const Id> element_of_maximum, BigVector<Id> basin, AnalysisArrays<Id>& arrays, const Context& context) {
-    HeavyPaths<Id> paths(arrays.tree, arrays.value);
-    BigVector<typename HeavyPaths<Id>::Place> start(element_of_maximum.size());
-    for (std::size_t i = 0; i < start.size(); ++i) start[i] = paths.place(arrays.tree.event_of_element[element_of_maximum[i]]);
-    paths.forget_places();
+void make_zones(const GridView<T>& grid, BigVector<Id> maxima, BigVector<Id> basin, AnalysisArrays<Id>& arrays, const Context& context) {
+    for (Id& i : maxima) i = arrays.tree.event_of_element[i];
+    const HeavyPaths<Id, ComparisonValue<T>> paths(arrays.tree, arrays.value, maxima);
     arrays.voxels.assign(arrays.tree.size(), Id{0});
     const std::int64_t height = slab_height(grid.extent, context), slabs = (grid.extent.size[2] + height - 1) / height;
     for_each_block(context.threads, slabs, [&](std::int64_t i) {
         const Slab slab = slab_at(i, height, grid.extent.size[2]);
         const std::size_t first = slab.z_begin * grid.extent.slice(), count = (slab.z_end - slab.z_begin) * grid.extent.slice();
-        label_zones<T, Id>({grid.samples + first, count}, paths, start, std::span<Id>(basin).subspan(first, count), arrays.voxels);
+        label_zones<T, Id>({grid.samples + first, count}, paths, std::span<Id>(basin).subspan(first, count), arrays.voxels);
     });
     arrays.zone = std::move(basin);
 }
@@ -66,12 +64,15 @@ void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) release(*field);
     const bool is_3d = set.rank == 3;
     const BigVector<std::int8_t> delta = is_3d ? delta_chis(set.code, 3) : BigVector<std::int8_t>();
-    arrays.contours = contour_tree<Id>(join, std::move(split), delta);
+    arrays.contours = contour_tree<Id>(join, std::move(split), delta, threads);
     if (!is_3d) arrays.contours = circles(std::move(arrays.contours));
     arrays.value = std::move(set.value);
     arrays.code = std::move(set.code);
     arrays.level = level_roots<Id>(arrays.contours, arrays.value);
-    arrays.tree = criticality_tree<Id>(join, arrays.level, level_flow<Id>(arrays.contours, arrays.level, arrays.value), arrays.value);
+    const BigVector<LevelFlow<Id>> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value);
+    arrays.tree = criticality_tree<Id>(join, arrays.level, flow, arrays.value);
+    release(join);
+    arrays.measures = gather_levels<Id>(arrays.tree, arrays.level, flow);
 }
 
 template <class T, class Id>
@@ -79,15 +80,13 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     auto result = std::make_unique<IndexedArrays<Id>>();
     AnalysisArrays<Id>& arrays = result->arrays;
     Criticals<Id> criticals = GridDomain<T, Id>(grid).critical(context);
-    const BigVector<Id> element_of_maximum = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
+    BigVector<Id> maxima = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
     if (!options.zones) release(criticals.basin);
     context.report("trees", 3, kPhases, 0);
     make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);
-    // Zones first, then what events do: the largest arrays of both are never held at the same time.
-    if (options.zones) make_zones<T, Id>(grid, element_of_maximum, std::move(criticals.basin), arrays, context);
-    const BigVector<LevelFlow<Id>> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value);
-    arrays.measures = measure_events<Id>(arrays.tree, arrays.level, flow, delta_chis(arrays.code, grid.extent.rank));
+    if (options.zones) make_zones<T, Id>(grid, std::move(maxima), std::move(criticals.basin), arrays, context);
+    sum_objects<Id>(arrays.tree, delta_chis(arrays.code, grid.extent.rank), arrays.measures);
     context.report("zones", 4, kPhases, 1);
     return result;
 }
@@ -108,6 +107,7 @@ Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Con
             data->arrays = run<T, std::uint64_t>(grid, options, context);
         }
     });
+    return_big_memory();
     return Analysis(std::move(data));
 }
 

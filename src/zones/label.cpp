@@ -19,21 +19,20 @@ void add(std::span<Id> counts, Id zone, Id count) {
 }  // namespace
 
 template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPaths<Id>& paths, std::span<const typename HeavyPaths<Id>::Place> start,
-                 std::span<Id> basin_to_zone, std::span<Id> counts) {
-    using Place = typename HeavyPaths<Id>::Place;
-    std::vector<double> value(kBlock);
-    std::vector<Place> place(kBlock);
+void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone, std::span<Id> counts) {
+    using Value = ComparisonValue<T>;
+    std::vector<Value> value(kBlock);
+    std::vector<Id> maximum(kBlock);
     std::vector<std::uint32_t> scratch(kBlock);
     Id zone = 0, run = 0;
     for (std::size_t first = 0; first < samples.size(); first += kBlock) {
         const std::size_t count = std::min(kBlock, samples.size() - first);
         const std::span<Id> block = basin_to_zone.subspan(first, count);
         for (std::size_t i = 0; i < count; ++i) {
-            value[i] = static_cast<double>(samples[first + i]);
-            place[i] = start[Basins<Id>::number(block[i])];
+            value[i] = static_cast<Value>(samples[first + i]);
+            maximum[i] = Basins<Id>::number(block[i]);
         }
-        paths.zones({value.data(), count}, {place.data(), count}, scratch, block);
+        paths.zones({value.data(), count}, {maximum.data(), count}, scratch, block);
         for (const Id next : block) {
             if (next != zone) {
                 if (run > 0) add(counts, zone, run);
@@ -46,11 +45,11 @@ void label_zones(std::span<const T> samples, const HeavyPaths<Id>& paths, std::s
     if (run > 0) add(counts, zone, run);
 }
 
-#define ISOATLAS_LABEL(T)                                                                                                            \
-    template void label_zones(std::span<const T>, const HeavyPaths<std::uint32_t>&, std::span<const HeavyPaths<std::uint32_t>::Place>, \
-                              std::span<std::uint32_t>, std::span<std::uint32_t>);                                                    \
-    template void label_zones(std::span<const T>, const HeavyPaths<std::uint64_t>&, std::span<const HeavyPaths<std::uint64_t>::Place>, \
-                              std::span<std::uint64_t>, std::span<std::uint64_t>);
+#define ISOATLAS_LABEL(T)                                                                                                      \
+    template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&,         \
+                                                std::span<std::uint32_t>, std::span<std::uint32_t>);                               \
+    template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&,         \
+                                                std::span<std::uint64_t>, std::span<std::uint64_t>);
 ISOATLAS_LABEL(std::uint8_t)
 ISOATLAS_LABEL(std::int8_t)
 ISOATLAS_LABEL(std::uint16_t)

@@ -8,10 +8,9 @@
 
 namespace isoatlas {
 
-/// Replaces the basin entries of `samples.size()` consecutive voxels by their zones and counts them. start: place of the event of each maximum.
+/// Replaces the basin entries of `samples.size()` consecutive voxels by their zones and counts them.
 /// counts (per event, shared by all slabs) is added to atomically. Cost: O(1) expected a voxel.
 template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPaths<Id>& paths, std::span<const typename HeavyPaths<Id>::Place> start,
-                 std::span<Id> basin_to_zone, std::span<Id> counts);
+void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone, std::span<Id> counts);
 
 }  // namespace isoatlas

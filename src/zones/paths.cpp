@@ -1,16 +1,25 @@
 #include "zones/paths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace isoatlas {
 namespace {
 
-/// Per event its heaviest child (most events above it; ties: the higher event), the event itself for a leaf.
+/// The largest Value that is not above v.
+template <class Value>
+Value rounded_down(double v) {
+    const auto rounded = static_cast<Value>(v);
+    return static_cast<double>(rounded) > v ? std::nextafter(rounded, -std::numeric_limits<Value>::infinity()) : rounded;
+}
+
+/// Per event its heaviest child (most events above it; ties: the higher event), the event itself for a leaf. weight: scratch.
 template <class Id>
-BigVector<Id> heavy_children(const CriticalityTree<Id>& tree) {
+BigVector<Id> heavy_children(const CriticalityTree<Id>& tree, BigVector<Id>& weight) {
     const std::size_t n = tree.size();
-    BigVector<Id> weight(n, Id{1}), heavy(n);
+    std::fill(weight.begin(), weight.end(), Id{1});
+    BigVector<Id> heavy(n);
     for (std::size_t e = 0; e < n; ++e) heavy[e] = static_cast<Id>(e);
     for (std::size_t e = 0; e < n; ++e) {  // children before parents
         if (tree.is_root(e)) continue;
@@ -23,86 +32,110 @@ BigVector<Id> heavy_children(const CriticalityTree<Id>& tree) {
 
 }  // namespace
 
-template <class Id>
-HeavyPaths<Id>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value)
-    : value_(tree.size()), event_(tree.size()), place_(tree.size()) {
-    const BigVector<Id> heavy = heavy_children(tree);
-    Id position = 0;
-    for (std::size_t bottom = tree.size(); bottom-- > 0;) {  // parents before children: the place below is known
-        const std::size_t parent = tree.parent[bottom];
-        const bool root = tree.is_root(bottom);
-        if (!root && heavy[parent] == static_cast<Id>(bottom)) continue;
-        Path path{};
-        path.value_below = root ? -std::numeric_limits<double>::infinity() : value[tree.top[parent]];
-        if (!root) path.below = place_[parent];
-        path.first = position;
-        for (std::size_t e = bottom;; e = heavy[e]) {
-            place_[e] = {static_cast<Id>(paths_.size()), position};
-            event_[position] = static_cast<Id>(e);
-            value_[position++] = value[tree.top[e]];
-            if (heavy[e] == static_cast<Id>(e)) break;
+template <class Id, class Value>
+HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima)
+    : stops_(tree.size()), bucket_(tree.size()), start_(maxima.size()) {
+    lay_out(tree, value, maxima);
+    for (Id path = 0; path + 1 < paths_.size(); ++path) make_buckets(path);
+}
+
+template <class Id, class Value>
+void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima) {
+    constexpr Id kNone = std::numeric_limits<Id>::max();
+    BigVector<Id> path_of(tree.size(), kNone);
+    {
+        const BigVector<Id> heavy = heavy_children(tree, bucket_);
+        paths_.reserve(maxima.size() + 1);
+        Id end = 0;
+        for (const Id top : maxima) {
+            if (path_of[top] != kNone || heavy[top] != top) continue;  // a leaf starts exactly one path
+            const auto path = static_cast<Id>(paths_.size());
+            Id bottom = top, length = 1;
+            for (; !tree.is_root(bottom) && heavy[tree.parent[bottom]] == bottom; bottom = tree.parent[bottom]) ++length;
+            paths_.push_back({0, 0, end});
+            end += length;
+            Id position = end;
+            for (Id e = top;; e = tree.parent[e]) {
+                path_of[e] = path;
+                stops_[--position] = {rounded_down<Value>(value[tree.top[e]]), e};
+                if (e == bottom) break;
+            }
         }
-        path.count = position - path.first;
-        paths_.push_back(path);
+        paths_.push_back({0, 0, end});
     }
-    bucket_.resize(tree.size());
-    for (Path& path : paths_) make_buckets(path);
+    for (Id path = 0; path + 1 < paths_.size(); ++path) {
+        const Id bottom = stops_[paths_[path].first].event, parent = tree.parent[bottom];
+        paths_[path].below = path_of[parent];
+        paths_[path].value_below =
+            tree.is_root(bottom) ? -std::numeric_limits<Value>::infinity() : rounded_down<Value>(value[tree.top[parent]]);
+    }
+    for (std::size_t m = 0; m < maxima.size(); ++m) start_[m] = path_of[maxima[m]];
 }
 
-template <class Id>
-void HeavyPaths<Id>::make_buckets(Path& path) {
-    if (path.count < kBucketed) return;
-    const double low = value_[path.first], width = value_[path.first + path.count - 1] - low;
-    double factor = static_cast<double>(path.count) / width;
+template <class Id, class Value>
+void HeavyPaths<Id, Value>::make_buckets(Id path) {
+    if (count(path) < kBucketed) return;
+    const Id first = paths_[path].first, end = paths_[path + 1].first, buckets = count(path) - 1;
+    const double low = stops_[first].value, width = static_cast<double>(stops_[end - 1].value) - low;
+    double factor = static_cast<double>(buckets) / width;
     if (!(factor < std::numeric_limits<double>::max())) factor = 0;  // a width that underflows: one bucket
-    path.scale = static_cast<Id>(scales_.size());
+    bucket_[first] = static_cast<Id>(scales_.size());
     scales_.push_back({low, factor});
-    Id next = path.first;
-    for (Id p = path.first; p < path.first + path.count; ++p) {
-        const Id last = path.first + static_cast<Id>(bucket(path, value_[p]));
-        while (next <= last) bucket_[next++] = p;
+    Id next = 0;
+    for (Id p = first; p < end; ++p) {
+        const std::size_t last = bucket(scales_.back(), buckets, stops_[p].value);
+        while (next <= last) bucket_[first + 1 + next++] = p;
     }
-    while (next < path.first + path.count) bucket_[next++] = path.first + path.count - 1;
+    while (next < buckets) bucket_[first + 1 + next++] = end - 1;
 }
 
-template <class Id>
-std::size_t HeavyPaths<Id>::bucket(const Path& path, double x) const {
-    const Scale& scale = scales_[path.scale];
-    const double b = (x - scale.low) * scale.factor;  // monotone in x, rounding included: that is all the search needs
-    return b > 0 ? static_cast<std::size_t>(std::min(b, static_cast<double>(path.count - 1))) : 0;
+// Monotone in x, rounding included: that is all the search needs.
+template <class Id, class Value>
+std::size_t HeavyPaths<Id, Value>::bucket(const Scale& scale, Id buckets, Value x) const {
+    const double b = (static_cast<double>(x) - scale.low) * scale.factor;
+    return b > 0 ? static_cast<std::size_t>(std::min(b, static_cast<double>(buckets - 1))) : 0;
 }
 
-template <class Id>
-void HeavyPaths<Id>::zones(std::span<const double> x, std::span<Place> place, std::span<std::uint32_t> scratch, std::span<Id> zone) const {
+/// A position not above the lowest event of the path with a value of x or more.
+template <class Id, class Value>
+Id HeavyPaths<Id, Value>::search_from(Id path, Value x) const {
+    const Id first = paths_[path].first;
+    if (count(path) < kBucketed) return first;
+    return bucket_[first + 1 + bucket(scales_[bucket_[first]], count(path) - 1, x)];
+}
+
+template <class Id, class Value>
+void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch, std::span<Id> zone) const {
+    for (Id& p : path) p = start_[p];
     std::size_t climbing = x.size();
     for (std::size_t i = 0; i < climbing; ++i) scratch[i] = static_cast<std::uint32_t>(i);
     while (climbing > 0) {  // one jump for all that still climb
         std::size_t kept = 0;
         for (std::size_t k = 0; k < climbing; ++k) {
             const std::uint32_t i = scratch[k];
-            const Path& path = paths_[place[i].path];
-            const bool jump = path.value_below >= x[i];
-            place[i] = jump ? path.below : place[i];
+            const Path& at = paths_[path[i]];
+            const bool jump = at.value_below >= x[i];
+            path[i] = jump ? at.below : path[i];
             scratch[kept] = i;
             kept += jump;
         }
         climbing = kept;
     }
-    for (std::size_t i = 0; i < x.size(); ++i) {  // zone[i]: where the search starts
-        const Path& path = paths_[place[i].path];
-        zone[i] = path.count < kBucketed ? path.first : bucket_[path.first + bucket(path, x[i])];
-        scratch[i] = static_cast<std::uint32_t>(std::min<Id>(place[i].position - std::min(zone[i], place[i].position), 8));
-    }
+    for (std::size_t i = 0; i < x.size(); ++i) zone[i] = search_from(path[i], x[i]);
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const double* stop = value_.data() + zone[i];
-        const double* end = value_.data() + place[i].position;
-        for (std::uint32_t step = scratch[i]; step > 0 && *stop < x[i]; --step) ++stop;
-        if (*stop < x[i]) stop = std::lower_bound(stop, end, x[i]);
-        zone[i] = event_[static_cast<std::size_t>(stop - value_.data())];
+        const Stop* stop = stops_.data() + zone[i];
+        for (int step = 0; step < 8 && stop->value < x[i]; ++step) ++stop;
+        if (stop->value < x[i]) {  // a crowded bucket
+            const Stop* end = stops_.data() + paths_[path[i] + 1].first;
+            stop = std::lower_bound(stop, end, x[i], [](const Stop& s, Value value) { return s.value < value; });
+        }
+        zone[i] = stop->event;
     }
 }
 
-template class HeavyPaths<std::uint32_t>;
-template class HeavyPaths<std::uint64_t>;
+template class HeavyPaths<std::uint32_t, float>;
+template class HeavyPaths<std::uint32_t, double>;
+template class HeavyPaths<std::uint64_t, float>;
+template class HeavyPaths<std::uint64_t, double>;
 
 }  // namespace isoatlas
