@@ -18,6 +18,14 @@ constexpr std::int64_t kBufferBytes = 256 * 1024;
 constexpr std::size_t kMostPerCall = 1U << 30;  // zlib counts in 32 bits
 constexpr int kDetectGzipOrZlib = 15 + 32;      // windowBits: largest window, the stream's header decides
 
+/// zlib's stream that frees itself, also when the constructor of its owner throws behind inflateInit2.
+struct Inflater : z_stream {
+    Inflater() : z_stream{} {}
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+    ~Inflater() { inflateEnd(this); }
+};
+
 class InflateSource final : public ByteSource {
 public:
     InflateSource(const std::string& path, std::int64_t offset, std::int64_t length) : path_(path), file_(open_file(path)) {
@@ -36,9 +44,6 @@ public:
         if (inflateInit2(&stream_, kDetectGzipOrZlib) != Z_OK) out_of_memory();
         restart();
     }
-    InflateSource(const InflateSource&) = delete;
-    InflateSource& operator=(const InflateSource&) = delete;
-    ~InflateSource() override { inflateEnd(&stream_); }
 
     void read(std::span<std::byte> out) override {
         const std::size_t got = read_some(out);
@@ -162,7 +167,7 @@ private:
     bool finished_ = false;
     bool gzip_ = false;
     std::optional<std::byte> pushed_back_;  // read by at_end()
-    z_stream stream_{};
+    Inflater stream_;
     std::vector<std::byte> buffer_;
 };
 
