@@ -147,7 +147,7 @@ TEST(Vti, Geometry) {
     };
     const auto piece = [](const std::string& extent) { return "<Piece Extent=\"" + extent + "\"><PointData Scalars=\"v\">"; };
     EXPECT_EQ(info("<ImageData WholeExtent=\"0 3 0 2 0 1\" Origin=\"1 2 3\" Spacing=\"0.5 2 4\">").geometry,
-              (Geometry{.spacing = {0.5, 2, 4}, .origin = {1, 2, 3}}));
+              (Geometry{.spacing = {0.5, 2, 4}, .origin = {1, 2, 3}, .unit = {}}));
     // An extent that does not begin at 0 moves the first sample.
     EXPECT_EQ(
         info("<ImageData WholeExtent=\"10 13 -2 0 5 6\" Origin=\"1 2 3\" Spacing=\"0.5 2 4\">", piece("10 13 -2 0 5 6")).geometry.origin,
@@ -155,9 +155,10 @@ TEST(Vti, Geometry) {
     const VolumeInfo turned =
         info("<ImageData WholeExtent=\"1 4 0 2 0 1\" Origin=\"0 0 0\" Spacing=\"2 3 4\" Direction=\"0 -1 0 1 0 0 0 0 1\">",
              piece("1 4 0 2 0 1"));
-    EXPECT_EQ(turned.geometry, (Geometry{.spacing = {2, 3, 4}, .origin = {0, 2, 0}, .direction = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}}));
+    EXPECT_EQ(turned.geometry,
+              (Geometry{.spacing = {2, 3, 4}, .origin = {0, 2, 0}, .direction = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, .unit = {}}));
     EXPECT_EQ(info("<ImageData WholeExtent=\"0 3 0 2 0 1\" Spacing=\"-2 1 1\">").geometry,
-              (Geometry{.spacing = {2, 1, 1}, .direction = {{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}));
+              (Geometry{.spacing = {2, 1, 1}, .direction = {{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .unit = {}}));
     EXPECT_EQ(info("<ImageData WholeExtent=\"0 7 0 2 0 1\">").notes.size(), 1U);  // the piece is a part
     const VolumeInfo flat = info("<ImageData WholeExtent=\"0 7 0 2 4 4\">", piece("0 7 0 2 4 4"));
     EXPECT_EQ(flat.extent, (Extent{.rank = 2, .size = {8, 3, 1}}));
@@ -244,7 +245,7 @@ TEST(Vti, WhatIsNotRead) {
     expect_helpful(failure("Spacing=\"1 1 1\"", "Spacing=\"1 nan 1\"", good), ErrorKind::input, "Spacing");
     expect_helpful(failure("offset=\"0\"", "offset=\"4711\"", good), ErrorKind::input, "4711");
     expect_helpful(failure("offset=\"0\"", "offset=\"1\"", good), ErrorKind::input, "bytes");
-    expect_helpful(failure("_", "?", good.substr(0, good.find("<AppendedData")) + "<AppendedData encoding=\"raw\">_"), ErrorKind::input,
+    expect_helpful(failure(">_", ">?", good.substr(0, good.find("<AppendedData")) + "<AppendedData encoding=\"raw\">_"), ErrorKind::input,
                    "'_'");
     expect_helpful(failure("PointData Scalars", "PointDate Scalars", good), ErrorKind::input, "XML");
     const std::string ascii = vti({.format = "ascii"}, ValueType::u8, samples);

@@ -96,7 +96,7 @@ TEST(WriteVolume, RawNamesAndSidecars) {
     expect_helpful(failure_of([&] { write_volume(folder / "v_7x5x4_float32.raw", volume); }), ErrorKind::usage, "7x5x3");
     expect_helpful(failure_of([&] { write_volume(folder / "v_uint8.raw", volume); }), ErrorKind::usage, "float32");
     // A sidecar of an earlier volume of this name must not stay and contradict.
-    const Volume placed = make({.rank = 3, .size = {7, 5, 3}}, ValueType::f32, {.spacing = {2, 2, 2}});
+    const Volume placed = make({.rank = 3, .size = {7, 5, 3}}, ValueType::f32, {.spacing = {2, 2, 2}, .unit = {}});
     write_volume(telling, placed);
     EXPECT_EQ(load_volume(telling).info.geometry.spacing, (Vec3{2, 2, 2}));
     write_volume(telling, volume);
@@ -109,7 +109,7 @@ TEST(WriteVolume, LongAxesAndOddNumbersUseNifti2) {
     write_volume(folder / "v.nii", longer);
     EXPECT_EQ(load_volume(folder / "v.nii").info.format, "NIfTI-2");
     EXPECT_TRUE(load_volume(folder / "v.nii").bytes == longer.bytes);
-    const Volume tiny = make({.rank = 3, .size = {2, 2, 2}}, ValueType::u8, {.spacing = {1e-60, 1, 1}});
+    const Volume tiny = make({.rank = 3, .size = {2, 2, 2}}, ValueType::u8, {.spacing = {1e-60, 1, 1}, .unit = {}});
     write_volume(folder / "v.nii", tiny);
     EXPECT_EQ(load_volume(folder / "v.nii").info.format, "NIfTI-2");
 }
