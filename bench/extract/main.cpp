@@ -46,13 +46,20 @@ Arguments parse(int argc, char** argv) {
             if (++i == argc) throw std::runtime_error(word + " needs a value");
             return std::stoi(argv[i]);
         };
-        if (word == "--threads") arguments.context.threads = number();
-        else if (word == "--repeats") arguments.repeats = number();
-        else if (word == "--open") arguments.options.boundary = isoatlas::Boundary::open;
-        else if (word == "--full") arguments.options.style = isoatlas::SurfaceStyle::full;
-        else if (word == "--ids") arguments.options.ids = true;
-        else if (word == "--check") arguments.check = true;
-        else throw std::runtime_error("unknown option " + word);
+        if (word == "--threads")
+            arguments.context.threads = number();
+        else if (word == "--repeats")
+            arguments.repeats = number();
+        else if (word == "--open")
+            arguments.options.boundary = isoatlas::Boundary::open;
+        else if (word == "--full")
+            arguments.options.style = isoatlas::SurfaceStyle::full;
+        else if (word == "--ids")
+            arguments.options.ids = true;
+        else if (word == "--check")
+            arguments.check = true;
+        else
+            throw std::runtime_error("unknown option " + word);
     }
     return arguments;
 }
@@ -79,7 +86,8 @@ void make_field(std::int64_t size, const std::string& file) {
         for (std::size_t y = 0; y < n; ++y) {
             std::fill(row.begin(), row.end(), 0.0F);
             for (std::size_t wave = 0; wave < kWaves; ++wave) {  // cos(a + b + c) by the addition theorems
-                const float cy = cosine[3 * wave + 1][y], sy = sine[3 * wave + 1][y], cz = cosine[3 * wave + 2][z], sz = sine[3 * wave + 2][z];
+                const float cy = cosine[3 * wave + 1][y], sy = sine[3 * wave + 1][y], cz = cosine[3 * wave + 2][z],
+                            sz = sine[3 * wave + 2][z];
                 const float c = cy * cz - sy * sz, s = sy * cz + cy * sz;
                 for (std::size_t x = 0; x < n; ++x) row[x] += cosine[3 * wave][x] * c - sine[3 * wave][x] * s;
             }
@@ -129,8 +137,10 @@ void measure(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    if (argc == 4 && std::strcmp(argv[1], "--make") == 0) make_field(std::stoll(argv[2]), argv[3]);
-    else measure(parse(argc, argv));
+    if (argc == 4 && std::strcmp(argv[1], "--make") == 0)
+        make_field(std::stoll(argv[2]), argv[3]);
+    else
+        measure(parse(argc, argv));
 } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_extract: %s\n", error.what());
     return 1;

@@ -22,9 +22,9 @@ namespace isoatlas {
 /// Triangles of one case. A corner is an edge number 0..11 (the hit there), or 12 + i: articulation point i of the cell.
 struct CellTriangles {
     std::uint8_t triangles = 0;
-    std::uint8_t fans = 0;                      ///< number of articulation points
-    std::array<std::uint8_t, 4> fan_loop{};     ///< the loop of articulation point i
-    std::array<std::uint8_t, 36> corner{};      ///< 3 per triangle, counter-clockwise seen from the Lows
+    std::uint8_t fans = 0;                   ///< number of articulation points
+    std::array<std::uint8_t, 4> fan_loop{};  ///< the loop of articulation point i
+    std::array<std::uint8_t, 36> corner{};   ///< 3 per triangle, counter-clockwise seen from the Lows
 };
 
 /// One entry per case. Made once for each style.

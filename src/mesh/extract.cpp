@@ -50,13 +50,13 @@ private:
     /// Calls visit(y, z) for all rows of points, slab by slab.
     template <class Visit>
     void for_rows(const Phase& phase, Visit&& visit) {
-        for_each_slab(context_, phase, {domain_.rows_z(), grid_.extent.slice()}, [&](const Slab& slab) {
-            for (std::int64_t z = domain_.z_begin + slab.z_begin; z < domain_.z_begin + slab.z_end; ++z) {
-                for (std::int64_t y = domain_.y_begin; y <= domain_.y_end; ++y) visit(y, z);
-            }
-        });
+        Extent rows = grid_.extent;
+        rows.size = {rows.size[0], domain_.rows_y(), domain_.rows_z()};
+        for_each_row(context_, phase, rows, [&](std::int64_t y, std::int64_t z) { visit(domain_.y_begin + y, domain_.z_begin + z); });
     }
-    [[nodiscard]] bool has_cells(std::int64_t y, std::int64_t z) const { return y < domain_.y_end && (domain_.is_2d() || z < domain_.z_end); }
+    [[nodiscard]] bool has_cells(std::int64_t y, std::int64_t z) const {
+        return y < domain_.y_end && (domain_.is_2d() || z < domain_.z_end);
+    }
 
     void count() {
         layout_.assign(static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1), {});
@@ -64,8 +64,10 @@ private:
             RowPlace& place = layout_[domain_.row_number(y, z)];
             count_hits(domain_, y, z, place);
             if (!has_cells(y, z)) return;
-            if (domain_.is_2d()) place.triangle = count_segments(domain_, y);
-            else cells_.count_row(y, z, place);
+            if (domain_.is_2d())
+                place.triangle = count_segments(domain_, y);
+            else
+                cells_.count_row(y, z, place);
         });
         turn_counts_into_places(layout_);
     }
@@ -94,8 +96,10 @@ private:
     void write_cells(Surface& surface) {
         for_rows({"triangles", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
             if (!has_cells(y, z)) return;
-            if (domain_.is_2d()) write_segments(grid_, tau_, domain_, y, layout_, flip_, surface);
-            else cells_.write_row(y, z, layout_, surface);
+            if (domain_.is_2d())
+                write_segments(grid_, tau_, domain_, y, layout_, flip_, surface);
+            else
+                cells_.write_row(y, z, layout_, surface);
         });
     }
 
@@ -131,8 +135,10 @@ Surface extract(const Volume& volume, double tau, const ExtractOptions& options,
         Extraction<T>(volume, samples, tau, options, context, high, components ? &*components : nullptr).run(surface);
     });
     if (selects) keep_contours(chosen, surface);
-    if (options.ids) write_ids(*components, context, surface);
-    else surface.contour.clear();
+    if (options.ids)
+        write_ids(*components, context, surface);
+    else
+        surface.contour.clear();
     return surface;
 }
 

@@ -72,21 +72,30 @@ void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& pla
     for (std::int64_t w = 0; w < hits.words; ++w) {
         for_bits(w, hits.x(w), [&](std::int64_t p) {  // between the voxels p - 1 and p
             const auto fx = static_cast<double>(p - 1);
-            if (p == 0) write_border({0, fy, fz}, 0, -1, x_point++);
-            else if (p == size[0]) write_border({fx, fy, fz}, 0, 1, x_point++);
-            else write_inner(here, p - 1, here, p, 0, {fx, fy, fz}, x_point++);
+            if (p == 0)
+                write_border({0, fy, fz}, 0, -1, x_point++);
+            else if (p == size[0])
+                write_border({fx, fy, fz}, 0, 1, x_point++);
+            else
+                write_inner(here, p - 1, here, p, 0, {fx, fy, fz}, x_point++);
         });
         for_bits(w, hits.y(w), [&](std::int64_t p) {
             const auto fx = static_cast<double>(p - 1);
-            if (here.row == nullptr) write_border({fx, fy + 1, fz}, 1, -1, y_point++);
-            else if (next_y.row == nullptr) write_border({fx, fy, fz}, 1, 1, y_point++);
-            else write_inner(here, p - 1, next_y, p - 1, 1, {fx, fy, fz}, y_point++);
+            if (here.row == nullptr)
+                write_border({fx, fy + 1, fz}, 1, -1, y_point++);
+            else if (next_y.row == nullptr)
+                write_border({fx, fy, fz}, 1, 1, y_point++);
+            else
+                write_inner(here, p - 1, next_y, p - 1, 1, {fx, fy, fz}, y_point++);
         });
         for_bits(w, hits.z(w), [&](std::int64_t p) {
             const auto fx = static_cast<double>(p - 1);
-            if (here.row == nullptr) write_border({fx, fy, fz + 1}, 2, -1, z_point++);
-            else if (next_z.row == nullptr) write_border({fx, fy, fz}, 2, 1, z_point++);
-            else write_inner(here, p - 1, next_z, p - 1, 2, {fx, fy, fz}, z_point++);
+            if (here.row == nullptr)
+                write_border({fx, fy, fz + 1}, 2, -1, z_point++);
+            else if (next_z.row == nullptr)
+                write_border({fx, fy, fz}, 2, 1, z_point++);
+            else
+                write_inner(here, p - 1, next_z, p - 1, 2, {fx, fy, fz}, z_point++);
         });
     }
 }

@@ -26,7 +26,7 @@ void check_indices(std::size_t points, Triangles triangles) {
 
 /// The corners of all triangles, grouped by point: corner 3 t + i belongs to triangles[t][i].
 struct Corners {
-    std::vector<std::int64_t> first;   ///< per point, and the total
+    std::vector<std::int64_t> first;  ///< per point, and the total
     std::vector<std::int64_t> corner;
 };
 
@@ -62,7 +62,8 @@ public:
             if (next != point) spokes_.push_back({next, true, static_cast<std::int64_t>(i)});
             if (previous != point) spokes_.push_back({previous, false, static_cast<std::int64_t>(i)});
         }
-        std::ranges::sort(spokes_, [](const Spoke& a, const Spoke& b) { return a.other != b.other ? a.other < b.other : a.corner < b.corner; });
+        std::ranges::sort(spokes_,
+                          [](const Spoke& a, const Spoke& b) { return a.other != b.other ? a.other < b.other : a.corner < b.corner; });
     }
 
     /// Calls visit(other, triangles, leaving) for every edge of the point.
@@ -167,7 +168,8 @@ SurfaceReport inspect(std::span<const std::array<double, 3>> points, std::span<c
         });
         report.non_manifold_points += !fan.is_one_fan(last - first);
     }
-    for (const auto& triangle : triangles) report.zero_area_triangles += has_zero_area(points[triangle[0]], points[triangle[1]], points[triangle[2]]);
+    for (const auto& triangle : triangles)
+        report.zero_area_triangles += has_zero_area(points[triangle[0]], points[triangle[1]], points[triangle[2]]);
     report.coincident_points = count_coincident(points);
     report.component_chi = euler.list([&](std::size_t i) { return corners.first[i] != corners.first[i + 1]; });
     return report;

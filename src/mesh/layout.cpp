@@ -5,7 +5,12 @@
 namespace isoatlas {
 
 MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
-    : high(bits), cells(CellWindow::all(bits.extent().size[0])), y_begin(-1), y_end(bits.extent().size[1]), z_begin(-1), z_end(bits.extent().size[2]) {
+    : high(bits),
+      cells(CellWindow::all(bits.extent().size[0])),
+      y_begin(-1),
+      y_end(bits.extent().size[1]),
+      z_begin(-1),
+      z_end(bits.extent().size[2]) {
     if (boundary == Boundary::open) {
         cells = CellWindow::real(bits.extent().size[0]);
         y_begin = z_begin = 0;

@@ -1,8 +1,8 @@
 // Where every point and triangle of a surface goes, before any is made: the surface is written in place, in parallel, and its order does
 // not depend on threads or slabs.
 //
-// Points and triangles are ordered by lattice row (y, z), y and z from -1. A row owns the hits on its own edges along x, on the edges to row
-// (y + 1, z), on those to (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
+// Points and triangles are ordered by lattice row (y, z), y and z from -1. A row owns the hits on its own edges along x, on the edges to
+// row (y + 1, z), on those to (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace isoatlas {
 /// What is meshed: bits, and which cells and rows count.
 struct MeshDomain {
     const HighBits& high;
-    CellWindow cells;                    ///< of every row
-    std::int64_t y_begin, y_end;         ///< cell rows: y_begin <= y < y_end
+    CellWindow cells;             ///< of every row
+    std::int64_t y_begin, y_end;  ///< cell rows: y_begin <= y < y_end
     std::int64_t z_begin, z_end;
 
     MeshDomain(const HighBits& bits, Boundary boundary);
@@ -53,8 +53,8 @@ struct RowHits {
 };
 
 struct RowPlace {
-    std::int64_t point = 0;              ///< first point of the row
-    std::int64_t triangle = 0;           ///< first triangle (2D: segment)
+    std::int64_t point = 0;     ///< first point of the row
+    std::int64_t triangle = 0;  ///< first triangle (2D: segment)
     std::uint32_t x_hits = 0, y_hits = 0, z_hits = 0, fans = 0;
 
     [[nodiscard]] std::int64_t first_y() const { return point + x_hits; }

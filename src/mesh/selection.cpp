@@ -35,15 +35,17 @@ std::int32_t object_at(const Volume& volume, double tau, const Components& compo
     const std::int64_t run = row.run_at(at[0] + 1);
     if (((run - row.first_run) & 1) == 0) {
         const Calibration& calibration = volume.info.calibration;
-        throw Error(ErrorKind::not_found, {.where = describe_voxel(extent, voxel),
-                                           .what = "its value " + shortest(calibration.reported(volume.value(voxel))) +
-                                                   " is below the isovalue " + shortest(calibration.reported(tau)) + ", so no object contains it",
-                                           .next = "lower the isovalue, or list the objects at this isovalue and take one of their ids"});
+        throw Error(ErrorKind::not_found,
+                    {.where = describe_voxel(extent, voxel),
+                     .what = "its value " + shortest(calibration.reported(volume.value(voxel))) + " is below the isovalue " +
+                             shortest(calibration.reported(tau)) + ", so no object contains it",
+                     .next = "lower the isovalue, or list the objects at this isovalue and take one of their ids"});
     }
     return components.of_run[run];
 }
 
-std::int64_t contour_with_id(const std::unordered_map<std::int64_t, std::int64_t>& numbers, const Volume& volume, double tau, std::int64_t id) {
+std::int64_t contour_with_id(const std::unordered_map<std::int64_t, std::int64_t>& numbers, const Volume& volume, double tau,
+                             std::int64_t id) {
     const auto found = numbers.find(id);
     if (found != numbers.end()) return found->second;
     throw Error(ErrorKind::not_found,

@@ -21,8 +21,8 @@ void for_border_lows(const Runs& runs, Visit&& visit) {
     }
 }
 
-/// The component that lies before run i of row r along the last axis, next to its first position. Both ends of that grid edge differ in class.
-/// The first run of a component in scan order has nothing of it further down this axis: from there a ray leaves the volume without
+/// The component that lies before run i of row r along the last axis, next to its first position. Both ends of that grid edge differ in
+/// class. The first run of a component in scan order has nothing of it further down this axis: from there a ray leaves the volume without
 /// meeting the component again, so what lies there is the component towards the outside.
 std::int32_t towards_outside(const Components& components, std::int64_t r, std::int64_t i) {
     const Runs& runs = components.runs;
@@ -85,13 +85,11 @@ void find_extremes(const GridView<T>& grid, const Context& context, Components& 
             if (high || components.of_run[row.first_run + i] != 0) visit(row, i, high);
         }
     };
-    for_each_slab(context, {"objects", 1, 3}, {grid.extent.size[2], grid.extent.slice()}, [&](const Slab& slab) {
-        for (std::int64_t r = slab.z_begin * ny; r < slab.z_end * ny; ++r) {
-            for_runs(r, [&](const RunRow& row, std::int64_t i, bool high) {
-                const std::int64_t begin = row.change[i - 1] - 1, end = row.change[i] - 1;
-                extreme[row.first_run + i] = static_cast<std::uint32_t>(extreme_of(grid.samples + r * grid.extent.size[0], begin, end, high));
-            });
-        }
+    for_each_row(context, {"objects", 1, 3}, grid.extent, [&](std::int64_t y, std::int64_t z) {
+        for_runs(y + ny * z, [&](const RunRow& row, std::int64_t i, bool high) {
+            const std::int64_t begin = row.change[i - 1] - 1, end = row.change[i] - 1;
+            extreme[row.first_run + i] = static_cast<std::uint32_t>(extreme_of(grid.row(y, z), begin, end, high));
+        });
     });
     for (std::int64_t r = 0; r < runs.rows(); ++r) {
         for_runs(r, [&](const RunRow& row, std::int64_t i, bool high) {

@@ -15,11 +15,11 @@ namespace isoatlas {
 
 struct Components {
     Runs runs;
-    std::vector<std::int32_t> of_run;       ///< object of a High run, low component of a Low run
-    std::vector<std::int32_t> outer_low;    ///< per object: the low component towards the outside
-    std::vector<std::int32_t> outer_object; ///< per low component: the object around it; -1 for the outside
-    std::vector<std::int64_t> highest;      ///< per object: its highest voxel (ties: larger index)
-    std::vector<std::int64_t> lowest;       ///< per low component: its lowest voxel (ties: smaller index); -1 for the outside
+    std::vector<std::int32_t> of_run;        ///< object of a High run, low component of a Low run
+    std::vector<std::int32_t> outer_low;     ///< per object: the low component towards the outside
+    std::vector<std::int32_t> outer_object;  ///< per low component: the object around it; -1 for the outside
+    std::vector<std::int64_t> highest;       ///< per object: its highest voxel (ties: larger index)
+    std::vector<std::int64_t> lowest;        ///< per low component: its lowest voxel (ties: smaller index); -1 for the outside
 
     [[nodiscard]] std::int64_t objects() const { return static_cast<std::int64_t>(outer_low.size()); }
     [[nodiscard]] std::int64_t lows() const { return static_cast<std::int64_t>(outer_object.size()); }

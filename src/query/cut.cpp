@@ -80,18 +80,18 @@ void group_contours(const Components& components, const ContourCounts& counts, c
     ISOATLAS_CHECK(static_cast<std::int64_t>(cut.contours.size()) == components.contours());
 }
 
-void label_voxels(const Components& components, const std::vector<std::int64_t>& order, const Context& context, std::vector<std::int32_t>& label) {
+void label_voxels(const Components& components, const std::vector<std::int64_t>& order, const Context& context,
+                  std::vector<std::int32_t>& label) {
     const Extent& extent = components.runs.extent;
     std::vector<std::int32_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = static_cast<std::int32_t>(i);
     label.assign(static_cast<std::size_t>(extent.voxels()), -1);
-    for_each_slab(context, {"labels", 2, 3}, {extent.size[2], extent.slice()}, [&](const Slab& slab) {
-        for (std::int64_t r = slab.z_begin * extent.size[1]; r < slab.z_end * extent.size[1]; ++r) {
-            const RunRow row = components.runs.row(r);
-            const auto voxels = label.begin() + r * extent.size[0] - 1;  // position p is voxel p - 1
-            for (std::int64_t i = 1; i < row.changes; i += 2) {
-                std::fill(voxels + row.change[i - 1], voxels + row.change[i], position[components.of_run[row.first_run + i]]);
-            }
+    for_each_row(context, {"labels", 2, 3}, extent, [&](std::int64_t y, std::int64_t z) {
+        const RunRow row = components.runs.row(y, z);
+        const std::int64_t first = extent.index(-1, y, z);  // position p is voxel p - 1
+        for (std::int64_t i = 1; i < row.changes; i += 2) {
+            std::fill(label.begin() + (first + row.change[i - 1]), label.begin() + (first + row.change[i]),
+                      position[components.of_run[row.first_run + i]]);
         }
     });
 }

@@ -61,12 +61,8 @@ HighBits classify(const Volume& volume, double tau, const Context& context) {
         const GridView<T> grid{samples.data(), volume.info.extent};
         const Threshold<T> threshold = threshold_for<T>(tau);
         if (threshold.none_high) return;
-        for_each_slab(context, {"classify", 0, 3}, {grid.extent.size[2], grid.extent.slice()}, [&](const Slab& slab) {
-            for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-                for (std::int64_t y = 0; y < grid.extent.size[1]; ++y) {
-                    classify_row(grid.row(y, z), grid.extent.size[0], threshold.least, high.row(y, z));
-                }
-            }
+        for_each_row(context, {"classify", 0, 3}, grid.extent, [&](std::int64_t y, std::int64_t z) {
+            classify_row(grid.row(y, z), grid.extent.size[0], threshold.least, high.row(y, z));
         });
     });
     return high;

@@ -34,9 +34,7 @@ Runs find_runs(const HighBits& high, const Context& context) {
     Runs runs{extent, std::vector<std::int64_t>(static_cast<std::size_t>(extent.size[1] * extent.size[2] + 1)), {}};
     const std::int64_t ny = extent.size[1];
     const auto for_rows = [&](auto&& visit) {
-        for_each_slab(context, {"objects", 1, 3}, {extent.size[2], extent.slice()}, [&](const Slab& slab) {
-            for (std::int64_t r = slab.z_begin * ny; r < slab.z_end * ny; ++r) visit(r, high.row(r % ny, r / ny));
-        });
+        for_each_row(context, {"objects", 1, 3}, extent, [&](std::int64_t y, std::int64_t z) { visit(y + ny * z, high.row(y, z)); });
     };
     for_rows([&](std::int64_t r, const std::uint64_t* row) { runs.first_change[r + 1] = count_changes(row, high.words()); });
     for (std::int64_t r = 0; r < runs.rows(); ++r) runs.first_change[r + 1] += runs.first_change[r];

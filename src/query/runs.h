@@ -18,7 +18,7 @@ namespace isoatlas {
 struct RunRow {
     const std::uint32_t* change;  ///< positions where the class changes, ascending
     std::int64_t changes;
-    std::int64_t first_run;       ///< number of the run before the first change
+    std::int64_t first_run;  ///< number of the run before the first change
 
     [[nodiscard]] std::int64_t runs() const { return changes + 1; }
     /// Which run of the row contains a position.

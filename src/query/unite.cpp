@@ -39,8 +39,10 @@ private:
                 const bool a_is_high = i & 1;
                 const std::int64_t voxel = extent_.index(end_a - 2, y0, z0);
                 const bool joined = joined_(voxel, orientation, a_is_high ? Diagonal::ac : Diagonal::bd);
-                if (a_is_high == joined) sets_.join(a.first_run + i, b.first_run + j + 1);
-                else sets_.join(a.first_run + i + 1, b.first_run + j);
+                if (a_is_high == joined)
+                    sets_.join(a.first_run + i, b.first_run + j + 1);
+                else
+                    sets_.join(a.first_run + i + 1, b.first_run + j);
             }
             i += end_a <= end_b;
             j += end_b <= end_a;
@@ -57,8 +59,10 @@ private:
                 const std::int64_t p = 64 * w + bit;
                 const bool a_is_high = a >> bit & 1;
                 const bool joined = joined_(extent_.index(p - 1, y, z), 2, a_is_high ? Diagonal::ac : Diagonal::bd);
-                if (a_is_high == joined) sets_.join(runs_.row(y, z).run_at(p), runs_.row(y + 1, z + 1).run_at(p));
-                else sets_.join(runs_.row(y + 1, z).run_at(p), runs_.row(y, z + 1).run_at(p));
+                if (a_is_high == joined)
+                    sets_.join(runs_.row(y, z).run_at(p), runs_.row(y + 1, z + 1).run_at(p));
+                else
+                    sets_.join(runs_.row(y + 1, z).run_at(p), runs_.row(y, z + 1).run_at(p));
             }
         }
     }

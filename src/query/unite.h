@@ -8,8 +8,8 @@ namespace isoatlas {
 
 using RunSets = UnionFind<std::int64_t>;
 
-/// Sets of connected runs; the root of a set is its first run in scan order. Highs and Lows never share a set; runs of Lows at the border of
-/// the volume are not yet joined to each other.
+/// Sets of connected runs; the root of a set is its first run in scan order. Highs and Lows never share a set; runs of Lows at the border
+/// of the volume are not yet joined to each other.
 [[nodiscard]] RunSets unite_runs(const Volume& volume, double tau, const HighBits& high, const Runs& runs, const Context& context);
 
 }  // namespace isoatlas

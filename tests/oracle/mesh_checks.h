@@ -81,7 +81,8 @@ inline std::map<Index, double> signed_volumes(const isoatlas::Surface& surface) 
 }
 
 /// Does the segment p q cross the inside of a triangle? Touching does not count.
-inline bool crosses(const isoatlas::Vec3& p, const isoatlas::Vec3& q, const isoatlas::Vec3& a, const isoatlas::Vec3& b, const isoatlas::Vec3& c) {
+inline bool crosses(const isoatlas::Vec3& p, const isoatlas::Vec3& q, const isoatlas::Vec3& a, const isoatlas::Vec3& b,
+                    const isoatlas::Vec3& c) {
     const double tiny = 1e-13;
     const double from = triple(between(a, b), between(a, c), between(a, p)), to = triple(between(a, b), between(a, c), between(a, q));
     if (!((from > tiny && to < -tiny) || (from < -tiny && to > tiny))) return false;
@@ -98,7 +99,8 @@ inline Index count_crossings(const isoatlas::Surface& surface) {
             for (int i = 0; i < 3; ++i) {
                 const Index p = t[i], q = t[(i + 1) % 3];
                 if (std::find(s.begin(), s.end(), p) != s.end() || std::find(s.begin(), s.end(), q) != s.end()) continue;
-                crossings += crosses(surface.points[p], surface.points[q], surface.points[s[0]], surface.points[s[1]], surface.points[s[2]]);
+                crossings +=
+                    crosses(surface.points[p], surface.points[q], surface.points[s[0]], surface.points[s[1]], surface.points[s[2]]);
             }
         }
     }

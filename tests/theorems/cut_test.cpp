@@ -1,4 +1,5 @@
-// cut() equals the brute-force oracle: objects, contours, labels, at data values and between, for every sample type, thread count and slab size.
+// cut() equals the brute-force oracle: objects, contours, labels, at data values and between, for every sample type, thread count and slab
+// size.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -32,7 +33,8 @@ RC_GTEST_PROP(Cut, EqualsTheOracleAtEveryValue, ()) {
 // Rows longer than a word of bits.
 RC_GTEST_PROP(Cut, EqualsTheOracleOnLongRows, ()) {
     const Index n = *rc::gen::inRange<Index>(60, 135);
-    std::vector<int> raw = *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(6 * n), rc::gen::resize(100, rc::gen::inRange(0, 10000)));
+    std::vector<int> raw =
+        *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(6 * n), rc::gen::resize(100, rc::gen::inRange(0, 10000)));
     const int rank = *rc::gen::inRange(2, 4);
     const Texture texture = *rc::gen::element(Texture::ties2, Texture::ties4, Texture::smooth, Texture::checkerboard_ties);
     const Grid grid = make_grid(rank, {n, rank == 3 ? 2 : 6, 3}, texture, raw);

@@ -14,7 +14,8 @@ using isoatlas::Surface;
 
 Grid arbitrary_image() {
     const std::array<Index, 3> size{*rc::gen::inRange<Index>(1, 9), *rc::gen::inRange<Index>(1, 9), 1};
-    const auto raw = *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(size[0] * size[1]), rc::gen::resize(100, rc::gen::inRange(0, 10000)));
+    const auto raw = *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(size[0] * size[1]),
+                                                           rc::gen::resize(100, rc::gen::inRange(0, 10000)));
     return make_grid(2, size, static_cast<Texture>(*rc::gen::inRange(0, kTextures)), raw);
 }
 

@@ -21,7 +21,8 @@ struct Case {
     Elements elements;
     isoatlas::Volume volume;
     double tau;
-    explicit Case(Grid g) : grid(std::move(g)), elements(grid), volume(to_volume(grid, arbitrary_type(grid))), tau(arbitrary_tau(elements)) {}
+    explicit Case(Grid g)
+        : grid(std::move(g)), elements(grid), volume(to_volume(grid, arbitrary_type(grid))), tau(arbitrary_tau(elements)) {}
 };
 
 Grid arbitrary_grid_3d() {

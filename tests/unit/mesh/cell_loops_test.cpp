@@ -100,12 +100,14 @@ TEST(CellLoops, TurnCounterClockwiseSeenFromTheLows) {
         ASSERT_EQ(loops.size(0), 3);
         std::array<std::array<double, 3>, 3> point{};
         for (int i = 0; i < 3; ++i) {
-            for (int a = 0; a < 3; ++a) point[i][a] = ((kEdgeCorners[loops.edge[i]][0] >> a & 1) + (kEdgeCorners[loops.edge[i]][1] >> a & 1)) / 2.0;
+            for (int a = 0; a < 3; ++a)
+                point[i][a] = ((kEdgeCorners[loops.edge[i]][0] >> a & 1) + (kEdgeCorners[loops.edge[i]][1] >> a & 1)) / 2.0;
         }
         double facing = 0;  // of the normal, along the diagonal from the corner into the cell
         for (int a = 0; a < 3; ++a) {
             const int b = (a + 1) % 3, c = (a + 2) % 3;
-            const double normal = (point[1][b] - point[0][b]) * (point[2][c] - point[0][c]) - (point[1][c] - point[0][c]) * (point[2][b] - point[0][b]);
+            const double normal =
+                (point[1][b] - point[0][b]) * (point[2][c] - point[0][c]) - (point[1][c] - point[0][c]) * (point[2][b] - point[0][b]);
             facing += normal * ((corner >> a & 1) != 0 ? -1 : 1);
         }
         EXPECT_GT(facing, 0) << corner;

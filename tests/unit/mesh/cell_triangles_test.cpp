@@ -31,7 +31,8 @@ TEST(CellTriangles, FormADiskOverEveryLoop) {
             int chi = 0;
             for (int loop = 0; loop < loops.count; ++loop) {
                 const int n = loops.size(loop);
-                for (int i = 0; i < n; ++i) expected.insert({loops.edge[loops.begin[loop] + i], loops.edge[loops.begin[loop] + (i + 1) % n]});
+                for (int i = 0; i < n; ++i)
+                    expected.insert({loops.edge[loops.begin[loop] + i], loops.edge[loops.begin[loop] + (i + 1) % n]});
                 chi += n;
             }
             EXPECT_EQ(rim, expected) << number;
@@ -50,7 +51,8 @@ TEST(CellTriangles, HaveNoChordInAFace) {
             std::set<std::pair<int, int>> links;
             for (int loop = 0; loop < loops.count; ++loop) {
                 const int n = loops.size(loop);
-                for (int i = 0; i < n; ++i) links.insert(std::minmax<int>(loops.edge[loops.begin[loop] + i], loops.edge[loops.begin[loop] + (i + 1) % n]));
+                for (int i = 0; i < n; ++i)
+                    links.insert(std::minmax<int>(loops.edge[loops.begin[loop] + i], loops.edge[loops.begin[loop] + (i + 1) % n]));
             }
             for (int i = 0; i < 3 * cell.triangles; ++i) {
                 const int a = cell.corner[i], b = cell.corner[i % 3 == 2 ? i - 2 : i + 1];
@@ -83,7 +85,8 @@ Surface cell_surface(int number, SurfaceStyle style, std::mt19937& random) {
             for (int a = 0; a < 3; ++a) surface.points[12 + fan][a] += surface.points[loops.edge[i]][a] / loops.size(loop);
         }
     }
-    for (int i = 0; i < cell.triangles; ++i) surface.triangles.push_back({cell.corner[3 * i], cell.corner[3 * i + 1], cell.corner[3 * i + 2]});
+    for (int i = 0; i < cell.triangles; ++i)
+        surface.triangles.push_back({cell.corner[3 * i], cell.corner[3 * i + 1], cell.corner[3 * i + 2]});
     return surface;
 }
 

@@ -44,9 +44,8 @@ Error error_of(Call&& call) {
 
 // On a linear field hits are exact and every normal is the (negative) gradient, also on skewed and mirrored axes.
 TEST(Extract, PointsAndNormalsOfALinearField) {
-    const std::array<Mat3, 3> directions{{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                          {{{0, -0.6, 0.8}, {0, 0.8, 0.6}, {-1, 0, 0}}},
-                                          {{{1, 0.6, 0}, {0, 0.8, 0}, {0, 0, -1}}}}};
+    const std::array<Mat3, 3> directions{
+        {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {{{0, -0.6, 0.8}, {0, 0.8, 0.6}, {-1, 0, 0}}}, {{{1, 0.6, 0}, {0, 0.8, 0}, {0, 0, -1}}}}};
     for (const Mat3& direction : directions) {
         for (const bool rectilinear : {false, true}) {
             Geometry geometry;
@@ -201,7 +200,8 @@ TEST(Extract, SaysWhyThereIsNoSuchObject) {
 
 TEST(Extract, HugeAndTinyValues) {
     for (const double scale : {1e308, 1e200, 1e-200, 5e-324}) {
-        const Volume volume = field<double>({4, 4, 4}, [&](double x, double y, double z) { return scale * (std::fmod(x * 3 + y * 5 + z * 7, 4) > 1 ? 1 : -1); });
+        const Volume volume = field<double>(
+            {4, 4, 4}, [&](double x, double y, double z) { return scale * (std::fmod(x * 3 + y * 5 + z * 7, 4) > 1 ? 1 : -1); });
         const Surface surface = extract(volume, 0);
         ASSERT_FALSE(surface.points.empty());
         for (std::size_t i = 0; i < surface.points.size(); ++i) {

@@ -17,7 +17,8 @@ const Triangles kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 std::pair<Points, Triangles> two_tetrahedra(std::int64_t shared) {
     Points points = kCorners;
     Triangles triangles = kTetrahedron;
-    for (std::size_t i = static_cast<std::size_t>(shared); i < 4; ++i) points.push_back({-kCorners[i][0] - 3, -kCorners[i][1] - 3, -kCorners[i][2] - 3});
+    for (std::size_t i = static_cast<std::size_t>(shared); i < 4; ++i)
+        points.push_back({-kCorners[i][0] - 3, -kCorners[i][1] - 3, -kCorners[i][2] - 3});
     for (auto t : kTetrahedron) {
         for (std::int64_t& p : t) p = p < shared ? p : p + 4 - shared;
         triangles.push_back(t);
@@ -87,9 +88,9 @@ TEST(Inspect, TwoFansOfOneOpenPointAreNotManifold) {
 
 TEST(Inspect, ZeroArea) {
     const Points points{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {1, 1, 1}, {0, 1, 0}};
-    EXPECT_EQ(inspect(points, Triangles{{0, 1, 2}}).zero_area_triangles, 1);   // collinear
-    EXPECT_EQ(inspect(points, Triangles{{1, 3, 4}}).zero_area_triangles, 1);   // equal coordinates
-    EXPECT_EQ(inspect(points, Triangles{{0, 0, 4}}).zero_area_triangles, 1);   // one point twice
+    EXPECT_EQ(inspect(points, Triangles{{0, 1, 2}}).zero_area_triangles, 1);  // collinear
+    EXPECT_EQ(inspect(points, Triangles{{1, 3, 4}}).zero_area_triangles, 1);  // equal coordinates
+    EXPECT_EQ(inspect(points, Triangles{{0, 0, 4}}).zero_area_triangles, 1);  // one point twice
     EXPECT_EQ(inspect(points, Triangles{{0, 1, 4}}).zero_area_triangles, 0);
 }
 

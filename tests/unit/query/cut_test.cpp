@@ -14,7 +14,8 @@ Volume volume_of(int rank, std::array<std::int64_t, 3> size, const std::vector<s
     return make_volume<std::uint8_t>(extent, samples);
 }
 
-/// 5^3: a shell of 1 voxel thickness (value 9, corner voxel 10) around a cavity of 27 voxels (value 2, one 1) with a seed (7) in the middle.
+/// 5^3: a shell of 1 voxel thickness (value 9, corner voxel 10) around a cavity of 27 voxels (value 2, one 1) with a seed (7) in the
+/// middle.
 Volume nested() {
     std::vector<std::uint8_t> samples(125, 9);
     const auto at = [&](int x, int y, int z) -> std::uint8_t& { return samples[x + 5 * (y + 5 * z)]; };
