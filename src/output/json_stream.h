@@ -111,7 +111,7 @@ private:
 
     Sink sink_;
     std::string text_;
-    std::vector<bool> is_first_;   ///< of each open object or array: nothing written into it yet
+    std::vector<bool> is_first_;  ///< of each open object or array: nothing written into it yet
     bool after_key_ = false, new_line_ = false;
 };
 

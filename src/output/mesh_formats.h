@@ -43,7 +43,7 @@ void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners);
 struct ObjectGroups {
     struct Group {
         std::int64_t object;
-        std::int64_t first, count;   ///< range of order
+        std::int64_t first, count;  ///< range of order
     };
     std::vector<Group> groups;
     std::vector<std::int64_t> order;

@@ -45,7 +45,7 @@ private:
     }
 
     std::vector<Point> points_;
-    std::vector<std::int64_t> slots_;   ///< open addressing; -1: free; a power of two, at most half full
+    std::vector<std::int64_t> slots_;  ///< open addressing; -1: free; a power of two, at most half full
 };
 
 }  // namespace isoatlas::output

@@ -13,7 +13,7 @@ namespace isoatlas::output {
 namespace {
 
 using Json = nlohmann::json;
-using Matrix = std::array<double, 16>;   ///< columns, as in glTF
+using Matrix = std::array<double, 16>;  ///< columns, as in glTF
 
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 /// Nodes may share a mesh; beyond this many times the size of the file it is an attack rather than a scene.
@@ -82,10 +82,22 @@ Matrix local_transform(const Json& node) {
     if (node.contains("matrix")) return numbers<16>(node, "matrix", kIdentity);
     const auto t = numbers<3>(node, "translation", {0, 0, 0}), s = numbers<3>(node, "scale", {1, 1, 1});
     const auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
-    return {(1 - 2 * (y * y + z * z)) * s[0], 2 * (x * y + z * w) * s[0], 2 * (x * z - y * w) * s[0], 0,
-            2 * (x * y - z * w) * s[1], (1 - 2 * (x * x + z * z)) * s[1], 2 * (y * z + x * w) * s[1], 0,
-            2 * (x * z + y * w) * s[2], 2 * (y * z - x * w) * s[2], (1 - 2 * (x * x + y * y)) * s[2], 0,
-            t[0], t[1], t[2], 1};
+    return {(1 - 2 * (y * y + z * z)) * s[0],
+            2 * (x * y + z * w) * s[0],
+            2 * (x * z - y * w) * s[0],
+            0,
+            2 * (x * y - z * w) * s[1],
+            (1 - 2 * (x * x + z * z)) * s[1],
+            2 * (y * z + x * w) * s[1],
+            0,
+            2 * (x * z + y * w) * s[2],
+            2 * (y * z - x * w) * s[2],
+            (1 - 2 * (x * x + y * y)) * s[2],
+            0,
+            t[0],
+            t[1],
+            t[2],
+            1};
 }
 
 /// Elements of an accessor: bytes from `data` on, `stride` apart.
@@ -146,7 +158,8 @@ private:
             if (node.contains("mesh")) add_mesh(node, transform);
             const auto children = node.find("children");
             if (children == node.end()) continue;
-            for (auto child = children->rbegin(); child != children->rend(); ++child) stack.push_back({child->get<std::size_t>(), transform});
+            for (auto child = children->rbegin(); child != children->rend(); ++child)
+                stack.push_back({child->get<std::size_t>(), transform});
         }
     }
     /// Last root first: the stack turns them round.
@@ -180,13 +193,15 @@ private:
 
     void add_mesh(const Json& node, const Matrix& transform) {
         const std::size_t points_before = mesh_.points.size(), triangles_before = mesh_.triangles.size();
-        std::map<std::size_t, std::size_t> first_point;   ///< accessor -> its points, shared by the primitives of a mesh
-        for (const Json& primitive : item("meshes", size_at(node, "mesh", {})).at("primitives")) add_primitive(primitive, transform, first_point);
+        std::map<std::size_t, std::size_t> first_point;  ///< accessor -> its points, shared by the primitives of a mesh
+        for (const Json& primitive : item("meshes", size_at(node, "mesh", {})).at("primitives"))
+            add_primitive(primitive, transform, first_point);
         if (determinant(transform) < 0) {  // a mirror turns triangles over
             for (std::size_t t = triangles_before; t < mesh_.triangles.size(); ++t) std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
         }
         const auto extras = node.find("extras");
-        const bool has_id = extras != node.end() && extras->is_object() && extras->contains("object") && (*extras)["object"].is_number_integer();
+        const bool has_id =
+            extras != node.end() && extras->is_object() && extras->contains("object") && (*extras)["object"].is_number_integer();
         if (has_id) mesh_.object.resize(mesh_.points.size(), (*extras)["object"].get<std::int64_t>());
         if (!has_id && mesh_.points.size() > points_before) every_node_has_id_ = false;
     }
@@ -268,7 +283,7 @@ private:
 
     const std::string& file_;
     Chunks chunks_;
-    std::size_t budget_;   ///< elements that may still be read
+    std::size_t budget_;  ///< elements that may still be read
     Json document_;
     Mesh mesh_;
     bool every_node_has_id_ = true;

@@ -14,10 +14,10 @@ namespace {
 constexpr std::int64_t kNoObject = std::numeric_limits<std::int64_t>::min();
 
 /// Statements that do not change points and faces. Anything else is not an OBJ file.
-constexpr std::array kSkipped{"vt",     "vn",     "vp",       "g",        "s",        "mg",      "usemtl",    "mtllib",    "usemap",  "maplib",
-                              "p",      "cstype", "deg",      "bmat",     "step",     "curv",    "curv2",     "surf",      "parm",    "trim",
-                              "hole",   "scrv",   "sp",       "end",      "con",      "bevel",   "c_interp",  "d_interp",  "lod",     "shadow_obj",
-                              "bsp",    "bzp",    "cdc",      "cdp",      "res",      "trace_obj", "ctech",   "stech",     "call",    "csh"};
+constexpr std::array kSkipped{"vt",   "vn",     "vp",  "g",    "s",    "mg",        "usemtl",   "mtllib",   "usemap", "maplib",
+                              "p",    "cstype", "deg", "bmat", "step", "curv",      "curv2",    "surf",     "parm",   "trim",
+                              "hole", "scrv",   "sp",  "end",  "con",  "bevel",     "c_interp", "d_interp", "lod",    "shadow_obj",
+                              "bsp",  "bzp",    "cdc", "cdp",  "res",  "trace_obj", "ctech",    "stech",    "call",   "csh"};
 
 class ObjParser {
 public:
@@ -62,14 +62,16 @@ private:
         std::array<double, 3> point{};
         for (double& x : point) {
             const std::string_view word = take_word(line);
-            if (!parse_number(word, x)) in_.fail_at_line(word.empty() ? "a point with less than 3 coordinates" : io::quoted(word) + " is not a number");
+            if (!parse_number(word, x))
+                in_.fail_at_line(word.empty() ? "a point with less than 3 coordinates" : io::quoted(word) + " is not a number");
         }
         mesh_.points.push_back(point);
     }
     /// Indices: 7, 7/1, 7/1/3, 7//3; negative ones count back from the last point.
     std::int64_t parse_corner(std::string_view word) {
         std::int64_t index = 0;
-        if (!parse_number(word.substr(0, word.find('/')), index) || index == 0) in_.fail_at_line(io::quoted(word) + " is not a point number");
+        if (!parse_number(word.substr(0, word.find('/')), index) || index == 0)
+            in_.fail_at_line(io::quoted(word) + " is not a point number");
         const auto points = static_cast<std::int64_t>(mesh_.points.size());
         if (index < -points) in_.fail_at_line(io::quoted(word) + " counts back beyond the first point");
         return index > 0 ? index - 1 : points + index;

@@ -17,7 +17,7 @@ enum class Encoding : std::uint8_t { ascii, little, big };
 struct Property {
     std::string_view name;
     Scalar type;
-    std::optional<Scalar> count_type;   ///< set: a list
+    std::optional<Scalar> count_type;  ///< set: a list
 };
 
 struct Element {
@@ -37,9 +37,14 @@ std::size_t bytes_of_scalar(Scalar type) {
 }
 
 Scalar scalar_named(std::string_view name, const ByteCursor& in) {
-    constexpr std::array<std::array<const char*, 2>, 8> kNames{{{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},
-                                                                {"ushort", "uint16"}, {"int", "int32"}, {"uint", "uint32"},
-                                                                {"float", "float32"}, {"double", "float64"}}};
+    constexpr std::array<std::array<const char*, 2>, 8> kNames{{{"char", "int8"},
+                                                                {"uchar", "uint8"},
+                                                                {"short", "int16"},
+                                                                {"ushort", "uint16"},
+                                                                {"int", "int32"},
+                                                                {"uint", "uint32"},
+                                                                {"float", "float32"},
+                                                                {"double", "float64"}}};
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         if (name == kNames[i][0] || name == kNames[i][1]) return static_cast<Scalar>(i);
     }
@@ -179,7 +184,7 @@ public:
         if (has_[3]) mesh_.object.reserve(count);
         if (has_[4]) mesh_.contour.reserve(count);
         for (std::size_t row = 0; row < count; ++row) read_row(in);
-        if (!ids_are_whole_[0]) mesh_.object.clear();   // somebody else's property of this name
+        if (!ids_are_whole_[0]) mesh_.object.clear();  // somebody else's property of this name
         if (!ids_are_whole_[1]) mesh_.contour.clear();
     }
 

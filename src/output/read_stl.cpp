@@ -62,7 +62,8 @@ Mesh parse_binary(std::string_view bytes, const std::string& file) {
 void expect(ByteCursor& in, std::string_view keyword) {
     const std::string_view word = in.word();
     if (word != keyword) {
-        in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + io::quoted(word), "\"" + std::string(keyword) + "\"");
+        in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + io::quoted(word),
+                        "\"" + std::string(keyword) + "\"");
     }
 }
 

@@ -61,7 +61,8 @@ std::size_t read_points(const pugi::xml_node& piece, VtkEncoding& encoding, Mesh
     const VtkValues values = read_vtk_array(element, encoding);
     const std::size_t count = values.size() / 3;
     std::uint64_t promised = 0;
-    if (!parse_number(std::string_view(piece.attribute("NumberOfPoints").as_string()), promised) || promised != count || values.size() % 3 != 0) {
+    if (!parse_number(std::string_view(piece.attribute("NumberOfPoints").as_string()), promised) || promised != count ||
+        values.size() % 3 != 0) {
         fail(encoding.file, "a piece promises " + io::quoted(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
                                 std::to_string(values.size()) + " coordinates");
     }
@@ -79,7 +80,8 @@ void read_cells(const pugi::xml_node& cells, VtkEncoding& encoding, std::size_t 
     std::vector<std::int64_t> corners;
     std::int64_t begin = 0;
     for (const std::int64_t end : offsets) {
-        if (end < begin || end > static_cast<std::int64_t>(connectivity.size())) fail(encoding.file, "the cell offsets do not ascend within the connectivity");
+        if (end < begin || end > static_cast<std::int64_t>(connectivity.size()))
+            fail(encoding.file, "the cell offsets do not ascend within the connectivity");
         corners.clear();
         for (std::int64_t i = begin; i < end; ++i) {
             const std::int64_t point = connectivity[static_cast<std::size_t>(i)];

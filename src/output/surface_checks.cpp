@@ -25,11 +25,11 @@ void check_indices(const std::vector<std::array<std::int64_t, N>>& cells, std::i
 
 void check_length(std::size_t length, std::size_t points, const char* name, const std::string& file) {
     if (length == 0 || length == points) return;
-    throw Error(ErrorKind::usage, {.file = file,
-                                   .what = "the surface has " + std::to_string(length) + " " + name + " for " +
-                                           std::to_string(points) + " points",
-                                   .expected = "none, or one for each point",
-                                   .next = "pass a surface as extract returns it"});
+    throw Error(ErrorKind::usage,
+                {.file = file,
+                 .what = "the surface has " + std::to_string(length) + " " + name + " for " + std::to_string(points) + " points",
+                 .expected = "none, or one for each point",
+                 .next = "pass a surface as extract returns it"});
 }
 
 }  // namespace
@@ -56,11 +56,12 @@ void check_mesh(const Mesh& mesh, const std::string& file) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (const std::int64_t p : mesh.triangles[i]) {
             if (p >= 0 && p < points) continue;
-            throw Error(ErrorKind::input, {.file = file,
-                                           .where = "triangle " + std::to_string(i),
-                                           .what = "names point " + std::to_string(p) + ", which the file does not have",
-                                           .expected = points > 0 ? "0.." + std::to_string(points - 1) : "no triangles: there are no points",
-                                           .next = "repair the mesh with the program that made it"});
+            throw Error(ErrorKind::input,
+                        {.file = file,
+                         .where = "triangle " + std::to_string(i),
+                         .what = "names point " + std::to_string(p) + ", which the file does not have",
+                         .expected = points > 0 ? "0.." + std::to_string(points - 1) : "no triangles: there are no points",
+                         .next = "repair the mesh with the program that made it"});
         }
     }
 }

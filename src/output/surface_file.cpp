@@ -17,7 +17,7 @@ struct MeshFormat {
     const char* extension;
     void (*write)(AtomicFile&, const Surface&, Warnings&);
     Mesh (*parse)(std::string_view, const std::string&);
-    bool curves;   ///< holds segments too
+    bool curves;  ///< holds segments too
 };
 
 constexpr MeshFormat kFormats[] = {{".ply", output::write_ply, output::parse_ply, true},
@@ -44,9 +44,10 @@ const MeshFormat& format_of(const std::string& path) {
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface) {
     const MeshFormat& format = format_of(path);
     if (!surface.segments.empty() && !format.curves) {
-        throw Error(ErrorKind::usage, {.file = path,
-                                       .what = std::string(format.extension) + " holds triangles only, and the contours of a 2D image are curves",
-                                       .next = "write .ply, .obj or .vtp"});
+        throw Error(ErrorKind::usage,
+                    {.file = path,
+                     .what = std::string(format.extension) + " holds triangles only, and the contours of a 2D image are curves",
+                     .next = "write .ply, .obj or .vtp"});
     }
     output::check_surface(surface, path);
     Warnings warnings;

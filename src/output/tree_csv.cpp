@@ -40,7 +40,9 @@ private:
 };
 
 void put_events(ByteWriter& out, const TreeView& tree) {
-    out.text("id,value,x,y,z,kind,parent,children,objects_in,lows_out,delta_chi,tau_low,tau_high,voxels,chi,b1,b2,object_voxels,contours,genera\n");
+    out.text(
+        "id,value,x,y,z,kind,parent,children,objects_in,lows_out,delta_chi,tau_low,tau_high,voxels,chi,b1,b2,object_voxels,contours,"
+        "genera\n");
     visit_events(tree, [&](const Event& e, std::span<const GenusCount> genera) {
         Row row(out);
         row.number(e.id).real(tree.reported(e.value)).position(e.position).text(isoatlas::name_of(e.kind)).number(e.parent, e.parent >= 0);

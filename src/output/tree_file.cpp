@@ -25,12 +25,13 @@ bool zones_are_known(const Analysis& analysis) {
 /// Graphs need ends, and points need places.
 void check_detail(const std::string& path, const std::string& extension, TreeDetail detail) {
     const bool graph = extension == ".graphml" || extension == ".vtu";
-    const bool possible = !graph || detail == TreeDetail::events || detail == TreeDetail::contours ||
-                          (detail == TreeDetail::elements && extension == ".vtu");
+    const bool possible =
+        !graph || detail == TreeDetail::events || detail == TreeDetail::contours || (detail == TreeDetail::elements && extension == ".vtu");
     if (possible) return;
-    throw Error(ErrorKind::usage, {.file = path,
-                                   .what = std::string("the ") + name_of(detail) + " of a tree are a list, and " + extension + " holds a graph",
-                                   .next = "write .json or .csv, or choose the detail events or contours"});
+    throw Error(ErrorKind::usage,
+                {.file = path,
+                 .what = std::string("the ") + name_of(detail) + " of a tree are a list, and " + extension + " holds a graph",
+                 .next = "write .json or .csv, or choose the detail events or contours"});
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ std::int64_t TreeView::item_count() const {
 }
 
 void visit_events(const TreeView& tree, const EventVisitor& visit) {
-    tree.analysis.visit_object_contours([&](std::int64_t id, std::span<const GenusCount> genera) { visit(tree.analysis.event(id), genera); });
+    tree.analysis.visit_object_contours(
+        [&](std::int64_t id, std::span<const GenusCount> genera) { visit(tree.analysis.event(id), genera); });
 }
 
 const char* name_of(TreeDetail detail) {
@@ -106,7 +108,8 @@ void write_tree_json(std::ostream& out, const Volume& volume, const Analysis& an
     const output::TreeView tree(volume, analysis, options);
     output::write_json(tree, [&](std::string_view text) {
         if (out.write(text.data(), static_cast<std::streamsize>(text.size()))) return;
-        throw Error(ErrorKind::resource, {.what = "the tree cannot be written to its stream", .next = "free some space, or write it to a file"});
+        throw Error(ErrorKind::resource,
+                    {.what = "the tree cannot be written to its stream", .next = "free some space, or write it to a file"});
     });
 }
 

@@ -19,11 +19,11 @@ struct TreeView {
     const Volume& volume;
     const Analysis& analysis;
     const TreeOutput& options;
-    bool has_zones;   ///< false: voxel counts are unknown
+    bool has_zones;  ///< false: voxel counts are unknown
 
     TreeView(const Volume& the_volume, const Analysis& the_analysis, const TreeOutput& the_options);
     [[nodiscard]] double reported(double stored) const { return volume.info.calibration.reported(stored); }
-    [[nodiscard]] std::int64_t item_count() const;   ///< of the chosen detail
+    [[nodiscard]] std::int64_t item_count() const;  ///< of the chosen detail
     [[nodiscard]] bool is_outside(std::int64_t element) const { return element == analysis.element_count(); }
 };
 

@@ -16,23 +16,24 @@ struct Key {
     const char* owner;
 };
 
-constexpr std::array kEventKeys{Key{"value", "double", "node"},       Key{"x", "double", "node"},         Key{"y", "double", "node"},
-                                Key{"z", "double", "node"},           Key{"kind", "string", "node"},      Key{"objects_in", "long", "node"},
-                                Key{"lows_out", "long", "node"},      Key{"delta_chi", "long", "node"},   Key{"tau_low", "double", "node"},
-                                Key{"tau_high", "double", "node"},    Key{"voxels", "long", "node"},      Key{"chi", "long", "node"},
-                                Key{"b1", "long", "node"},            Key{"b2", "long", "node"},          Key{"object_voxels", "long", "node"},
-                                Key{"contours", "long", "node"},      Key{"genera", "string", "node"}};
+constexpr std::array kEventKeys{Key{"value", "double", "node"},    Key{"x", "double", "node"},       Key{"y", "double", "node"},
+                                Key{"z", "double", "node"},        Key{"kind", "string", "node"},    Key{"objects_in", "long", "node"},
+                                Key{"lows_out", "long", "node"},   Key{"delta_chi", "long", "node"}, Key{"tau_low", "double", "node"},
+                                Key{"tau_high", "double", "node"}, Key{"voxels", "long", "node"},    Key{"chi", "long", "node"},
+                                Key{"b1", "long", "node"},         Key{"b2", "long", "node"},        Key{"object_voxels", "long", "node"},
+                                Key{"contours", "long", "node"},   Key{"genera", "string", "node"}};
 constexpr std::array kContourKeys{Key{"value", "double", "node"}, Key{"x", "double", "node"},        Key{"y", "double", "node"},
                                   Key{"z", "double", "node"},     Key{"h0", "long", "node"},         Key{"l0", "long", "node"},
                                   Key{"id", "long", "edge"},      Key{"tau_high", "double", "edge"}, Key{"tau_low", "double", "edge"},
                                   Key{"genus", "long", "edge"}};
-constexpr std::array kGraphKeys{Key{"schema", "string", "graph"}, Key{"generator", "string", "graph"}, Key{"interpolant", "string", "graph"},
-                                Key{"boundary", "string", "graph"}};
+constexpr std::array kGraphKeys{Key{"schema", "string", "graph"}, Key{"generator", "string", "graph"},
+                                Key{"interpolant", "string", "graph"}, Key{"boundary", "string", "graph"}};
 
 template <class Keys>
 void put_keys(ByteWriter& out, const Keys& keys) {
     for (const Key& key : keys) {
-        out.text(std::string("<key id=\"") + key.name + "\" for=\"" + key.owner + "\" attr.name=\"" + key.name + "\" attr.type=\"" + key.type + "\"/>\n");
+        out.text(std::string("<key id=\"") + key.name + "\" for=\"" + key.owner + "\" attr.name=\"" + key.name + "\" attr.type=\"" +
+                 key.type + "\"/>\n");
     }
 }
 

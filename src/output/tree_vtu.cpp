@@ -11,44 +11,44 @@ namespace {
 
 constexpr std::uint8_t kVertexCell = 1, kLineCell = 3;
 
-/// TTK's CriticalType.
-enum TtkType : std::int32_t { kMinimum = 0, kSaddle1 = 1, kSaddle2 = 2, kMaximum = 3, kDegenerate = 4, kRegular = 5 };
+/// TTK's CriticalType: the numbers are its codes.
+enum class TtkType : std::int32_t { minimum = 0, saddle1 = 1, saddle2 = 2, maximum = 3, degenerate = 4, regular = 5 };
 /// TTK's ArcType.
-enum TtkArc : std::int32_t { kMinArc = 0, kMaxArc = 1, kSaddle1Arc = 2, kSaddle2Arc = 3, kSaddle1Saddle2Arc = 4 };
+enum class TtkArc : std::int32_t { to_minimum = 0, to_maximum = 1, saddle1 = 2, saddle2 = 3, saddle1_saddle2 = 4 };
 
 /// A genus change has the Morse index of the merge (a handle: the Euler number falls) or the split (it rises) that it resembles.
 TtkType type_of(const Event& e) {
     switch (e.kind) {
-        case Criticality::maximum: return kMaximum;
-        case Criticality::minimum: return kMinimum;
-        case Criticality::merge: return kSaddle2;
-        case Criticality::split: return kSaddle1;
-        case Criticality::genus: return e.delta_chi < 0 ? kSaddle2 : e.delta_chi > 0 ? kSaddle1 : kDegenerate;
+        case Criticality::maximum: return TtkType::maximum;
+        case Criticality::minimum: return TtkType::minimum;
+        case Criticality::merge: return TtkType::saddle2;
+        case Criticality::split: return TtkType::saddle1;
+        case Criticality::genus: return e.delta_chi < 0 ? TtkType::saddle2 : e.delta_chi > 0 ? TtkType::saddle1 : TtkType::degenerate;
         case Criticality::complex: break;
     }
-    return kDegenerate;
+    return TtkType::degenerate;
 }
 
-/// By the numbers of objects just above and low components just below.
+/// By the numbers of objects just above and low components just below. (2, 2) is the saddle of 2D, where TTK knows one kind only.
 TtkType type_of(const Element& e) {
-    if (e.h0 == 0) return kMaximum;
-    if (e.l0 == 0) return kMinimum;
-    if (e.h0 == 2) return e.l0 == 2 ? kDegenerate : kSaddle2;
-    return e.l0 == 2 ? kSaddle1 : kRegular;
+    if (e.h0 == 0) return TtkType::maximum;
+    if (e.l0 == 0) return TtkType::minimum;
+    if (e.l0 == 2) return TtkType::saddle1;
+    return e.h0 == 2 ? TtkType::saddle2 : TtkType::regular;
 }
 
 TtkArc arc_type(TtkType upper, TtkType lower) {
-    if (upper == kMinimum || lower == kMinimum) return kMinArc;
-    if (upper == kMaximum || lower == kMaximum) return kMaxArc;
-    if (upper == kSaddle1 && lower == kSaddle1) return kSaddle1Arc;
-    return upper == kSaddle2 && lower == kSaddle2 ? kSaddle2Arc : kSaddle1Saddle2Arc;
+    if (upper == TtkType::minimum || lower == TtkType::minimum) return TtkArc::to_minimum;
+    if (upper == TtkType::maximum || lower == TtkType::maximum) return TtkArc::to_maximum;
+    if (upper == TtkType::saddle1 && lower == TtkType::saddle1) return TtkArc::saddle1;
+    return upper == TtkType::saddle2 && lower == TtkType::saddle2 ? TtkArc::saddle2 : TtkArc::saddle1_saddle2;
 }
 
 double distance(const Vec3& p, const Vec3& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
 /// Line i goes from upper(i) down to lower(i).
 struct Lines {
-    std::vector<std::int64_t> item, upper, lower;   ///< item: the event or contour that the line stands for
+    std::vector<std::int64_t> item, upper, lower;  ///< item: the event or contour that the line stands for
 };
 
 Lines lines_of(const TreeView& tree) {
@@ -74,13 +74,17 @@ Lines lines_of(const TreeView& tree) {
 class VtuWriter {
 public:
     explicit VtuWriter(const TreeView& tree)
-        : tree_(tree), lines_(lines_of(tree)), of_events_(tree.options.detail == TreeDetail::events),
+        : tree_(tree),
+          lines_(lines_of(tree)),
+          of_events_(tree.options.detail == TreeDetail::events),
           points_(of_events_ ? tree.analysis.event_count() : tree.analysis.element_count()) {}
 
     void write(ByteWriter& out) {
-        out.text(vtk_file_begin("UnstructuredGrid") + "<UnstructuredGrid>\n<FieldData>\n" + vtk_string("Space", tree_.volume.info.geometry.space));
+        out.text(vtk_file_begin("UnstructuredGrid") + "<UnstructuredGrid>\n<FieldData>\n" +
+                 vtk_string("Space", tree_.volume.info.geometry.space));
         if (!tree_.volume.info.geometry.unit.empty()) out.text(vtk_string("Unit", tree_.volume.info.geometry.unit));
-        out.text("</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(points_) + "\" NumberOfCells=\"" + std::to_string(cells()) + "\">\n");
+        out.text("</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(points_) + "\" NumberOfCells=\"" + std::to_string(cells()) +
+                 "\">\n");
         out.text("<PointData Scalars=\"CriticalType\">\n");
         of_events_ ? put_event_arrays(out) : put_element_arrays(out);
         out.text("</PointData>\n<CellData>\n");
@@ -148,7 +152,8 @@ private:
         return tree_.reported(of_events_ ? tree_.analysis.event(id).value : tree_.analysis.element(id).value);
     }
     [[nodiscard]] Vec3 place(std::int64_t id) const {
-        return to_physical(tree_.volume.info.geometry, of_events_ ? tree_.analysis.event(id).position : tree_.analysis.element(id).position);
+        return to_physical(tree_.volume.info.geometry,
+                           of_events_ ? tree_.analysis.event(id).position : tree_.analysis.element(id).position);
     }
     void put_cell_arrays(ByteWriter& out) {
         if (has_vertices()) return;
@@ -157,8 +162,10 @@ private:
         line_array<std::int64_t>(out, "downNodeId", [this](std::size_t i) { return lines_.lower[i]; });
         line_array<double>(out, "RegionSpan", [this](std::size_t i) { return distance(place(lines_.upper[i]), place(lines_.lower[i])); });
         line_array<double>(out, "ValueSpan", [this](std::size_t i) { return value(lines_.upper[i]) - value(lines_.lower[i]); });
-        line_array<std::int32_t>(out, "RegionType", [this](std::size_t i) { return arc_type(node_type(lines_.upper[i]), node_type(lines_.lower[i])); });
-        if (!of_events_) line_array<std::int64_t>(out, "Genus", [this](std::size_t i) { return tree_.analysis.contour_arc(lines_.item[i]).genus; });
+        line_array<std::int32_t>(out, "RegionType",
+                                 [this](std::size_t i) { return arc_type(node_type(lines_.upper[i]), node_type(lines_.lower[i])); });
+        if (!of_events_)
+            line_array<std::int64_t>(out, "Genus", [this](std::size_t i) { return tree_.analysis.contour_arc(lines_.item[i]).genus; });
         if (of_events_ && tree_.has_zones) {
             line_array<std::int64_t>(out, "RegionSize", [this](std::size_t i) { return tree_.analysis.event(lines_.item[i]).zone.voxels; });
         }

@@ -138,7 +138,8 @@ std::string decode_raw_array(std::string_view data, const std::string& array, co
         return inflate_blocks(data.substr(0, size), data.substr(size), array, encoding);
     }
     if (first > data.size() - encoding.header_bytes) {
-        fail(encoding, array, "claims " + std::to_string(first) + " bytes", std::to_string(data.size() - encoding.header_bytes) + " at most");
+        fail(encoding, array, "claims " + std::to_string(first) + " bytes",
+             std::to_string(data.size() - encoding.header_bytes) + " at most");
     }
     return std::string(data.substr(encoding.header_bytes, first));
 }
@@ -185,7 +186,8 @@ std::string decode_binary(const pugi::xml_node& element, std::string_view format
     if (format != "appended") fail(encoding, array, "unknown format " + io::quoted(format), "ascii, binary or appended");
     std::uint64_t offset = 0;
     const std::string_view text = element.attribute("offset").value();
-    if (!parse_number(text, offset) || offset > encoding.appended.size()) fail(encoding, array, "the offset " + io::quoted(text) + " is not in the file");
+    if (!parse_number(text, offset) || offset > encoding.appended.size())
+        fail(encoding, array, "the offset " + io::quoted(text) + " is not in the file");
     const std::string_view data = encoding.appended.substr(offset);
     return encoding.appended_base64 ? decode_base64_array(data, array, encoding) : decode_raw_array(data, array, encoding);
 }

@@ -16,13 +16,13 @@ namespace isoatlas::output {
 
 /// What the VTKFile element and the AppendedData element say about all arrays.
 struct VtkEncoding {
-    std::string file;              ///< for messages
+    std::string file;  ///< for messages
     bool big_endian = false;
     std::size_t header_bytes = 4;  ///< of each number of a block header: 4 or 8
     bool zlib = false;
     bool appended_base64 = false;
-    std::string_view appended;     ///< the bytes after '_'
-    std::int64_t budget = 0;       ///< values that may still be decoded: what a file of this size can hold
+    std::string_view appended;  ///< the bytes after '_'
+    std::int64_t budget = 0;    ///< values that may still be decoded: what a file of this size can hold
 };
 
 /// The values of one array. Integers of 64 bits are kept exact.

@@ -32,8 +32,8 @@ class AppendedArrays {
 public:
     /// put writes exactly tuples * components values of T.
     template <class T>
-    [[nodiscard]] std::string add(std::string_view name, std::int64_t components, std::int64_t tuples,
-                                  std::function<void(ByteWriter&)> put, bool field = false) {
+    [[nodiscard]] std::string add(std::string_view name, std::int64_t components, std::int64_t tuples, std::function<void(ByteWriter&)> put,
+                                  bool field = false) {
         std::string element = "<DataArray type=\"" + std::string(vtk_type<T>) + "\" Name=\"" + std::string(name) + "\" ";
         if (components > 1) element += "NumberOfComponents=\"" + std::to_string(components) + "\" ";
         if (field) element += "NumberOfTuples=\"" + std::to_string(tuples) + "\" ";  // other arrays have the length of their piece

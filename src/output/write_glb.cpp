@@ -21,9 +21,9 @@ constexpr int kFloat = 5126, kUnsignedInt = 5125, kVertices = 34962, kIndices = 
 /// The mesh of one object: its points in the order of the surface, its triangles as a range of groups.order.
 struct Part {
     ObjectGroups::Group group;
-    std::size_t first_point, point_count;   ///< range of Scene::used
-    Point translation;                      ///< middle of its box
-    std::array<float, 3> low, high;         ///< of the stored positions
+    std::size_t first_point, point_count;  ///< range of Scene::used
+    Point translation;                     ///< middle of its box
+    std::array<float, 3> low, high;        ///< of the stored positions
 };
 
 struct Scene {
@@ -31,7 +31,7 @@ struct Scene {
     ObjectGroups groups;
     std::vector<std::int64_t> used;
     std::vector<Part> parts;
-    std::int64_t bytes = 0;   ///< of the binary chunk
+    std::int64_t bytes = 0;  ///< of the binary chunk
 };
 
 std::array<float, 3> relative(const Point& point, const Point& translation) {
@@ -87,7 +87,14 @@ void put_nodes(JsonStream& json, const Scene& scene) {
     json.line().key("nodes").begin_array();
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const Part& part = scene.parts[i];
-        json.line().begin_object().key("name").value(part_name(scene, part)).key("mesh").value(i).key("translation").value(part.translation);
+        json.line()
+            .begin_object()
+            .key("name")
+            .value(part_name(scene, part))
+            .key("mesh")
+            .value(i)
+            .key("translation")
+            .value(part.translation);
         json.key("extras").begin_object();
         if (scene.groups.has_ids) json.key("object").value(part.group.object);
         put_origin(json, scene.surface);
@@ -213,9 +220,10 @@ void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings) {
     const std::string json = scene_json(scene);
     const std::int64_t chunks = 12 + 8 + static_cast<std::int64_t>(json.size()) + (scene.bytes > 0 ? 8 + scene.bytes : 0);
     if (chunks > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
-        throw Error(ErrorKind::usage, {.file = file.path(),
-                                       .what = "a GLB file holds at most 4 GiB, and this surface takes " + std::to_string(chunks) + " bytes",
-                                       .next = "write .vtp or .ply, or extract one object at a time"});
+        throw Error(ErrorKind::usage,
+                    {.file = file.path(),
+                     .what = "a GLB file holds at most 4 GiB, and this surface takes " + std::to_string(chunks) + " bytes",
+                     .next = "write .vtp or .ply, or extract one object at a time"});
     }
     if (has_inner_contours(surface)) warnings.push_back("GLB keeps object ids, but not contour ids; .ply and .vtp keep both");
     if (const std::int64_t merged = merged_points(scene); merged > 0) {

@@ -49,7 +49,8 @@ inline std::string problem(const Json& value, const Json& schema, const std::str
         }
     }
     if (value.is_array()) {
-        if (value.size() < schema.value("minItems", std::size_t{0}) || value.size() > schema.value("maxItems", ~std::size_t{0})) return where + " has a wrong length";
+        if (value.size() < schema.value("minItems", std::size_t{0}) || value.size() > schema.value("maxItems", ~std::size_t{0}))
+            return where + " has a wrong length";
         for (std::size_t i = 0; i < value.size() && schema.contains("items"); ++i) {
             if (std::string text = problem(value[i], schema["items"], where + "[" + std::to_string(i) + "]"); !text.empty()) return text;
         }

@@ -49,16 +49,17 @@ TEST_P(Vtk, opens_the_file_and_counts_the_same) {
     const Surface surface = two_objects();
     const std::string path = folder / (std::string("mesh") + GetParam().extension);
     write_surface(path, surface);
-    const external::Result result = external::python(
-        std::string("import vtk\nr = vtk.") + GetParam().reader + "()\nr.SetFileName('" + path +
-        "')\nr.Update()\np = r.GetOutput()\nprint('points', p.GetNumberOfPoints(), 'polys', p.GetNumberOfPolys())\n"
-        "m = vtk.vtkMassProperties()\nm.SetInputData(p)\nm.Update()\nprint('volume', round(m.GetVolume(), 3))\n"
-        "a = p.GetPointData().GetArray('ObjectId')\nprint('id', int(a.GetRange()[1]) if a else 'none')\n"
-        "t = p.GetFieldData().GetArray('Tau')\nprint('tau', t.GetValue(0) if t else 'none')\n"
-        "s = p.GetFieldData().GetAbstractArray('Unit')\nprint('unit', s.GetValue(0) if s else 'none')\n");
+    const external::Result result =
+        external::python(std::string("import vtk\nr = vtk.") + GetParam().reader + "()\nr.SetFileName('" + path +
+                         "')\nr.Update()\np = r.GetOutput()\nprint('points', p.GetNumberOfPoints(), 'polys', p.GetNumberOfPolys())\n"
+                         "m = vtk.vtkMassProperties()\nm.SetInputData(p)\nm.Update()\nprint('volume', round(m.GetVolume(), 3))\n"
+                         "a = p.GetPointData().GetArray('ObjectId')\nprint('id', int(a.GetRange()[1]) if a else 'none')\n"
+                         "t = p.GetFieldData().GetArray('Tau')\nprint('tau', t.GetValue(0) if t else 'none')\n"
+                         "s = p.GetFieldData().GetAbstractArray('Unit')\nprint('unit', s.GetValue(0) if s else 'none')\n");
     ASSERT_EQ(result.status, 0) << result.text;
     EXPECT_NE(result.text.find("points 18 polys 24"), std::string::npos) << result.text;
-    EXPECT_NE(result.text.find("volume 88.5"), std::string::npos) << result.text;  // 4/3 (4^3 + 1.5^3 - 1^3): outward normals, cavity inward
+    EXPECT_NE(result.text.find("volume 88.5"), std::string::npos)
+        << result.text;  // 4/3 (4^3 + 1.5^3 - 1^3): outward normals, cavity inward
     if (std::string(GetParam().extension) == ".vtp") {
         EXPECT_NE(result.text.find("id 5000000000"), std::string::npos) << result.text;
         EXPECT_NE(result.text.find("tau 100.5"), std::string::npos) << result.text;
@@ -67,8 +68,8 @@ TEST_P(Vtk, opens_the_file_and_counts_the_same) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Vtk,
-                         testing::Values(VtkReader{".ply", "vtkPLYReader"}, VtkReader{".stl", "vtkSTLReader"}, VtkReader{".obj", "vtkOBJReader"},
-                                         VtkReader{".vtp", "vtkXMLPolyDataReader"}),
+                         testing::Values(VtkReader{".ply", "vtkPLYReader"}, VtkReader{".stl", "vtkSTLReader"},
+                                         VtkReader{".obj", "vtkOBJReader"}, VtkReader{".vtp", "vtkXMLPolyDataReader"}),
                          [](const auto& format) { return std::string(format.param.extension).substr(1); });
 
 TEST(vtk, opens_curves_and_empty_surfaces) {
@@ -95,10 +96,16 @@ TEST(vtk, its_files_are_read) {
         "        (w.SetCompressorTypeToZLib if zlib else w.SetCompressorTypeToNone)()\n        w.SetHeaderType(header)\n"
         "        (w.SetByteOrderToBigEndian if big else w.SetByteOrderToLittleEndian)()\n"
         "        for raw in (0, 1):\n          w.SetEncodeAppendedData(1 - raw)\n"
-        "          w.SetFileName('" + (folder / "x") + "%s%d%d%d%d.vtp' % (mode, zlib, header, big, raw))\n          assert w.Write() == 1\n"
+        "          w.SetFileName('" +
+        (folder / "x") +
+        "%s%d%d%d%d.vtp' % (mode, zlib, header, big, raw))\n          assert w.Write() == 1\n"
         "for mode in ('ASCII', 'Binary'):\n  w = vtk.vtkSTLWriter()\n  w.SetInputData(p)\n  getattr(w, 'SetFileTypeTo' + mode)()\n"
-        "  w.SetFileName('" + (folder / "x") + "%s.stl' % mode)\n  w.Write()\n"
-        "  w = vtk.vtkPLYWriter()\n  w.SetInputData(p)\n  getattr(w, 'SetFileTypeTo' + mode)()\n  w.SetFileName('" + (folder / "x") + "%s.ply' % mode)\n  w.Write()\n"
+        "  w.SetFileName('" +
+        (folder / "x") +
+        "%s.stl' % mode)\n  w.Write()\n"
+        "  w = vtk.vtkPLYWriter()\n  w.SetInputData(p)\n  getattr(w, 'SetFileTypeTo' + mode)()\n  w.SetFileName('" +
+        (folder / "x") +
+        "%s.ply' % mode)\n  w.Write()\n"
         "print(p.GetNumberOfPoints(), p.GetNumberOfPolys())");
     ASSERT_EQ(result.text, "50 96\n");
     EXPECT_EQ(folder.files(), 52U);
@@ -120,7 +127,9 @@ TEST(gltf, the_json_follows_the_specification) {
         "  b = open(name, 'rb').read()\n  magic, version, total, size, kind = struct.unpack('<4sIII4s', b[:20])\n"
         "  assert (magic, version, total, kind) == (b'glTF', 2, len(b), b'JSON') and size % 4 == 0\n"
         "  return json.loads(b[20:20 + size]), b[28 + size:], b[20 + size:28 + size]\n"
-        "g, data, chunk = load('" + (folder / "mesh.glb") + "')\n"
+        "g, data, chunk = load('" +
+        (folder / "mesh.glb") +
+        "')\n"
         "assert struct.unpack('<I4s', chunk) == (len(data), b'BIN\\0') and g['buffers'][0]['byteLength'] == len(data)\n"
         "assert [n['extras']['object'] for n in g['nodes']] == [7, 5000000000] and g['nodes'][0]['extras']['tau'] == 100.5\n"
         "assert g['nodes'][0]['extras']['unit'] == 'mm' and g['nodes'][0]['extras']['space'] == 'LPS' and g['asset']['version'] == '2.0'\n"
@@ -128,16 +137,20 @@ TEST(gltf, the_json_follows_the_specification) {
         "for m in g['meshes']:\n"
         "  p = m['primitives'][0]\n"
         "  for key, index in list(p['attributes'].items()) + [('indices', p['indices'])]:\n"
-        "    a = g['accessors'][index]\n    v = g['bufferViews'][a['bufferView']]\n    assert index not in used and v['byteOffset'] % 4 == 0\n"
+        "    a = g['accessors'][index]\n    v = g['bufferViews'][a['bufferView']]\n    assert index not in used and v['byteOffset'] % 4 == "
+        "0\n"
         "    used.add(index)\n"
         "    n = a['count'] * (1 if key == 'indices' else 3)\n    assert v['byteLength'] == 4 * n\n"
         "    x = struct.unpack_from('<%d%s' % (n, 'I' if key == 'indices' else 'f'), data, v['byteOffset'])\n"
         "    if key == 'POSITION':\n"
-        "      assert a['min'] == [min(x[i::3]) for i in range(3)] and a['max'] == [max(x[i::3]) for i in range(3)]\n      points = a['count']\n"
+        "      assert a['min'] == [min(x[i::3]) for i in range(3)] and a['max'] == [max(x[i::3]) for i in range(3)]\n      points = "
+        "a['count']\n"
         "    if key == 'indices': assert max(x) < points\n"
         "    if key == 'NORMAL': assert all(abs(sum(c * c for c in x[i:i + 3]) - 1) < 1e-6 for i in range(0, n, 3))\n"
         "assert len(used) == len(g['accessors']) == len(g['bufferViews'])\n"
-        "e, _, _ = load('" + (folder / "empty.glb") + "')\n"
+        "e, _, _ = load('" +
+        (folder / "empty.glb") +
+        "')\n"
         "assert e['scenes'] == [{}] and not {'nodes', 'meshes', 'buffers', 'accessors', 'bufferViews'} & set(e)\n"
         "print('good')");
     EXPECT_EQ(result.text, "good\n");

@@ -27,7 +27,8 @@ std::string difference(const Surface& surface, const std::string& path) {
     const SurfaceReport before = inspect(surface.points, surface.triangles), after = inspect(mesh.points, mesh.triangles);
     if (after.points != before.points || after.triangles != before.triangles || after.edges != before.edges) return "counts differ";
     if (!after.is_closed() || !after.is_manifold() || !after.is_oriented()) return "not a closed oriented manifold";
-    if (!path.ends_with(".stl") && !path.ends_with(".glb") && after.zero_area_triangles > before.zero_area_triangles) return "flat triangles";
+    if (!path.ends_with(".stl") && !path.ends_with(".glb") && after.zero_area_triangles > before.zero_area_triangles)
+        return "flat triangles";
     return sorted_chi(after) == sorted_chi(before) ? "" : "Euler numbers differ";
 }
 

@@ -98,15 +98,17 @@ TEST(hostile_ply, absurd_counts_are_refused_before_memory_is_taken) {
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 18446744073709551615\n" + vertex + "end_header\n0 0 0\n")));
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 99999999999999999999\n" + vertex + "end_header\n0 0 0\n")));
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex -1\n" + vertex + "end_header\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex +
-                                               "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n4000000000 0 0 0\n")));
+    EXPECT_TRUE(
+        refused(output::parse_ply, ply("element vertex 1\n" + vertex +
+                                       "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n4000000000 0 0 0\n")));
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex +
                                                "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n")));
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex +
                                                "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n")));
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex + "end_header\n0 nan 0\n")));
     EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n")));
-    EXPECT_FALSE(refused(output::parse_ply, ply("element nothing 18446744073709551615\nelement vertex 1\n" + vertex + "end_header\n0 0 0\n")));
+    EXPECT_FALSE(
+        refused(output::parse_ply, ply("element nothing 18446744073709551615\nelement vertex 1\n" + vertex + "end_header\n0 0 0\n")));
 }
 
 TEST(hostile_ply, messages_name_the_line) {
@@ -132,9 +134,11 @@ TEST(hostile_vtp, bombs_and_contradictions) {
     };
     const std::string zlib = "compressor=\"vtkZLibDataCompressor\" header_type=\"UInt64\"";
     // 2^61 blocks; a block of 2^60 bytes; both as base64 of little-endian numbers.
-    EXPECT_TRUE(refused(output::parse_vtp, vtp(zlib, "<DataArray type=\"Float32\" format=\"binary\">AAAAAAAAACAAAAAAAAAAAAAAAAAAAAAA</DataArray>")));
-    EXPECT_TRUE(refused(output::parse_vtp, vtp(zlib, "<DataArray type=\"Float32\" format=\"binary\">"
-                                                     "AQAAAAAAAAAAAAAAAAAAEAAAAAAAAAAQBAAAAAAAAAA=AAAAAA==</DataArray>")));
+    EXPECT_TRUE(refused(output::parse_vtp,
+                        vtp(zlib, "<DataArray type=\"Float32\" format=\"binary\">AAAAAAAAACAAAAAAAAAAAAAAAAAAAAAA</DataArray>")));
+    EXPECT_TRUE(refused(output::parse_vtp, vtp(zlib,
+                                               "<DataArray type=\"Float32\" format=\"binary\">"
+                                               "AQAAAAAAAAAAAAAAAAAAEAAAAAAAAAAQBAAAAAAAAAA=AAAAAA==</DataArray>")));
     EXPECT_TRUE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"binary\">/////w==</DataArray>")));
     EXPECT_TRUE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"appended\" offset=\"0\"/>")));
     EXPECT_TRUE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"ascii\">1 2 3 4</DataArray>")));
@@ -150,8 +154,8 @@ std::string glb(std::string json, std::string binary) {
         for (int i = 0; i < 4; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
         return text;
     };
-    return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size()) + number(json.size()) + "JSON" + json + number(binary.size()) +
-           std::string("BIN\0", 4) + binary;
+    return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size()) + number(json.size()) + "JSON" + json +
+           number(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
 TEST(hostile_glb, loops_repetition_and_wrong_types) {
@@ -162,7 +166,8 @@ TEST(hostile_glb, loops_repetition_and_wrong_types) {
     const std::string zeros(36, '\0');
     EXPECT_FALSE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0}]}", zeros)));
     EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0}]}", "")));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"children\":[0]}]}", zeros)));
+    EXPECT_TRUE(
+        refused(output::parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"children\":[0]}]}", zeros)));
     EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[4]}],\"nodes\":[{\"mesh\":0}]}", zeros)));
     EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":-1}]}", zeros)));
     EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":\"seven\"}", zeros)));

@@ -201,7 +201,8 @@ RC_GTEST_PROP(RoundTripOfAnything, ply_obj_and_vtp_are_lossless, ()) {
     const int count = *rc::gen::inRange(3, 12);
     for (int i = 0; i < count; ++i) {
         Point p{};
-        for (double& x : p) x = static_cast<double>(*rc::gen::inRange<std::int64_t>(-(std::int64_t{1} << 52), std::int64_t{1} << 52)) * 0x1p-30 / 3;
+        for (double& x : p)
+            x = static_cast<double>(*rc::gen::inRange<std::int64_t>(-(std::int64_t{1} << 52), std::int64_t{1} << 52)) * 0x1p-30 / 3;
         surface.points.push_back(p);
         surface.object.push_back(*rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << *rc::gen::inRange(2, 50)));
     }

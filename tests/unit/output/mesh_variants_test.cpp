@@ -26,7 +26,8 @@ TEST(ply_variants, ascii_with_polygons_comments_and_foreign_properties) {
     const Mesh mesh = output::parse_ply(
         "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nobj_info none\r\nelement material 1\r\nproperty int shine\r\n"
         "element vertex 5\r\nproperty uchar red\r\nproperty float64 y\r\nproperty double x\r\nproperty float z\r\n"
-        "property list uchar int neighbours\r\nelement face 2\r\nproperty uchar flags\r\nproperty list uint8 int32 vertex_index\r\nend_header\r\n"
+        "property list uchar int neighbours\r\nelement face 2\r\nproperty uchar flags\r\nproperty list uint8 int32 "
+        "vertex_index\r\nend_header\r\n"
         "77\r\n255 2 1 3 2 8 9\r\n0 5 4 6 0\r\n0 8 7 9 0\r\n0 1 1 1 0\r\n0 +2.5e0 2 -2 0\r\n1 4 0 1 2 3\r\n1 3 2 3 4\r\n",
         "a.ply");
     EXPECT_EQ(mesh.points, (std::vector<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 1}, {2, 2.5, -2}}));
@@ -56,15 +57,19 @@ TEST(ply_variants, both_byte_orders_and_every_scalar_type) {
 
 TEST(ply_variants, a_property_named_object_that_holds_fractions_is_not_ours) {
     const Mesh mesh = output::parse_ply(
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float object\nend_header\n0 0 0 0.5\n", "c.ply");
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float "
+        "object\nend_header\n0 0 0 0.5\n",
+        "c.ply");
     EXPECT_EQ(mesh.points.size(), 1U);
     EXPECT_TRUE(mesh.object.empty());
 }
 
 TEST(stl_variants, text_with_two_solids_shares_equal_points) {
     const Mesh mesh = output::parse_stl(
-        "solid first facet solid\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n  endloop\n endfacet\n"
-        " facet normal nan nan nan\n  outer loop\n   vertex 1 0 -0.0\n   vertex 1e0 1.0 0\n   vertex 0 1 0\n  endloop\n endfacet\nendsolid first\n"
+        "solid first facet solid\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n  endloop\n "
+        "endfacet\n"
+        " facet normal nan nan nan\n  outer loop\n   vertex 1 0 -0.0\n   vertex 1e0 1.0 0\n   vertex 0 1 0\n  endloop\n endfacet\nendsolid "
+        "first\n"
         "solid\nendsolid\n",
         "a.stl");
     EXPECT_EQ(mesh.points.size(), 4U);
@@ -82,7 +87,8 @@ TEST(stl_variants, binary_that_starts_with_solid) {
 
 TEST(obj_variants, all_forms_of_indices) {
     const Mesh mesh = output::parse_obj(
-        "# comment\nmtllib x.mtl\no thing\nv 0 0 0\nv 1 0 0 # a corner\nv 1 1 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\ng side\ns off\nusemtl red\n"
+        "# comment\nmtllib x.mtl\no thing\nv 0 0 0\nv 1 0 0 # a corner\nv 1 1 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\ng side\ns "
+        "off\nusemtl red\n"
         "f 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n  3//1\nf 1/1 2/1 3/1\nf -4 -3 -1\nl 1 2\np 3\n",
         "a.obj");
     EXPECT_EQ(mesh.points.size(), 4U);
@@ -91,7 +97,8 @@ TEST(obj_variants, all_forms_of_indices) {
 }
 
 TEST(obj_variants, wrong_indices_and_statements_are_refused) {
-    for (const char* text : {"f 0 1 2\n", "f -1 -2 -3\n", "v 0 0 0\nf 1 1\n", "v 0 0 0\nf 1 1 2\n", "v 0 0\n", "hello world\n", "f 1 x 2\n"}) {
+    for (const char* text :
+         {"f 0 1 2\n", "f -1 -2 -3\n", "v 0 0 0\nf 1 1\n", "v 0 0 0\nf 1 1 2\n", "v 0 0\n", "hello world\n", "f 1 x 2\n"}) {
         EXPECT_THROW((void)output::parse_obj(text, "b.obj"), Error) << text;
     }
 }
@@ -127,16 +134,19 @@ TEST(vtp_variants, default_output_of_vtk) {
 }
 
 TEST(vtp_variants, ascii_pieces_strips_big_endian_and_ids) {
-    const std::string piece = R"(<Piece NumberOfPoints="4"><PointData><DataArray type="Int64" Name="ObjectId">1 2 3 9007199254740993</DataArray></PointData>
+    const std::string piece =
+        R"(<Piece NumberOfPoints="4"><PointData><DataArray type="Int64" Name="ObjectId">1 2 3 9007199254740993</DataArray></PointData>
 <Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0  1 0 0  0 1 0  1e0 +1 0</DataArray></Points>
 <Strips><DataArray type="UInt8" Name="connectivity">0 1 2 3</DataArray><DataArray type="Int32" Name="offsets">4</DataArray></Strips></Piece>)";
-    const Mesh mesh = output::parse_vtp("<VTKFile type=\"PolyData\" byte_order=\"BigEndian\"><PolyData>" + piece + piece + "</PolyData></VTKFile>", "b.vtp");
+    const Mesh mesh = output::parse_vtp(
+        "<VTKFile type=\"PolyData\" byte_order=\"BigEndian\"><PolyData>" + piece + piece + "</PolyData></VTKFile>", "b.vtp");
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 5, 7}}));
     EXPECT_EQ(mesh.object, (std::vector<std::int64_t>{1, 2, 3, 9007199254740993, 1, 2, 3, 9007199254740993}));
     const std::string array = "<DataArray type=\"UInt16\" NumberOfComponents=\"3\" format=\"binary\">AAAABgABAAIAAw==</DataArray>";
-    const Mesh big = output::parse_vtp("<VTKFile type=\"PolyData\" byte_order=\"BigEndian\"><PolyData><Piece NumberOfPoints=\"1\"><Points>" + array +
-                                           "</Points></Piece></PolyData></VTKFile>",
-                                       "c.vtp");
+    const Mesh big =
+        output::parse_vtp("<VTKFile type=\"PolyData\" byte_order=\"BigEndian\"><PolyData><Piece NumberOfPoints=\"1\"><Points>" + array +
+                              "</Points></Piece></PolyData></VTKFile>",
+                          "c.vtp");
     EXPECT_EQ(big.points, (std::vector<Point>{{1, 2, 3}}));
 }
 
@@ -144,8 +154,8 @@ std::string glb(std::string json, std::string binary) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     binary.resize((binary.size() + 3) / 4 * 4, '\0');
     const auto number = [](std::size_t value) { return bytes_of_number(static_cast<std::uint32_t>(value), false); };
-    return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size()) + number(json.size()) + "JSON" + json + number(binary.size()) +
-           std::string("BIN\0", 4) + binary;
+    return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size()) + number(json.size()) + "JSON" + json +
+           number(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
 TEST(glb_variants, transforms_children_strides_and_short_indices) {

@@ -78,10 +78,12 @@ TEST_F(TreeFiles, graphml_is_xml_with_typed_keys) {
     EXPECT_EQ(std::distance(graph.children("node").begin(), graph.children("node").end()), 14);
     EXPECT_EQ(std::distance(graph.children("edge").begin(), graph.children("edge").end()), 13);
     for (const auto& data : graph.child("node").children("data")) {
-        EXPECT_TRUE(document.child("graphml").find_child_by_attribute("key", "id", data.attribute("key").value())) << data.attribute("key").value();
+        EXPECT_TRUE(document.child("graphml").find_child_by_attribute("key", "id", data.attribute("key").value()))
+            << data.attribute("key").value();
     }
     for (const auto& edge : graph.children("edge")) {
-        const std::int64_t child = std::stoll(edge.attribute("source").value() + 1), parent = std::stoll(edge.attribute("target").value() + 1);
+        const std::int64_t child = std::stoll(edge.attribute("source").value() + 1),
+                           parent = std::stoll(edge.attribute("target").value() + 1);
         EXPECT_EQ(analysis_->event(child).parent, parent);
     }
     ASSERT_TRUE(document.load_file(write("contours.graphml", TreeDetail::contours).c_str()));
@@ -93,42 +95,57 @@ TEST_F(TreeFiles, graphml_opens_in_networkx) {
     if (external::run("/usr/bin/python3 -c 'import networkx'").status != 0) GTEST_SKIP() << "networkx is not installed";
     const external::Result result = external::python(
         "import networkx as nx\ng = nx.read_graphml('" + write("tree.graphml") + "')\nc = nx.read_graphml('" +
-        write("contours.graphml", TreeDetail::contours) + "')\n"
+        write("contours.graphml", TreeDetail::contours) +
+        "')\n"
         "root = [n for n in g if g.out_degree(n) == 0]\nassert len(root) == 1 and 'tau_low' not in g.nodes[root[0]]\n"
         "assert nx.is_directed_acyclic_graph(g) and nx.is_weakly_connected(g)\n"
         "assert [g.nodes['n%d' % i]['value'] for i in range(3)] == [201.0, 181.0, 161.0] and type(g.nodes['n0']['voxels']) is int\n"
         "print(len(g), g.size(), len(c), c.size(), g.graph['schema'])");
-    EXPECT_EQ(result.text, "14 13 " + std::to_string(analysis_->element_count() + 1) + " " + std::to_string(analysis_->contour_arc_count()) + " isoatlas/tree/1\n");
+    EXPECT_EQ(result.text, "14 13 " + std::to_string(analysis_->element_count() + 1) + " " +
+                               std::to_string(analysis_->contour_arc_count()) + " isoatlas/tree/1\n");
 }
 
 TEST_F(TreeFiles, vtu_opens_in_vtk) {
     if (!external::has_vtk()) GTEST_SKIP() << "VTK (package python3-vtk9) is not installed";
-    const std::string load = "import vtk\ndef load(name):\n  r = vtk.vtkXMLUnstructuredGridReader()\n  r.SetFileName(name)\n  r.Update()\n  return r.GetOutput()\n";
+    const std::string load =
+        "import vtk\ndef load(name):\n  r = vtk.vtkXMLUnstructuredGridReader()\n  r.SetFileName(name)\n  r.Update()\n  return "
+        "r.GetOutput()\n";
     const external::Result result = external::python(
-        load + "g = load('" + write("tree.vtu") + "')\np, c = g.GetPointData(), g.GetCellData()\n"
-        "print(g.GetNumberOfPoints(), g.GetNumberOfCells(), g.GetCellType(0), p.GetArray('Scalar').GetValue(0), p.GetArray('CriticalType').GetValue(0))\n"
+        load + "g = load('" + write("tree.vtu") +
+        "')\np, c = g.GetPointData(), g.GetCellData()\n"
+        "print(g.GetNumberOfPoints(), g.GetNumberOfCells(), g.GetCellType(0), p.GetArray('Scalar').GetValue(0), "
+        "p.GetArray('CriticalType').GetValue(0))\n"
         "print(g.GetPoint(0), g.GetFieldData().GetAbstractArray('Unit').GetValue(0))\n"
         "for n in ('NodeId', 'RegionSize', 'Chi', 'Tunnels', 'Cavities', 'Contours'): assert p.GetArray(n).GetNumberOfTuples() == 14, n\n"
-        "for n in ('SegmentationId', 'upNodeId', 'downNodeId', 'RegionSize', 'RegionSpan', 'RegionType', 'ValueSpan'): assert c.GetArray(n).GetNumberOfTuples() == 13, n\n"
+        "for n in ('SegmentationId', 'upNodeId', 'downNodeId', 'RegionSize', 'RegionSpan', 'RegionType', 'ValueSpan'): assert "
+        "c.GetArray(n).GetNumberOfTuples() == 13, n\n"
         "for i in range(13):\n  k = g.GetCell(i)\n  a, b = k.GetPointId(0), k.GetPointId(1)\n"
-        "  assert (a, b) == (c.GetArray('upNodeId').GetValue(i), c.GetArray('downNodeId').GetValue(i)) and p.GetArray('Scalar').GetValue(a) > p.GetArray('Scalar').GetValue(b)\n"
+        "  assert (a, b) == (c.GetArray('upNodeId').GetValue(i), c.GetArray('downNodeId').GetValue(i)) and "
+        "p.GetArray('Scalar').GetValue(a) > p.GetArray('Scalar').GetValue(b)\n"
         "print(p.GetArray('RegionSize').GetRange()[1])\n");
     const Event first = analysis_->event(0);
     std::int64_t largest = 0;
     for (std::int64_t id = 0; id < 14; ++id) largest = std::max(largest, analysis_->event(id).zone.voxels);
     std::ostringstream expected;
-    const auto python_number = [](double x) { return x == std::floor(x) ? std::to_string(static_cast<long>(x)) + ".0" : std::to_string(static_cast<long>(x * 10) / 10) + ".5"; };
+    const auto python_number = [](double x) {
+        return x == std::floor(x) ? std::to_string(static_cast<long>(x)) + ".0" : std::to_string(static_cast<long>(x * 10) / 10) + ".5";
+    };
     const Vec3 place = to_physical(volume_.info.geometry, first.position);
     expected << "14 13 3 " << python_number(2 * first.value + 1) << " 3\n";
     EXPECT_NE(result.text.find(expected.str()), std::string::npos) << result.text << expected.str();
     EXPECT_NE(result.text.find(python_number(static_cast<double>(largest)) + "\n"), std::string::npos) << result.text;
-    const external::Result point = external::python(load + "g = load('" + (folder_ / "tree.vtu") + "')\nprint([round(1000 * x) for x in g.GetPoint(0)])");
+    const external::Result point =
+        external::python(load + "g = load('" + (folder_ / "tree.vtu") + "')\nprint([round(1000 * x) for x in g.GetPoint(0)])");
     std::ostringstream rounded;
     rounded << "[" << std::lround(1000 * place[0]) << ", " << std::lround(1000 * place[1]) << ", " << std::lround(1000 * place[2]) << "]\n";
     EXPECT_EQ(point.text, rounded.str());
-    for (const auto& [detail, cells] : {std::pair{TreeDetail::elements, analysis_->element_count()}, std::pair{TreeDetail::contours, analysis_->contour_arc_count() - 1}}) {
-        const external::Result other = external::python(load + "g = load('" + write("other.vtu", detail) + "')\nprint(g.GetNumberOfPoints(), g.GetNumberOfCells(), g.GetPointData().GetArray('H0').GetNumberOfTuples())");
-        EXPECT_EQ(other.text, std::to_string(analysis_->element_count()) + " " + std::to_string(cells) + " " + std::to_string(analysis_->element_count()) + "\n");
+    for (const auto& [detail, cells] : {std::pair{TreeDetail::elements, analysis_->element_count()},
+                                        std::pair{TreeDetail::contours, analysis_->contour_arc_count() - 1}}) {
+        const external::Result other =
+            external::python(load + "g = load('" + write("other.vtu", detail) +
+                             "')\nprint(g.GetNumberOfPoints(), g.GetNumberOfCells(), g.GetPointData().GetArray('H0').GetNumberOfTuples())");
+        EXPECT_EQ(other.text, std::to_string(analysis_->element_count()) + " " + std::to_string(cells) + " " +
+                                  std::to_string(analysis_->element_count()) + "\n");
     }
 }
 
@@ -144,8 +161,9 @@ TEST_F(TreeFiles, a_single_event_is_a_file_in_every_format) {
 }
 
 TEST_F(TreeFiles, what_cannot_be_is_a_usage_error) {
-    for (const auto& [name, detail] : {std::pair{"tree.txt", TreeDetail::events}, std::pair{"tree", TreeDetail::events}, std::pair{"tree.graphml", TreeDetail::levels},
-                                       std::pair{"tree.graphml", TreeDetail::elements}, std::pair{"tree.vtu", TreeDetail::levels}}) {
+    for (const auto& [name, detail] :
+         {std::pair{"tree.txt", TreeDetail::events}, std::pair{"tree", TreeDetail::events}, std::pair{"tree.graphml", TreeDetail::levels},
+          std::pair{"tree.graphml", TreeDetail::elements}, std::pair{"tree.vtu", TreeDetail::levels}}) {
         try {
             write(name, detail);
             FAIL() << name;

@@ -104,7 +104,8 @@ RC_GTEST_PROP(TreeJson, levels_elements_and_contours_are_the_analysis, ()) {
     for (std::int64_t id = 0; id < analysis.level_count(); ++id) {
         const Json& json = levels["levels"][static_cast<std::size_t>(id)];
         const Level level = analysis.level(id);
-        RC_ASSERT(json["value"] == level.value && json["event"] == level.event && json["in"] == Json(level.in) && json["out"] == Json(level.out));
+        RC_ASSERT(json["value"] == level.value && json["event"] == level.event && json["in"] == Json(level.in) &&
+                  json["out"] == Json(level.out));
     }
     for (std::int64_t id = 0; id < analysis.element_count(); ++id) {
         const Json& json = elements["elements"][static_cast<std::size_t>(id)];
@@ -200,7 +201,9 @@ TEST(JsonStream, numbers_text_and_layout) {
     json.begin_object().key("a").begin_array().value(0.1).value(1e300).value(-0.0).value(std::numeric_limits<double>::infinity());
     json.value(std::numeric_limits<double>::quiet_NaN()).value(std::int64_t{-9007199254740993}).value(~std::uint64_t{0}).end_array();
     json.key("b\"").value("\x01\\/\x7f").line().key("c").begin_array().end_array().key("d").value(false).end_object().finish();
-    EXPECT_EQ(text, "{\"a\":[0.1,1e+300,-0,null,null,-9007199254740993,18446744073709551615],\"b\\\"\":\"\\u0001\\\\/\x7f\",\n\"c\":[],\"d\":false}\n");
+    EXPECT_EQ(
+        text,
+        "{\"a\":[0.1,1e+300,-0,null,null,-9007199254740993,18446744073709551615],\"b\\\"\":\"\\u0001\\\\/\x7f\",\n\"c\":[],\"d\":false}\n");
     EXPECT_EQ(Json::parse(text)["b\""], "\x01\\/\x7f");
 }
 
