@@ -1,11 +1,11 @@
-// Sorting on several threads: samples cut the values into buckets, buckets are sorted on their own, small enough for the cache.
-// The order must be strict and total: then the result does not depend on threads nor buckets.
+// Sorting on several threads: samples cut the keys into buckets, buckets are sorted on their own, small enough for the cache.
+// The order must be strict and total: then the result does not depend on threads, chunks nor buckets.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/big_vector.h"
@@ -13,65 +13,74 @@
 
 namespace isoatlas {
 
-/// Sorts items by before(p, q), where before must agree with key (a double): key(p) < key(q) implies before(p, q). Uses a second array.
+/// Cuts the real line into buckets of about equal numbers of keys.
+class Buckets {
+public:
+    /// sample: some of the keys. buckets: at most 65535.
+    Buckets(std::vector<double> sample, std::size_t buckets) : count_(buckets) {
+        std::sort(sample.begin(), sample.end());
+        for (std::size_t b = 1; b < buckets; ++b) splitters_.push_back(sample[b * sample.size() / buckets]);
+        // Equal steps over the keys narrow a search down to the splitters within a step.
+        steps_ = static_cast<double>(4 * buckets);
+        first_of_step_.assign(4 * buckets + 2, 0);
+        if (splitters_.empty()) return;
+        low_ = splitters_.front();
+        const double width = splitters_.back() - low_;
+        factor_ = width > 0 && steps_ / width < 1e300 ? steps_ / width : 0;
+        for (const double splitter : splitters_) ++first_of_step_[step_of(splitter) + 1];
+        for (std::size_t s = 1; s < first_of_step_.size(); ++s) first_of_step_[s] += first_of_step_[s - 1];
+    }
+    [[nodiscard]] std::size_t count() const { return count_; }
+    /// Ascends with the key.
+    [[nodiscard]] std::size_t of(double key) const {
+        const std::size_t step = step_of(key);
+        const auto begin = splitters_.begin() + first_of_step_[step], end = splitters_.begin() + first_of_step_[step + 1];
+        return static_cast<std::size_t>(std::lower_bound(begin, end, key) - splitters_.begin());
+    }
+
+private:
+    [[nodiscard]] std::size_t step_of(double key) const { return static_cast<std::size_t>(std::clamp((key - low_) * factor_, 0.0, steps_)); }
+
+    std::size_t count_;
+    std::vector<double> splitters_;  // bucket b holds the keys in (splitter[b-1], splitter[b]]
+    std::vector<std::uint32_t> first_of_step_;
+    double steps_ = 0, low_ = 0, factor_ = 0;
+};
+
+/// All items of the chunks, sorted by before(p, q), which must agree with key (a double): key(p) < key(q) implies before(p, q).
+/// Consumes the chunks. Cost: O(n log n) time, a second copy of the items.
 template <class T, class Key, class Before>
-void bucket_sort(int threads, BigVector<T>& items, const Key& key, const Before& before) {
-    constexpr std::size_t kSmall = 1 << 14, kBucket = 1 << 10, kBlocks = 64;
-    const std::size_t n = items.size();
-    if (n < kSmall) {
-        std::sort(items.begin(), items.end(), before);
-        return;
+BigVector<T> sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before) {
+    constexpr std::size_t kBucket = 1 << 10, kMostBuckets = 1 << 12, kSampled = 16;
+    std::size_t n = 0;
+    for (const BigVector<T>& chunk : chunks) n += chunk.size();
+    const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMostBuckets);
+    std::vector<double> sample;
+    const std::size_t stride = std::max<std::size_t>(1, n / (kSampled * count));
+    for (const BigVector<T>& chunk : chunks) {
+        for (std::size_t i = 0; i < chunk.size(); i += stride) sample.push_back(key(chunk[i]));
     }
-    const std::size_t buckets = std::min<std::size_t>(n / kBucket, 1 << 12);
-    std::vector<decltype(key(items[0]))> splitters;  // bucket b holds the keys in (splitter[b-1], splitter[b]]
-    {
-        std::vector<decltype(key(items[0]))> samples;
-        const std::size_t stride = std::max<std::size_t>(1, n / (16 * buckets));
-        for (std::size_t i = 0; i < n; i += stride) samples.push_back(key(items[i]));
-        std::sort(samples.begin(), samples.end());
-        for (std::size_t b = 1; b < buckets; ++b) splitters.push_back(samples[b * samples.size() / buckets]);
-    }
-    // Equal steps over the keys narrow the search down to the splitters within a step.
-    const double low = splitters.front(), width = splitters.back() - low;
-    const double steps = static_cast<double>(4 * buckets), factor = width > 0 && steps / width < 1e300 ? steps / width : 0;
-    const auto step_of = [&](double k) { return static_cast<std::size_t>(std::clamp((k - low) * factor, 0.0, steps)); };
-    std::vector<std::uint16_t> first_of_step(4 * buckets + 2, 0);
-    for (const double splitter : splitters) ++first_of_step[step_of(splitter) + 1];
-    for (std::size_t s = 1; s < first_of_step.size(); ++s) first_of_step[s] = static_cast<std::uint16_t>(first_of_step[s] + first_of_step[s - 1]);
-    const auto bucket_of = [&](const T& item) {
-        const double k = key(item);
-        const std::size_t step = step_of(k);
-        const auto begin = splitters.begin() + first_of_step[step], end = splitters.begin() + first_of_step[step + 1];
-        return static_cast<std::uint16_t>(std::lower_bound(begin, end, k) - splitters.begin());
-    };
-    // Count per block and bucket, turn counts into places, scatter, sort every bucket.
-    const auto block_range = [&](std::size_t block) { return std::array{n * block / kBlocks, n * (block + 1) / kBlocks}; };
-    std::vector<std::size_t> place(kBlocks * buckets, 0);
-    BigVector<std::uint16_t> bucket(n);
-    for_each_block(threads, kBlocks, [&](std::int64_t block) {
-        const auto [begin, end] = block_range(block);
-        for (std::size_t i = begin; i < end; ++i) ++place[block * buckets + (bucket[i] = bucket_of(items[i]))];
+    const Buckets buckets(std::move(sample), count);
+
+    // Count per chunk and bucket, turn counts into places, scatter, sort every bucket.
+    std::vector<std::size_t> place(chunks.size() * count, 0), first(count + 1, 0);
+    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+        for (const T& item : chunks[c]) ++place[c * count + buckets.of(key(item))];
     });
-    std::vector<std::size_t> first(buckets + 1, 0);
     std::size_t next = 0;
-    for (std::size_t b = 0; b < buckets; ++b) {
+    for (std::size_t b = 0; b < count; ++b) {
         first[b] = next;
-        for (std::size_t block = 0; block < kBlocks; ++block) {
-            const std::size_t count = place[block * buckets + b];
-            place[block * buckets + b] = next;
-            next += count;
-        }
+        for (std::size_t c = 0; c < chunks.size(); ++c) next += std::exchange(place[c * count + b], next);
     }
-    first[buckets] = n;
+    first[count] = n;
     BigVector<T> sorted(n);
-    for_each_block(threads, kBlocks, [&](std::int64_t block) {
-        const auto [begin, end] = block_range(block);
-        for (std::size_t i = begin; i < end; ++i) sorted[place[block * buckets + bucket[i]]++] = items[i];
+    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+        for (const T& item : chunks[c]) sorted[place[c * count + buckets.of(key(item))]++] = item;
+        release(chunks[c]);
     });
-    release(items);
-    for_each_block(threads, static_cast<std::int64_t>(buckets),
+    for_each_block(threads, static_cast<std::int64_t>(count),
                    [&](std::int64_t b) { std::sort(sorted.begin() + first[b], sorted.begin() + first[b + 1], before); });
-    items.swap(sorted);
+    return sorted;
 }
 
 }  // namespace isoatlas

@@ -16,17 +16,6 @@ void stop_if_cancelled(const Context& context) {
     if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
 }
 
-/// Critical elements in raster order with what they lead to: {up_a, up_b, low_a, low_b}; in chunks of at most SlabScan::kChunk.
-/// Element i of chunk c is number c * kChunk + i: numbers have gaps but ascend in raster order.
-template <class Id>
-struct RasterElements {
-    static constexpr std::size_t kChunk = SlabScan::kChunk;
-    std::vector<BigVector<KeyedElement>> element;
-    std::vector<BigVector<std::array<Id, 4>>> leads_to;
-
-    [[nodiscard]] const KeyedElement& element_of(Id number) const { return element[number / kChunk][number % kChunk]; }
-};
-
 /// Where the surroundings of a critical element lead (theory.md section 4, step 2).
 template <class Id>
 class Representatives {
@@ -84,27 +73,11 @@ BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Directio
     return basin;
 }
 
-/// Sorts and takes the arrays apart; the raster arrays are given back as soon as they are not needed.
+/// Sorts the elements, takes them apart into arrays, and looks up where each one leads.
 template <class Id>
-CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int threads) {
-    struct Entry {
-        double value;
-        Id raster;
-    };
-    std::vector<std::size_t> first{0};  // place of the first element of each chunk
-    for (const auto& chunk : raster.element) first.push_back(first.back() + chunk.size());
-    const std::size_t n = first.back();
-    const auto chunks = static_cast<std::int64_t>(raster.element.size());
-    BigVector<Entry> order(n);
-    for_each_block(threads, chunks, [&](std::int64_t c) {
-        for (std::size_t i = 0; i < raster.element[c].size(); ++i) {
-            order[first[c] + i] = {raster.element[c][i].value, static_cast<Id>(c * RasterElements<Id>::kChunk + i)};
-        }
-    });
-    bucket_sort(threads, order, [](const Entry& entry) { return -entry.value; }, [&](const Entry& p, const Entry& q) {
-        if (p.value != q.value) return p.value > q.value;
-        return above(raster.element_of(p.raster), raster.element_of(q.raster));
-    });
+CriticalSet<Id> sort_elements(std::vector<BigVector<KeyedElement>> chunks, const Above& above, const Representatives<Id>& leads, int threads) {
+    BigVector<KeyedElement> sorted = sort_chunks(threads, std::move(chunks), [](const KeyedElement& element) { return -element.value; }, above);
+    const std::size_t n = sorted.size();
     constexpr std::size_t kBlock = 1 << 16;
     const auto for_each = [&](auto&& work) {
         for_each_block(threads, static_cast<std::int64_t>((n + kBlock - 1) / kBlock), [&](std::int64_t b) {
@@ -114,16 +87,12 @@ CriticalSet<Id> sort_elements(RasterElements<Id> raster, const Above& above, int
     CriticalSet<Id> set;
     set.value.resize(n);
     set.code.resize(n);
-    for_each([&](std::size_t i) {
-        set.value[i] = order[i].value;
-        set.code[i] = raster.element_of(order[i].raster).code.bits;
-    });
-    raster.element.clear();
+    for_each([&](std::size_t i) { set.value[i] = sorted[i].value, set.code[i] = sorted[i].code.bits; });
+    release(sorted);
     for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
     for_each([&](std::size_t i) {
-        const Id number = order[i].raster;
-        const std::array<Id, 4>& leads = raster.leads_to[number / raster.kChunk][number % raster.kChunk];
-        set.up_a[i] = leads[0], set.up_b[i] = leads[1], set.low_a[i] = leads[2], set.low_b[i] = leads[3];
+        const std::array<Id, 4> to = leads.of(ElementCode{set.code[i]});
+        set.up_a[i] = to[0], set.up_b[i] = to[1], set.low_a[i] = to[2], set.low_b[i] = to[3];
     });
     return set;
 }
@@ -150,32 +119,22 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
         scans[i] = scan_slab(grid_, slab, std::span<std::uint8_t>(links).subspan(first, count));
     });
 
-    Criticals<Id> result;
     std::vector<std::int64_t> first_maximum(slabs), first_minimum(slabs);
-    RasterElements<Id> raster;
+    std::int64_t maxima = 0, minima = 0;
+    std::vector<BigVector<KeyedElement>> elements;
     for (std::int64_t i = 0; i < slabs; ++i) {
-        first_maximum[i] = result.set.maxima, first_minimum[i] = result.set.minima;
-        result.set.maxima += scans[i].maxima, result.set.minima += scans[i].minima;
-        for (BigVector<KeyedElement>& chunk : scans[i].chunks) raster.element.push_back(std::move(chunk));
+        first_maximum[i] = std::exchange(maxima, maxima + scans[i].maxima);
+        first_minimum[i] = std::exchange(minima, minima + scans[i].minima);
+        for (BigVector<KeyedElement>& chunk : scans[i].chunks) elements.push_back(std::move(chunk));
     }
-    scans.clear();
     stop_if_cancelled(context);
     context.report("basins", 1, kPhases, 0);
+    Criticals<Id> result;
     result.basin = resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
-    BigVector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
-
-    raster.leads_to.resize(raster.element.size());
-    const Representatives<Id> representatives(extent, links, result.basin, down);
-    for_each_block(context.threads, static_cast<std::int64_t>(raster.element.size()), [&](std::int64_t c) {
-        raster.leads_to[c].resize(raster.element[c].size());
-        for (std::size_t i = 0; i < raster.element[c].size(); ++i) raster.leads_to[c][i] = representatives.of(raster.element[c][i].code);
-    });
-    release(links);
-    release(down);
+    const BigVector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
     stop_if_cancelled(context);
     context.report("sort", 2, kPhases, 0);
-    const std::int64_t maxima = result.set.maxima, minima = result.set.minima;
-    result.set = sort_elements(std::move(raster), above_, context.threads);
+    result.set = sort_elements<Id>(std::move(elements), above_, {extent, links, result.basin, down}, context.threads);
     result.set.maxima = maxima, result.set.minima = minima, result.set.rank = extent.rank;
     return result;
 }

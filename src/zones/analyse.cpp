@@ -44,8 +44,8 @@ BigVector<Id> elements_of_maxima(const CriticalSet<Id>& set) {
 /// Zones of all voxels and their sizes. maxima: their elements. The basins become the zones in place.
 template <class T, class Id>
 void make_zones(const GridView<T>& grid, BigVector<Id> maxima, BigVector<Id> basin, AnalysisArrays<Id>& arrays, const Context& context) {
-    for (Id& i : maxima) i = arrays.tree.event_of_element[i];
-    const HeavyPaths<Id, ComparisonValue<T>> paths(arrays.tree, arrays.value, maxima);
+    const HeavyPaths<Id, ComparisonValue<T>> paths(arrays.tree, arrays.value, maxima, context.threads);
+    release(maxima);
     arrays.voxels.assign(arrays.tree.size(), Id{0});
     const std::int64_t height = slab_height(grid.extent, context), slabs = (grid.extent.size[2] + height - 1) / height;
     for_each_block(context.threads, slabs, [&](std::int64_t i) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "base/parallel.h"
 
 namespace isoatlas {
 namespace {
@@ -33,57 +36,74 @@ BigVector<Id> heavy_children(const CriticalityTree<Id>& tree, BigVector<Id>& wei
 }  // namespace
 
 template <class Id, class Value>
-HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima)
+HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads)
     : stops_(tree.size()), bucket_(tree.size()), start_(maxima.size()) {
-    lay_out(tree, value, maxima);
-    for (Id path = 0; path + 1 < paths_.size(); ++path) make_buckets(path);
+    lay_out(tree, value, maxima, threads);
+    for (Id path = 0; path + 1 < paths_.size(); ++path) prepare_scale(path);
+    for_each_block(threads, blocks(), [&](std::int64_t b) {
+        for (std::size_t path = b * kBlock; path < std::min((b + 1) * kBlock, paths_.size() - 1); ++path) make_buckets(static_cast<Id>(path));
+    });
+}
+
+// One path a leaf event. A leaf event's top element is a maximum, so paths are the maxima that are the top of their event, in raster order.
+template <class Id, class Value>
+void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads) {
+    const BigVector<Id> heavy = heavy_children(tree, bucket_);
+    paths_.reserve(maxima.size() + 1);
+    for (const Id element : maxima) {
+        const Id top = tree.event_of_element[element];
+        if (tree.top[top] == element && heavy[top] == top) paths_.push_back({0, top, 0});  // its top for now, then its length
+    }
+    const auto ends_at = [&](Id e) { return tree.is_root(e) || heavy[tree.parent[e]] != e; };
+    const auto for_each_path = [&](auto&& work) {
+        for_each_block(threads, blocks(), [&](std::int64_t b) {
+            for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, paths_.size() - 1); ++i) work(paths_[i], static_cast<Id>(i));
+        });
+    };
+    paths_.push_back({0, 0, 0});
+    for_each_path([&](Path& path, Id) {
+        for (Id e = path.below;; e = tree.parent[e]) {
+            ++path.first;
+            if (ends_at(e)) break;
+        }
+    });
+    Id next = 0;
+    for (Path& path : paths_) next += std::exchange(path.first, next);
+    BigVector<Id> path_of(tree.size());
+    for_each_path([&](Path& path, Id number) {
+        Id position = paths_[number + 1].first;
+        for (Id e = path.below;; e = tree.parent[e]) {
+            path_of[e] = number;
+            stops_[--position] = {rounded_down<Value>(value[tree.top[e]]), e};
+            if (ends_at(e)) break;
+        }
+    });
+    for_each_path([&](Path& path, Id) {
+        const Id bottom = stops_[path.first].event, parent = tree.parent[bottom];
+        path.below = path_of[parent];
+        path.value_below = tree.is_root(bottom) ? -std::numeric_limits<Value>::infinity() : rounded_down<Value>(value[tree.top[parent]]);
+    });
+    for (std::size_t m = 0; m < maxima.size(); ++m) start_[m] = path_of[tree.event_of_element[maxima[m]]];
 }
 
 template <class Id, class Value>
-void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima) {
-    constexpr Id kNone = std::numeric_limits<Id>::max();
-    BigVector<Id> path_of(tree.size(), kNone);
-    {
-        const BigVector<Id> heavy = heavy_children(tree, bucket_);
-        paths_.reserve(maxima.size() + 1);
-        Id end = 0;
-        for (const Id top : maxima) {
-            if (path_of[top] != kNone || heavy[top] != top) continue;  // a leaf starts exactly one path
-            const auto path = static_cast<Id>(paths_.size());
-            Id bottom = top, length = 1;
-            for (; !tree.is_root(bottom) && heavy[tree.parent[bottom]] == bottom; bottom = tree.parent[bottom]) ++length;
-            paths_.push_back({0, 0, end});
-            end += length;
-            Id position = end;
-            for (Id e = top;; e = tree.parent[e]) {
-                path_of[e] = path;
-                stops_[--position] = {rounded_down<Value>(value[tree.top[e]]), e};
-                if (e == bottom) break;
-            }
-        }
-        paths_.push_back({0, 0, end});
-    }
-    for (Id path = 0; path + 1 < paths_.size(); ++path) {
-        const Id bottom = stops_[paths_[path].first].event, parent = tree.parent[bottom];
-        paths_[path].below = path_of[parent];
-        paths_[path].value_below =
-            tree.is_root(bottom) ? -std::numeric_limits<Value>::infinity() : rounded_down<Value>(value[tree.top[parent]]);
-    }
-    for (std::size_t m = 0; m < maxima.size(); ++m) start_[m] = path_of[maxima[m]];
+void HeavyPaths<Id, Value>::prepare_scale(Id path) {
+    if (count(path) < kBucketed) return;
+    const Id first = paths_[path].first, end = paths_[path + 1].first, buckets = count(path) - 1;
+    const double low = stops_[first].value, width = static_cast<double>(stops_[end - 1].value) - low;
+    const double factor = static_cast<double>(buckets) / width;
+    bucket_[first] = static_cast<Id>(scales_.size());
+    scales_.push_back({low, factor < std::numeric_limits<double>::max() ? factor : 0});  // a width that underflows: one bucket
 }
 
 template <class Id, class Value>
 void HeavyPaths<Id, Value>::make_buckets(Id path) {
     if (count(path) < kBucketed) return;
     const Id first = paths_[path].first, end = paths_[path + 1].first, buckets = count(path) - 1;
-    const double low = stops_[first].value, width = static_cast<double>(stops_[end - 1].value) - low;
-    double factor = static_cast<double>(buckets) / width;
-    if (!(factor < std::numeric_limits<double>::max())) factor = 0;  // a width that underflows: one bucket
-    bucket_[first] = static_cast<Id>(scales_.size());
-    scales_.push_back({low, factor});
+    const Scale& scale = scales_[bucket_[first]];
     Id next = 0;
     for (Id p = first; p < end; ++p) {
-        const std::size_t last = bucket(scales_.back(), buckets, stops_[p].value);
+        const std::size_t last = bucket(scale, buckets, stops_[p].value);
         while (next <= last) bucket_[first + 1 + next++] = p;
     }
     while (next < buckets) bucket_[first + 1 + next++] = end - 1;

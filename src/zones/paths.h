@@ -25,8 +25,8 @@ using ComparisonValue = std::conditional_t<std::is_same_v<T, float> || sizeof(T)
 template <class Id, class Value>
 class HeavyPaths {
 public:
-    /// value: per element (tree.top gives the element of an event). maxima: per maximum, in raster order, its event.
-    HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima);
+    /// value: per element (tree.top gives the element of an event). maxima: per maximum, in raster order, its element.
+    HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads);
 
     /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to maximum[i]: the event e on the way down with
     /// value(parent(e)) < x[i] <= value(e). In rounds over all samples, so that their cache misses overlap.
@@ -46,10 +46,13 @@ private:
     struct Scale {
         double low, factor;   ///< bucket of x = (x - low) * factor
     };
-    static constexpr Id kBucketed = 16;  ///< shorter paths are searched directly
+    static constexpr Id kBucketed = 16;           ///< shorter paths are searched directly
+    static constexpr std::size_t kBlock = 1 << 14;  ///< paths that are laid out as one unit of work
 
-    void lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima);
+    void lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads);
+    void prepare_scale(Id path);
     void make_buckets(Id path);
+    [[nodiscard]] std::int64_t blocks() const { return static_cast<std::int64_t>((paths_.size() + kBlock - 1) / kBlock); }
     [[nodiscard]] Id count(Id path) const { return paths_[path + 1].first - paths_[path].first; }
     [[nodiscard]] std::size_t bucket(const Scale& scale, Id buckets, Value x) const;
     [[nodiscard]] Id search_from(Id path, Value x) const;
