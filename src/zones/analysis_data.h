@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/lazy.h"
 #include "isoatlas/analysis.h"
 #include "tree/criticality_tree.h"
 
@@ -48,12 +49,10 @@ AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays);
 template <class Id>
 struct IndexedArrays {
     AnalysisArrays<Id> arrays;
-    mutable std::once_flag once{};
-    mutable AnalysisIndex<Id> lazy{};
+    Lazy<AnalysisIndex<Id>> lazy;
 
     [[nodiscard]] const AnalysisIndex<Id>& index() const {
-        std::call_once(once, [this] { lazy = index_analysis(arrays); });
-        return lazy;
+        return lazy.get([this] { return index_analysis(arrays); });
     }
 };
 

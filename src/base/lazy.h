@@ -1,0 +1,22 @@
+// A value that is made when it is first asked for, once, whichever thread asks.
+#pragma once
+
+#include <mutex>
+
+namespace isoatlas {
+
+template <class T>
+class Lazy {
+public:
+    template <class Make>
+    [[nodiscard]] const T& get(const Make& make) const {
+        std::call_once(once_, [&] { value_ = make(); });
+        return value_;
+    }
+
+private:
+    mutable std::once_flag once_;
+    mutable T value_{};
+};
+
+}  // namespace isoatlas
