@@ -58,7 +58,9 @@ TEST(WriteVolume, GeometryAndCalibration) {
             const Volume back = load_volume(folder / name);
             EXPECT_EQ(back.info.geometry.spacing, geometry.spacing);
             EXPECT_EQ(back.info.geometry.unit, "mm");
-            if (name != "v.mha") EXPECT_EQ(back.info.calibration, volume.info.calibration);
+            if (name != "v.mha") {
+                EXPECT_EQ(back.info.calibration, volume.info.calibration);
+            }
             const std::string from = geometry.space == "unknown" ? back.info.geometry.space : geometry.space, to = back.info.geometry.space;
             EXPECT_EQ(to, name == "v.nii" ? "RAS" : geometry.space == "unknown" ? "unknown" : name == "v.mha" ? "LPS" : geometry.space);
             const Vec3 there = to_physical(geometry, {3, 2, 1}), here = to_physical(back.info.geometry, {3, 2, 1});
@@ -197,13 +199,16 @@ TEST(WriteVolume, FilesOfOthersAreRead) {
             options.dims = {7, 5, 3};
             options.type = static_cast<ValueType>(t);
             EXPECT_TRUE(volume.bytes == load_volume(folder / (type + ".expected"), options).bytes);
-            if (end[1] <= '3')
+            if (end[1] <= '3') {
                 EXPECT_EQ(volume.info.geometry, (Geometry{.spacing = {1.5, 2, 3},
                                                           .origin = {-4, 5, 6},
                                                           .direction = {{{0, 0, 1}, {0, -1, 0}, {1, 0, 0}}},
                                                           .space = "RAS",
                                                           .unit = volume.info.geometry.unit}));
-            if (end[1] == '7') EXPECT_EQ(volume.info.geometry, (Geometry{.spacing = {0.5, 0.5, 4}, .unit = "um"}));
+            }
+            if (end[1] == '7') {
+                EXPECT_EQ(volume.info.geometry, (Geometry{.spacing = {0.5, 0.5, 4}, .unit = "um"}));
+            }
         }
     }
 }
