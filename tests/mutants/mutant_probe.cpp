@@ -1,0 +1,88 @@
+// A fixed, quick set of the suite's properties: exits 0 when all hold, 1 with the first difference. run_mutants.py links it against
+// libraries with one deliberate bug each and demands that it fails.
+#include <cstdio>
+#include <random>
+
+#include "isoatlas/surface.h"
+#include "oracle/compare.h"
+#include "oracle/volumes.h"
+
+namespace {
+
+using oracle::Index;
+
+[[noreturn]] void fail(const std::string& what, const oracle::Grid& grid) {
+    std::ostringstream text;
+    text << what << "\n  " << grid << '\n';
+    std::fputs(text.str().c_str(), stdout);
+    std::exit(1);
+}
+
+double signed_volume(const isoatlas::Surface& surface) {
+    double volume = 0;
+    for (const auto& t : surface.triangles) {
+        const auto &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return volume / 6;
+}
+
+void check_surface(const oracle::Elements& elements, const isoatlas::Volume& volume, double tau) {
+    const isoatlas::Surface surface = isoatlas::extract(volume, tau);
+    const isoatlas::SurfaceReport report = isoatlas::inspect(surface.points, surface.triangles);
+    const bool sound = report.is_closed() && report.is_manifold() && report.is_oriented() && report.has_no_zero_area();
+    if (!sound) fail("the surface is not closed, manifold, oriented and free of slivers", elements.grid);
+    const oracle::Snapshot s = oracle::snapshot(elements, elements.cut_at(tau));
+    std::vector<Index> expected, actual(report.component_chi.begin(), report.component_chi.end());
+    for (const oracle::Contour& contour : s.contours) expected.push_back(2 - 2 * contour.genus);
+    std::sort(expected.begin(), expected.end());
+    std::sort(actual.begin(), actual.end());
+    if (expected != actual) fail("the surface's components are not the contours", elements.grid);
+    if (!s.objects.empty() && !(signed_volume(surface) > 0)) fail("the normals point to higher values", elements.grid);
+}
+
+void check_volume(const oracle::Grid& grid, bool with_surface) {
+    const oracle::Elements elements(grid);
+    const oracle::Result expected = oracle::analyse(elements);
+    if (!expected.consistent) fail("the oracle contradicts the theory", grid);
+    const isoatlas::Volume volume = oracle::to_volume(grid);
+    isoatlas::Context context;
+    context.threads = 1;
+    context.slab_slices = 1;
+    const std::string difference = oracle::compare(expected, isoatlas::analyse(volume, {}, context));
+    if (!difference.empty()) fail(difference, grid);
+    const std::vector<double> values = oracle::interesting_values(elements);
+    const std::size_t step = std::max<std::size_t>(1, values.size() / 6);
+    for (std::size_t i = 0; i < values.size(); i += step) {
+        isoatlas::CutOptions options;
+        options.label = true;
+        const std::string cut = oracle::compare_cut(elements, values[i], isoatlas::cut(volume, values[i], options, context));
+        if (!cut.empty()) fail(cut, grid);
+        if (with_surface && grid.rank == 3) check_surface(elements, volume, values[i]);
+    }
+}
+
+}  // namespace
+
+int main() try {
+    std::mt19937 random(20240501);
+    const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    for (int trial = 0; trial < 400; ++trial) {
+        const int rank = trial % 4 == 3 ? 2 : 3;
+        std::array<Index, 3> size{};
+        for (Index& s : size) s = 1 + below(rank == 2 ? 7 : 5);
+        if (size[0] * size[1] * size[2] > 64) size[below(3)] = 2;
+        std::vector<int> raw(343);
+        for (int& r : raw) r = below(10000);
+        oracle::Grid grid = oracle::make_grid(rank, size, static_cast<oracle::Texture>(trial % oracle::kTextures), raw);
+        const bool huge = trial % 12 == 5;  // products overflow: face values come from the clamps
+        if (huge) {
+            for (double& v : grid.value) v = (v - 40) * 1e200;
+        }
+        check_volume(grid, !huge);
+    }
+    return 0;
+} catch (const std::exception& error) {
+    std::printf("exception: %s\n", error.what());
+    return 1;
+}

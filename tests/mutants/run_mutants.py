@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""Builds the library once per mutant of mutants.txt and demands that mutant_probe notices.
+
+Only the translation units that see the changed file are compiled again (-O1, from an overlay that comes first in the include path);
+everything else comes from the library that is already built."""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+STAGES = ("base", "field", "critical", "tree", "zones", "query", "mesh")  # what the probe runs
+
+
+def parse(path):
+    """[{mutant, file, old, new}] of mutants.txt; anything unexpected is an error."""
+    mutants = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        key, _, text = line.partition(" ")
+        if key == "mutant":
+            mutants.append({})
+        if key not in ("mutant", "file", "old", "new") or not mutants or key in mutants[-1]:
+            sys.exit(f"{path}:{number}: unexpected line: {line}")
+        mutants[-1][key] = text.strip()
+    for mutant in mutants:
+        if len(mutant) != 4:
+            sys.exit(f"{path}: incomplete mutant {mutant}")
+    return mutants
+
+
+def mutated(source, mutant):
+    pattern = r"\s+".join(re.escape(word) for word in mutant["old"].split())
+    text, count = re.subn(pattern, lambda _: mutant["new"], source)
+    if count != 1:
+        raise RuntimeError(f"'old' occurs {count} times in src/{mutant['file']}: keep mutants.txt in step with the code")
+    return text
+
+
+def users(src, name):
+    """Translation units of the stages that include src/name, directly or not."""
+    includes = {}
+    for file in src.rglob("*"):
+        if file.suffix in (".h", ".cpp"):
+            key = file.relative_to(src).as_posix()
+            includes[key] = set(re.findall(r'#include "([^"]+)"', file.read_text()))
+    seen, todo = set(), [name]
+    while todo:
+        current = todo.pop()
+        if current in seen:
+            continue
+        seen.add(current)
+        todo += [file for file, included in includes.items() if current in included]
+    return sorted(file for file in seen if file.endswith(".cpp") and file.split("/")[0] in STAGES)
+
+
+def compile_command(commands, src, overlay, unit, output):
+    entry = commands[str(src / unit)]
+    words = shlex.split(entry["command"])
+    kept, skip = [], False
+    for word in words[1:]:
+        if skip or word in ("-o", "-MF", "-MT", "-MQ", "-c"):
+            skip = not skip and word != "-c"
+            continue
+        if word in ("-MD", "-MMD") or re.fullmatch(r"-O\w|-g\w*", word) or word == str(src / unit) or word.endswith((".cpp", ".o")):
+            continue
+        kept.append(word)
+    compiler = words[0]
+    if compiler.endswith("ccache"):
+        kept.insert(0, kept.pop(0))
+    source = overlay / unit if (overlay / unit).exists() else src / unit
+    return [compiler, *kept[:1], f"-I{overlay}", *kept[1:], "-O1", "-w", "-c", str(source), "-o", str(output)], entry["directory"]
+
+
+def check(arguments, commands, mutant):
+    name = mutant["mutant"].split(":")[0]
+    src = arguments.source / "src"
+    with tempfile.TemporaryDirectory(prefix="mutant_") as folder:
+        overlay = pathlib.Path(folder) / "src"
+        target = overlay / mutant["file"]
+        target.parent.mkdir(parents=True)
+        target.write_text(mutated((src / mutant["file"]).read_text(), mutant))
+        objects = []
+        for unit in users(src, mutant["file"]):
+            objects.append(pathlib.Path(folder) / (unit.replace("/", "_") + ".o"))
+            command, directory = compile_command(commands, src, overlay, unit, objects[-1])
+            done = subprocess.run(command, cwd=directory, capture_output=True, text=True)
+            if done.returncode != 0:
+                return name, "DOES NOT COMPILE", done.stderr[:2000]
+        probe = pathlib.Path(folder) / "probe"
+        link = [arguments.compiler, *arguments.probe, *objects, *arguments.libraries, "-o", probe]
+        done = subprocess.run([str(word) for word in link], capture_output=True, text=True)
+        if done.returncode != 0:
+            return name, "DOES NOT LINK", done.stderr[:2000]
+        try:
+            done = subprocess.run([probe], capture_output=True, text=True, timeout=300)
+        except subprocess.TimeoutExpired:
+            return name, "caught", "does not end"
+        if done.returncode == 0:
+            return name, "SURVIVED", mutant["mutant"]
+        return name, "caught", (done.stdout + done.stderr).splitlines()[0] if done.stdout + done.stderr else f"exit {done.returncode}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--source", type=pathlib.Path, required=True)
+    parser.add_argument("--commands", type=pathlib.Path, required=True, help="compile_commands.json")
+    parser.add_argument("--compiler", required=True)
+    parser.add_argument("--probe", nargs="+", required=True, help="object files of the probe")
+    parser.add_argument("--libraries", nargs="+", required=True)
+    parser.add_argument("--only", help="names that contain this")
+    arguments = parser.parse_args()
+    arguments.libraries = [word if word.startswith("/") else "-l" + word for word in arguments.libraries]
+    commands = {entry["file"]: entry for entry in json.loads(arguments.commands.read_text())}
+    mutants = [m for m in parse(arguments.source / "tests/mutants/mutants.txt") if not arguments.only or arguments.only in m["mutant"]]
+    bad = 0
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        jobs = [pool.submit(check, arguments, commands, mutant) for mutant in mutants]
+        for mutant, job in zip(mutants, jobs):
+            try:
+                name, verdict, detail = job.result()
+            except RuntimeError as error:
+                name, verdict, detail = mutant["mutant"].split(":")[0], "STALE", str(error)
+            bad += verdict != "caught"
+            print(f"{verdict:10} {name}: {detail}", flush=True)
+    print(f"{len(mutants) - bad} of {len(mutants)} mutants caught")
+    return 1 if bad or len(mutants) == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
