@@ -11,27 +11,15 @@ namespace {
 template <class Id>
 constexpr Id kNone = std::numeric_limits<Id>::max();
 
-/// Per element: the lowest element of its group of equal-valued join nodes.
-template <class Id>
-BigVector<Id> group_bottoms(std::span<const Id> join, std::span<const double> value) {
-    const std::size_t n = value.size();
-    BigVector<Id> bottom(n);
-    for (std::size_t i = n; i-- > 0;) {
-        const std::size_t next = join[i];
-        bottom[i] = next < n && value[next] == value[i] ? bottom[next] : static_cast<Id>(i);
-    }
-    return bottom;
-}
-
 /// Numbers the groups with a non-trivial level by their highest element. event[b]: at bottoms of such groups.
 template <class Id>
-BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, CriticalityTree<Id>& tree) {
+BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, const LevelFlow<Id>& flow, CriticalityTree<Id>& tree) {
     const std::size_t n = bottom.size();
     constexpr Id kKept = kNone<Id> - 1;  // to be numbered
     BigVector<Id> event(n, kNone<Id>);
     std::size_t events = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        if (level[i] != static_cast<Id>(i) || flow[i].is_trivial()) continue;
+        if (level[i] != static_cast<Id>(i) || flow.is_trivial(i)) continue;
         events += event[bottom[i]] == kNone<Id>;
         event[bottom[i]] = kKept;
     }
@@ -68,9 +56,20 @@ void link_events(std::span<const Id> join, std::span<const Id> bottom, BigVector
 }  // namespace
 
 template <class Id>
-CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, std::span<const double> value) {
+BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> value) {
+    const std::size_t n = value.size();
+    BigVector<Id> bottom(n);
+    for (std::size_t i = n; i-- > 0;) {
+        const std::size_t next = join[i];
+        bottom[i] = next < n && value[next] == value[i] ? bottom[next] : static_cast<Id>(i);
+    }
+    return bottom;
+}
+
+template <class Id>
+CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow) {
     CriticalityTree<Id> tree;
-    BigVector<Id> bottom = group_bottoms(join, value);
+    BigVector<Id>& bottom = group;
     BigVector<Id> event = number_events<Id>(bottom, level, flow, tree);
     link_events<Id>(join, bottom, event, tree);
     for (Id& b : bottom) b = event[b];
@@ -80,20 +79,20 @@ CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const I
 }
 
 template <class Id>
-EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow) {
+EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow) {
     const std::size_t events = tree.size();
     EventMeasures<Id> measures;
     measures.lows_out.assign(events, Id{0});
     measures.contours.assign(events, Id{0});
     measures.kind.assign(events, Criticality::complex);
     for (std::size_t r = 0; r < level.size(); ++r) {
-        if (level[r] != static_cast<Id>(r) || flow[r].is_trivial()) continue;
+        if (level[r] != static_cast<Id>(r) || flow.is_trivial(r)) continue;
         const std::size_t e = tree.event_of_element[r];
-        const Criticality kind = flow[r].kind();
+        const Criticality kind = flow.kind(r);
         const bool first = measures.lows_out[e] == 0 && measures.contours[e] == 0;  // every non-trivial level changes one of them or more
         measures.kind[e] = first || measures.kind[e] == kind ? kind : Criticality::complex;
-        measures.lows_out[e] += flow[r].out;
-        measures.contours[e] += flow[r].out - flow[r].in;  // unsigned sums wrap around and back
+        measures.lows_out[e] += flow.out[r].contours;
+        measures.contours[e] += flow.out[r].contours - flow.in[r].contours;  // unsigned sums wrap around and back
     }
     return measures;
 }
@@ -114,8 +113,9 @@ void sum_objects(const CriticalityTree<Id>& tree, std::span<const std::int8_t> d
 }
 
 #define ISOATLAS_CRITICALITY_TREE(Id)                                                                                                  \
-    template CriticalityTree<Id> criticality_tree(std::span<const Id>, std::span<const Id>, std::span<const LevelFlow<Id>>, std::span<const double>); \
-    template EventMeasures<Id> gather_levels(const CriticalityTree<Id>&, std::span<const Id>, std::span<const LevelFlow<Id>>);           \
+    template BigVector<Id> join_groups(std::span<const Id>, std::span<const double>);                                                      \
+    template CriticalityTree<Id> criticality_tree(BigVector<Id>, std::span<const Id>, std::span<const Id>, const LevelFlow<Id>&);         \
+    template EventMeasures<Id> gather_levels(const CriticalityTree<Id>&, std::span<const Id>, const LevelFlow<Id>&);           \
     template void sum_objects(const CriticalityTree<Id>&, std::span<const std::int8_t>, EventMeasures<Id>&);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)
 ISOATLAS_CRITICALITY_TREE(std::uint64_t)

@@ -34,13 +34,17 @@ struct EventMeasures {
     BigVector<Criticality> kind;
 };
 
-/// join: parents of the join tree, n + 1 entries. level, flow: of levels.h. Cost: O(n).
+/// Per element: the lowest element of its group of equal-valued join nodes. join: parents of the join tree, n + 1 entries. Cost: O(n).
 template <class Id>
-CriticalityTree<Id> criticality_tree(std::span<const Id> join, std::span<const Id> level, std::span<const LevelFlow<Id>> flow, std::span<const double> value);
+BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> value);
+
+/// group: of join_groups. level, flow: of levels.h. Cost: O(n).
+template <class Id>
+CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow);
 
 /// What the events do by themselves: kind, lows_out, and in `contours` their gain of contours.
 template <class Id>
-EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelFlow<Id>> flow);
+EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow);
 
 /// The rest: delta_chi, and chi and contours summed over the objects. delta_chi: per element.
 template <class Id>

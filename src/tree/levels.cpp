@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/union_find.h"
 
 namespace isoatlas {
@@ -18,38 +19,42 @@ BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> v
 }
 
 template <class Id>
-BigVector<LevelFlow<Id>> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value) {
-    using Signed = std::make_signed_t<Id>;
+LevelFlow<Id> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads) {
+    using Side = typename LevelFlow<Id>::Side;
     const std::size_t n = value.size();
-    BigVector<LevelFlow<Id>> flow(n, LevelFlow<Id>{0, 0, 0});
-    for (std::size_t x = 0; x <= n; ++x) {
-        if (!tree.has_arc(x) || !has_length(tree, value, x)) continue;
-        const auto genus = static_cast<Signed>(1 - tree.half_chi[x]);
-        LevelFlow<Id>& above = flow[level[tree.upper(x)]];
-        ++above.out;
-        above.gain += genus;
-        if (tree.lower(x) == static_cast<Id>(n)) continue;
-        LevelFlow<Id>& below = flow[level[tree.lower(x)]];
-        ++below.in;
-        below.gain -= genus;
-    }
+    const auto gather = [&](BigVector<Side>& side, auto&& end_of) {  // end_of(arc): the element at the end that counts
+        side.assign(n, Side{0, 0});
+        for (std::size_t x = 0; x <= n; ++x) {
+            if (!tree.has_arc(x) || !has_length(tree, value, x)) continue;
+            const std::size_t element = end_of(x);
+            if (element == n) continue;  // the outside
+            Side& at = side[level[element]];
+            ++at.contours;
+            at.genus += 1 - tree.half_chi[x];
+        }
+    };
+    LevelFlow<Id> flow;
+    run_both(threads, [&] { gather(flow.in, [&](std::size_t x) { return tree.lower(x); }); },
+             [&] { gather(flow.out, [&](std::size_t x) { return tree.upper(x); }); });
     return flow;
 }
 
 template <class Id>
-Criticality LevelFlow<Id>::kind() const {
-    if (in == 0) return Criticality::maximum;
-    if (out == 0) return Criticality::minimum;
-    if (gain == 0 && in >= 2 && out == 1) return Criticality::merge;
-    if (gain == 0 && in == 1 && out >= 2) return Criticality::split;
-    if (in == 1 && out == 1) return Criticality::genus;
+Criticality LevelFlow<Id>::kind(std::size_t r) const {
+    const Id k = in[r].contours, m = out[r].contours;
+    const bool same_genus = in[r].genus == out[r].genus;
+    if (k == 0) return Criticality::maximum;
+    if (m == 0) return Criticality::minimum;
+    if (same_genus && k >= 2 && m == 1) return Criticality::merge;
+    if (same_genus && k == 1 && m >= 2) return Criticality::split;
+    if (k == 1 && m == 1) return Criticality::genus;
     return Criticality::complex;
 }
 
 #define ISOATLAS_LEVELS(Id)                                                                           \
     template BigVector<Id> level_roots(const ContourTree<Id>&, std::span<const double>);              \
     template struct LevelFlow<Id>;                                                                    \
-    template BigVector<LevelFlow<Id>> level_flow(const ContourTree<Id>&, std::span<const Id>, std::span<const double>);
+    template LevelFlow<Id> level_flow(const ContourTree<Id>&, std::span<const Id>, std::span<const double>, int);
 ISOATLAS_LEVELS(std::uint32_t)
 ISOATLAS_LEVELS(std::uint64_t)
 #undef ISOATLAS_LEVELS

@@ -23,17 +23,22 @@ template <class Id>
 template <class Id>
 BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value);
 
-/// Contours through a level; in arrays indexed by element, meaningful at roots.
+/// Contours through levels, indexed by element, meaningful at roots.
 template <class Id>
 struct LevelFlow {
-    Id in, out;                     ///< number of contours just above and just below
-    std::make_signed_t<Id> gain;    ///< sum of genera out - sum of genera in
+    struct Side {
+        Id contours;
+        std::make_signed_t<Id> genus;   ///< sum over the contours
+    };
+    BigVector<Side> in, out;            ///< just above, just below
 
-    [[nodiscard]] bool is_trivial() const { return in == 1 && out == 1 && gain == 0; }
-    [[nodiscard]] Criticality kind() const;
+    [[nodiscard]] bool is_trivial(std::size_t root) const {
+        return in[root].contours == 1 && out[root].contours == 1 && in[root].genus == out[root].genus;
+    }
+    [[nodiscard]] Criticality kind(std::size_t root) const;
 };
 
 template <class Id>
-BigVector<LevelFlow<Id>> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value);
+LevelFlow<Id> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads = 1);
 
 }  // namespace isoatlas

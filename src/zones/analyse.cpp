@@ -68,9 +68,10 @@ void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     if (!is_3d) arrays.contours = circles(std::move(arrays.contours));
     arrays.value = std::move(set.value);
     arrays.code = std::move(set.code);
-    arrays.level = level_roots<Id>(arrays.contours, arrays.value);
-    const BigVector<LevelFlow<Id>> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value);
-    arrays.tree = criticality_tree<Id>(join, arrays.level, flow, arrays.value);
+    BigVector<Id> group;
+    run_both(threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); }, [&] { group = join_groups<Id>(join, arrays.value); });
+    const LevelFlow<Id> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value, threads);
+    arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, flow);
     release(join);
     arrays.measures = gather_levels<Id>(arrays.tree, arrays.level, flow);
 }

@@ -116,12 +116,11 @@ std::size_t HeavyPaths<Id, Value>::bucket(const Scale& scale, Id buckets, Value 
     return b > 0 ? static_cast<std::size_t>(std::min(b, static_cast<double>(buckets - 1))) : 0;
 }
 
-/// A position not above the lowest event of the path with a value of x or more.
+/// Where bucket_ tells a position not above the lowest event of the path with a value of x or more; for a short path that position itself.
 template <class Id, class Value>
-Id HeavyPaths<Id, Value>::search_from(Id path, Value x) const {
-    const Id first = paths_[path].first;
-    if (count(path) < kBucketed) return first;
-    return bucket_[first + 1 + bucket(scales_[bucket_[first]], count(path) - 1, x)];
+Id HeavyPaths<Id, Value>::bucket_of(Id path, Value x) const {
+    const Id first = paths_[path].first, buckets = count(path) - 1;
+    return buckets + 1 < kBucketed ? first : first + 1 + static_cast<Id>(bucket(scales_[bucket_[first]], buckets, x));
 }
 
 template <class Id, class Value>
@@ -141,7 +140,14 @@ void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, 
         }
         climbing = kept;
     }
-    for (std::size_t i = 0; i < x.size(); ++i) zone[i] = search_from(path[i], x[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) {  // zone: first the bucket, then the position where the search starts, then the zone
+        zone[i] = bucket_of(path[i], x[i]);
+        __builtin_prefetch(bucket_.data() + zone[i]);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (zone[i] != paths_[path[i]].first) zone[i] = bucket_[zone[i]];
+        __builtin_prefetch(stops_.data() + zone[i]);
+    }
     for (std::size_t i = 0; i < x.size(); ++i) {
         const Stop* stop = stops_.data() + zone[i];
         for (int step = 0; step < 8 && stop->value < x[i]; ++step) ++stop;

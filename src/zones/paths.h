@@ -55,7 +55,7 @@ private:
     [[nodiscard]] std::int64_t blocks() const { return static_cast<std::int64_t>((paths_.size() + kBlock - 1) / kBlock); }
     [[nodiscard]] Id count(Id path) const { return paths_[path + 1].first - paths_[path].first; }
     [[nodiscard]] std::size_t bucket(const Scale& scale, Id buckets, Value x) const;
-    [[nodiscard]] Id search_from(Id path, Value x) const;
+    [[nodiscard]] Id bucket_of(Id path, Value x) const;
 
     BigVector<Path> paths_;          ///< and one more, where the last one ends
     BigVector<Stop> stops_;          ///< by position
