@@ -56,10 +56,10 @@ say "done"
 cat <<TEXT
 $out/objects.json      the table as JSON
 $out/tree.json         the criticality tree: every topological change, with its zone
-$out/object_N.$extension       the surface of object N at its best isovalue (any mesh viewer opens it)
+$out/object_N.$extension      the surface of object N at its best isovalue (any mesh viewer opens it)
 
 Next:
   make demo VOLUME=your_file              the same for your data (NRRD, NIfTI, MHA, NPY, VTI, TIFF, RAW)
-  $isoatlas --help        everything else
+  $isoatlas --help       everything else
   make install PREFIX=~/.local            puts isoatlas and the C++ library there
 TEXT
