@@ -114,8 +114,8 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
     }
     if (values.known) {
         const bool reversed = info.calibration.slope < 0;
-        out << "values       " << scale.text(reversed ? values.high : values.low) << " .. "
-            << scale.text(reversed ? values.low : values.high) << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
+        out << "values       " << scale.brief(reversed ? values.high : values.low) << " .. "
+            << scale.brief(reversed ? values.low : values.high) << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
     }
     if (values.missing > 0)
         out << "missing      " << counted(values.missing, "sample") << " NaN or infinite: analyse with --missing below\n";

@@ -45,7 +45,7 @@ std::string describe_volume(const Volume& volume) {
         if (info.extent.rank == 3) line += fmt::format(" x {:.5g}", spacing[2]);
         line += info.geometry.unit.empty() ? "" : " " + info.geometry.unit;
     }
-    return line + fmt::format("  values {} .. {}", scale.text(range.low), scale.text(range.high));
+    return line + fmt::format("  values {} .. {}", scale.brief(range.low), scale.brief(range.high));
 }
 
 void check_file_system(const std::string& output) {

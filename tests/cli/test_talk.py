@@ -50,7 +50,8 @@ class Talk(CliTest):
     def test_an_interrupt_stops_the_work_and_leaves_nothing(self):
         for signal_number, verb in ((signal.SIGINT, ["tree", "big.nrrd", "-o", "big.json"]), (signal.SIGTERM, ["tree", "big.nrrd", "-o", "big.csv"])):
             process = subprocess.Popen([CLI, *verb, "--threads", "1"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            time.sleep(0.3)
+            self.assertIn(b"160 x 160 x 160", process.stderr.readline())   # loaded: the analysis begins
+            time.sleep(0.05)
             self.assertIsNone(process.poll(), "the volume is too small for this test")
             process.send_signal(signal_number)
             started = time.monotonic()
@@ -60,6 +61,18 @@ class Talk(CliTest):
             self.assertLess(time.monotonic() - started, 20)
             self.assertFalse((self.folder / verb[-1]).exists())
             self.assert_no_partial()
+
+    def test_an_interrupt_while_writing_removes_the_unfinished_file(self):
+        partial = self.folder / "slow.json.partial"
+        process = subprocess.Popen([CLI, "tree", "big.nrrd", "-o", "slow.json"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not partial.exists():
+            self.assertIsNone(process.poll(), "the file was never seen half-written")
+            time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, talk)
+        self.assertFalse((self.folder / "slow.json").exists())
+        self.assert_no_partial()
 
     def on_a_terminal(self, arguments, **environment):
         """Standard error (and output) connected to a pseudo terminal. Returns what it showed."""
