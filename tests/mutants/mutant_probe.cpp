@@ -41,11 +41,19 @@ void check_surface(const oracle::Elements& elements, const isoatlas::Volume& vol
     if (!s.objects.empty() && !(signed_volume(surface) > 0)) fail("the normals point to higher values", elements.grid);
 }
 
+/// uint8 where it holds the values, else float64.
+isoatlas::ValueType type_for(const oracle::Grid& grid) {
+    for (const double v : grid.value) {
+        if (v != std::floor(v) || v < 0 || v > 255) return isoatlas::ValueType::f64;
+    }
+    return isoatlas::ValueType::u8;
+}
+
 void check_volume(const oracle::Grid& grid, bool with_surface) {
     const oracle::Elements elements(grid);
     const oracle::Result expected = oracle::analyse(elements);
     if (!expected.consistent) fail("the oracle contradicts the theory", grid);
-    const isoatlas::Volume volume = oracle::to_volume(grid);
+    const isoatlas::Volume volume = oracle::to_volume(grid, type_for(grid));
     isoatlas::Context context;
     context.threads = 1;
     context.slab_slices = 1;
