@@ -46,13 +46,20 @@ constexpr double kOn = 0.1;  // gentle slope along a feature
 // Sticks fall from their middle, connectors and plates rise from theirs: one maximum, saddle or disc-closing point each.
 // The pillars' walls fall sideways from the pillar and stay above the front and back wall that they frame.
 constexpr std::array<Feature, 14> kFeatures{{
-    {{6, 6, 8}, {6, 24, 8}, 100, {0, -kOn, 0}},        {{24, 6, 8}, {24, 24, 8}, 90, {0, -kOn, 0}},
-    {{6, 6, 22}, {6, 24, 22}, 80, {0, -kOn, 0}},       {{24, 6, 22}, {24, 24, 22}, 70, {0, -kOn, 0}},
-    {{6, 6, 8}, {24, 6, 8}, 60, {kOn, 0, 0}},          {{6, 24, 8}, {24, 24, 8}, 58, {kOn, 0, 0}},
-    {{6, 6, 22}, {24, 6, 22}, 50, {kOn, 0, 0}},        {{6, 24, 22}, {24, 24, 22}, 48, {kOn, 0, 0}},
-    {{6, 6, 8}, {24, 24, 8}, 56, {kOn, kOn, 0}},       {{6, 6, 22}, {24, 24, 22}, 46, {kOn, kOn, 0}},
-    {{6, 6, 8}, {6, 24, 22}, 40, {0, -0.3, kOn}},      {{24, 6, 8}, {24, 24, 22}, 38, {0, -0.3, kOn}},
-    {{6, 6, 8}, {24, 6, 22}, 30, {kOn, 0, kOn}},       {{6, 24, 8}, {24, 24, 22}, 29.5, {kOn, 0, kOn}},
+    {{6, 6, 8}, {6, 24, 8}, 100, {0, -kOn, 0}},
+    {{24, 6, 8}, {24, 24, 8}, 90, {0, -kOn, 0}},
+    {{6, 6, 22}, {6, 24, 22}, 80, {0, -kOn, 0}},
+    {{24, 6, 22}, {24, 24, 22}, 70, {0, -kOn, 0}},
+    {{6, 6, 8}, {24, 6, 8}, 60, {kOn, 0, 0}},
+    {{6, 24, 8}, {24, 24, 8}, 58, {kOn, 0, 0}},
+    {{6, 6, 22}, {24, 6, 22}, 50, {kOn, 0, 0}},
+    {{6, 24, 22}, {24, 24, 22}, 48, {kOn, 0, 0}},
+    {{6, 6, 8}, {24, 24, 8}, 56, {kOn, kOn, 0}},
+    {{6, 6, 22}, {24, 24, 22}, 46, {kOn, kOn, 0}},
+    {{6, 6, 8}, {6, 24, 22}, 40, {0, -0.3, kOn}},
+    {{24, 6, 8}, {24, 24, 22}, 38, {0, -0.3, kOn}},
+    {{6, 6, 8}, {24, 6, 22}, 30, {kOn, 0, kOn}},
+    {{6, 24, 8}, {24, 24, 22}, 29.5, {kOn, 0, kOn}},
 }};
 
 double feature_value(const Feature& feature, const std::array<double, 3>& p) {

@@ -84,7 +84,8 @@ Volume demo(const PhantomOptions& options) {
     return fill<float>(
         options.size, options.size, options.size,
         [scale](std::int64_t x, std::int64_t y, std::int64_t z) {
-            return scene({(static_cast<double>(x) + 0.5) * scale, (static_cast<double>(y) + 0.5) * scale, (static_cast<double>(z) + 0.5) * scale});
+            return scene(
+                {(static_cast<double>(x) + 0.5) * scale, (static_cast<double>(y) + 0.5) * scale, (static_cast<double>(z) + 0.5) * scale});
         },
         geometry);
 }

@@ -67,7 +67,8 @@ TEST(Invariance, SampleTypesOfTheSameNumbers) {
     for (const oracle::Texture texture : {oracle::Texture::ties8, oracle::Texture::ties3, oracle::Texture::checkerboard_ties}) {
         const oracle::Grid grid = oracle::make_grid(3, {14, 13, 12}, texture, raw);
         const std::string expected = oracle::full_text(analyse(oracle::to_volume(grid, ValueType::f64)));
-        for (const ValueType type : {ValueType::u8, ValueType::i8, ValueType::u16, ValueType::i16, ValueType::u32, ValueType::i32, ValueType::f32}) {
+        for (const ValueType type :
+             {ValueType::u8, ValueType::i8, ValueType::u16, ValueType::i16, ValueType::u32, ValueType::i32, ValueType::f32}) {
             EXPECT_TRUE(oracle::full_text(analyse(oracle::to_volume(grid, type))) == expected) << name_of(type);
         }
     }

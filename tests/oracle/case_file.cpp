@@ -115,7 +115,8 @@ private:
     void finish(NamedCase& c) {
         if (dims_.empty()) return;  // finished before
         dims_.clear();
-        if (static_cast<Index>(c.grid.value.size()) != c.grid.voxels()) fail("case " + c.name + ": the number of values does not match dims");
+        if (static_cast<Index>(c.grid.value.size()) != c.grid.voxels())
+            fail("case " + c.name + ": the number of values does not match dims");
         if (c.expectations.empty()) fail("case " + c.name + " expects nothing");
         if (border_.empty()) return;
         Grid wide{c.grid.rank, c.grid.size, {}};

@@ -21,9 +21,9 @@
 namespace oracle {
 
 struct Expectation {
-    std::string what;                ///< "elements", "level", "event", "at", ...
-    double value = 0;                ///< count, isovalue or tau
-    std::string kind;                ///< of an event
+    std::string what;                  ///< "elements", "level", "event", "at", ...
+    double value = 0;                  ///< count, isovalue or tau
+    std::string kind;                  ///< of an event
     std::vector<Index> first, second;  ///< level: in, out; event: {delta_chi}; at: {objects, chi}, genera
     int line = 0;
 };

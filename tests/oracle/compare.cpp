@@ -90,7 +90,8 @@ std::string compare_arcs(const Result& expected, const isoatlas::Analysis& actua
     std::vector<std::string> missing, extra;
     std::set_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(missing));
     std::set_difference(right.begin(), right.end(), left.begin(), left.end(), std::back_inserter(extra));
-    return "contour arcs: missing " + (missing.empty() ? "none" : missing.front()) + "; not expected " + (extra.empty() ? "none" : extra.front());
+    return "contour arcs: missing " + (missing.empty() ? "none" : missing.front()) + "; not expected " +
+           (extra.empty() ? "none" : extra.front());
 }
 
 std::string compare_levels(const Result& expected, const isoatlas::Analysis& actual) {
@@ -100,7 +101,10 @@ std::string compare_levels(const Result& expected, const isoatlas::Analysis& act
         const Level& e = expected.levels[i];
         const isoatlas::Level a = actual.level(i);
         Difference d(at("level", i));
-        d.check("value", e.value, a.value).check("event", e.event, a.event).check("in", join(e.in), join(a.in)).check("out", join(e.out), join(a.out));
+        d.check("value", e.value, a.value)
+            .check("event", e.event, a.event)
+            .check("in", join(e.in), join(a.in))
+            .check("out", join(e.out), join(a.out));
         if (!d.text().empty()) return d.text();
     }
     return {};
@@ -132,7 +136,8 @@ std::string compare_events(const Result& expected, const isoatlas::Analysis& act
 std::string compare_zones(const Result& expected, const isoatlas::Analysis& actual) {
     for (std::size_t v = 0; v < expected.zone.size(); ++v) {
         const auto voxel = static_cast<Index>(v);
-        if (expected.zone[v] != actual.zone(voxel)) return Difference(at("voxel", voxel)).check("zone", expected.zone[v], actual.zone(voxel)).text();
+        if (expected.zone[v] != actual.zone(voxel))
+            return Difference(at("voxel", voxel)).check("zone", expected.zone[v], actual.zone(voxel)).text();
     }
     return {};
 }

@@ -16,8 +16,8 @@ Grid to_grid(const isoatlas::Volume& volume);
 std::string compare_elements(const Result& expected, const isoatlas::Analysis& actual);
 std::string compare_arcs(const Result& expected, const isoatlas::Analysis& actual);
 std::string compare_levels(const Result& expected, const isoatlas::Analysis& actual);
-std::string compare_events(const Result& expected, const isoatlas::Analysis& actual);     ///< all fields, parents, children, contours
-std::string compare_zones(const Result& expected, const isoatlas::Analysis& actual);      ///< of every voxel
+std::string compare_events(const Result& expected, const isoatlas::Analysis& actual);  ///< all fields, parents, children, contours
+std::string compare_zones(const Result& expected, const isoatlas::Analysis& actual);   ///< of every voxel
 /// All of the above.
 std::string compare(const Result& expected, const isoatlas::Analysis& actual);
 

@@ -98,7 +98,8 @@ std::string compare_cut(const Elements& elements, double tau, const isoatlas::Cu
         if (!d.text().empty()) break;
         const std::vector<Index> contours = contours_in_order(s, e, outward.of_object[order[i]]);
         for (std::size_t k = 0; k < contours.size(); ++k) {
-            compare_contour(d, s, contours[k], outward.of_object[order[i]], e.highest, actual.contours[static_cast<std::size_t>(a.first_contour) + k]);
+            compare_contour(d, s, contours[k], outward.of_object[order[i]], e.highest,
+                            actual.contours[static_cast<std::size_t>(a.first_contour) + k]);
         }
         for (std::size_t v = 0; v < actual.label.size(); ++v) {
             const Index label = s.object_of[v] == order[i] ? static_cast<Index>(i) : -1;

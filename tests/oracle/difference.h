@@ -19,7 +19,10 @@ std::string join(const T& list) {
 /// The first pair of unequal things, named.
 class Difference {
 public:
-    explicit Difference(std::string where) { where_ << where; where_.precision(17); }
+    explicit Difference(std::string where) {
+        where_ << where;
+        where_.precision(17);
+    }
     template <class A, class B>
     Difference& check(const char* name, const A& expected, const B& actual) {
         if (text_.empty() && !(expected == actual)) {

@@ -14,8 +14,9 @@
 namespace oracle {
 
 struct Flooding {
-    std::vector<Index> parent;  ///< of each critical element (position in the list given): next node of the same object going down; -1: root
-    std::vector<Index> label;   ///< of each element: the node whose zone it lies in
+    std::vector<Index>
+        parent;                ///< of each critical element (position in the list given): next node of the same object going down; -1: root
+    std::vector<Index> label;  ///< of each element: the node whose zone it lies in
 };
 
 /// critical: elements in descending order. Cost: O(n log n) heap steps plus the climbs.

@@ -31,10 +31,10 @@ struct Grid {
 /// A vertex or the point of an ambiguous face. Elements 0..voxels-1 are the vertices.
 struct Element {
     double value = 0;
-    std::array<double, 2> tie{};      ///< second and third part of the key
+    std::array<double, 2> tie{};  ///< second and third part of the key
     std::array<double, 3> position{};
     bool is_face = false;
-    std::array<Index, 4> corner{};    ///< face: a b c d, around
+    std::array<Index, 4> corner{};       ///< face: a b c d, around
     std::array<Index, 2> high{}, low{};  ///< face: the diagonals
 };
 
@@ -42,8 +42,8 @@ struct Element {
 struct Elements {
     Grid grid;
     std::vector<Element> all;
-    std::vector<Index> by_rank;       ///< element of each rank
-    std::vector<Index> rank_of;       ///< rank of each element
+    std::vector<Index> by_rank;  ///< element of each rank
+    std::vector<Index> rank_of;  ///< rank of each element
     std::vector<Index> face_at;
     explicit Elements(Grid g);
     Index count() const { return static_cast<Index>(all.size()); }
@@ -52,33 +52,33 @@ struct Elements {
 };
 
 struct Contour {
-    Index object = -1, low = -1;      ///< low 0: the outside
+    Index object = -1, low = -1;  ///< low 0: the outside
     Index hits = 0, segments = 0, loops = 0;
-    bool consistent = true;           ///< touches one object and one low component only
+    bool consistent = true;  ///< touches one object and one low component only
     Index chi() const { return hits - segments + loops; }
-    Index genus = 0;                  ///< 2D: 0
+    Index genus = 0;  ///< 2D: 0
 };
 
 struct Object {
     Index chi = 0, b1 = 0, b2 = 0, voxels = 0;
-    Index highest = -1;               ///< voxel of the highest rank
+    Index highest = -1;  ///< voxel of the highest rank
     std::vector<Index> contours;
 };
 
 struct LowComponent {
-    Index lowest = -1;                ///< voxel of the lowest rank; -1: the outside
+    Index lowest = -1;  ///< voxel of the lowest rank; -1: the outside
 };
 
 /// Everything at one cut: High are the elements of rank >= cut.
 struct Snapshot {
-    std::vector<Index> object_of;     ///< of each element; -1: Low
-    std::vector<Index> low_of;        ///< of each element; -1: High; 0: the outside
+    std::vector<Index> object_of;  ///< of each element; -1: Low
+    std::vector<Index> low_of;     ///< of each element; -1: High; 0: the outside
     std::vector<Object> objects;
     std::vector<LowComponent> lows;
     std::vector<Contour> contours;
     std::vector<Index> contour_of_hit;  ///< hit 6 * High voxel + direction; -1: none
     Index active_cells = 0;
-    Index chi_by_cells = 0;           ///< Euler number of the High set counted cell by cell, not from contours
+    Index chi_by_cells = 0;  ///< Euler number of the High set counted cell by cell, not from contours
 };
 Snapshot snapshot(const Elements& elements, Index cut);
 
@@ -99,9 +99,9 @@ struct Arc {
 
 struct Level {
     double value;
-    std::vector<Index> in, out;       ///< genera, sorted
+    std::vector<Index> in, out;  ///< genera, sorted
     Index event;
-    Index top;                        ///< highest critical element (position in Result::critical)
+    Index top;  ///< highest critical element (position in Result::critical)
 };
 
 enum class Kind { maximum, minimum, merge, split, genus, complex };
@@ -113,7 +113,7 @@ struct Event {
     Index parent = -1;
     std::vector<Index> children;
     Index lows_out, delta_chi, chi, b1, b2;
-    std::vector<Index> genera;        ///< of the contours of its object in its zone, sorted
+    std::vector<Index> genera;  ///< of the contours of its object in its zone, sorted
     double tau_low = -kInfinity;
     Index zone_voxels = 0, object_voxels = 0;
 };

@@ -161,7 +161,8 @@ struct Builder {
             Index end = own.back().second;
             own.pop_back();
             while (end != start) {
-                const auto next = std::find_if(own.begin(), own.end(), [end](const Segment& s) { return s.first == end || s.second == end; });
+                const auto next =
+                    std::find_if(own.begin(), own.end(), [end](const Segment& s) { return s.first == end || s.second == end; });
                 if (next == own.end()) {  // cannot be: every hit has two segments in its cell
                     result.contours.push_back({-1, -1, 0, 0, 0, false, 0});
                     break;

@@ -57,11 +57,11 @@ private:
     const Elements& elements_;
     const Grid& grid_;
     Result result_;
-    Snapshot now_, above_;          // the current cut; the cut just above the current value
-    std::vector<Index> upper_of_;   // critical element at which each contour of now_ began
+    Snapshot now_, above_;         // the current cut; the cut just above the current value
+    std::vector<Index> upper_of_;  // critical element at which each contour of now_ began
     Groups groups_;
-    std::vector<Index> group_of_;   // of each contour of now_
-    std::vector<Index> event_of_;   // of each object of now_ at the last cut between two values
+    std::vector<Index> group_of_;  // of each contour of now_
+    std::vector<Index> event_of_;  // of each object of now_ at the last cut between two values
 
     // --- one element --------------------------------------------------------------------------------------------------------------
     void check(const Snapshot& s) {
@@ -219,7 +219,8 @@ private:
         return parts;
     }
 
-    Index add_event(double value, Index object, const std::set<Index>& parts, const std::vector<Level>& levels, const std::set<Index>& lows) {
+    Index add_event(double value, Index object, const std::set<Index>& parts, const std::vector<Level>& levels,
+                    const std::set<Index>& lows) {
         const auto id = static_cast<Index>(result_.events.size());
         const Object& o = now_.objects[object];
         Event event;
@@ -280,7 +281,8 @@ private:
     void finish() {
         for (std::size_t c = 0; c < now_.contours.size(); ++c) {
             const Index upper = upper_of_[c];
-            result_.arcs.push_back({upper, static_cast<Index>(result_.critical.size()), result_.critical[upper].value, -kInfinity, now_.contours[c].genus});
+            result_.arcs.push_back(
+                {upper, static_cast<Index>(result_.critical.size()), result_.critical[upper].value, -kInfinity, now_.contours[c].genus});
         }
         result_.events.back().object_voxels = grid_.voxels();
         order_events();
@@ -296,7 +298,8 @@ private:
 
     void order_events() {
         std::vector<std::pair<Index, Index>> order;  // (highest critical element, old id)
-        for (std::size_t i = 0; i < result_.events.size(); ++i) order.push_back({position_in_critical(result_.events[i]), static_cast<Index>(i)});
+        for (std::size_t i = 0; i < result_.events.size(); ++i)
+            order.push_back({position_in_critical(result_.events[i]), static_cast<Index>(i)});
         std::sort(order.begin(), order.end());
         std::vector<Index> renamed(order.size());
         std::vector<Event> events;

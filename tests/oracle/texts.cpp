@@ -55,9 +55,9 @@ std::vector<std::string> histograms(const isoatlas::Analysis& analysis) {
 }
 
 void put_event(std::ostringstream& out, const isoatlas::Event& e) {
-    out << "event " << e.value << ' ' << isoatlas::name_of(e.kind) << " objects_in " << e.objects_in << " lows_out " << e.lows_out << " dchi "
-        << e.delta_chi << " zone " << e.zone.tau_low << ".." << e.zone.tau_high << ' ' << e.zone.voxels << " chi " << e.chi << ' ' << e.b1 << ' '
-        << e.b2 << " contours " << e.contours << " voxels " << e.object_voxels;
+    out << "event " << e.value << ' ' << isoatlas::name_of(e.kind) << " objects_in " << e.objects_in << " lows_out " << e.lows_out
+        << " dchi " << e.delta_chi << " zone " << e.zone.tau_low << ".." << e.zone.tau_high << ' ' << e.zone.voxels << " chi " << e.chi
+        << ' ' << e.b1 << ' ' << e.b2 << " contours " << e.contours << " voxels " << e.object_voxels;
 }
 
 }  // namespace
@@ -117,7 +117,8 @@ std::string full_text(const isoatlas::Analysis& analysis) {
     for (Index i = 0; i < analysis.event_count(); ++i) {
         const isoatlas::Event e = analysis.event(i);
         put_event(out, e);
-        out << " id " << e.id << " at " << join(e.position) << "parent " << e.parent << " children " << join(e.children) << genera[static_cast<std::size_t>(i)] << '\n';
+        out << " id " << e.id << " at " << join(e.position) << "parent " << e.parent << " children " << join(e.children)
+            << genera[static_cast<std::size_t>(i)] << '\n';
     }
     for (Index v = 0; v < analysis.extent().voxels(); ++v) out << analysis.zone(v) << ' ';
     return out.str();

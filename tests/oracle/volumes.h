@@ -1,4 +1,5 @@
-// Random small volumes for RapidCheck: 1..7 samples an axis, of the kinds that hurt. Shrinking makes the volume smaller and its values simpler.
+// Random small volumes for RapidCheck: 1..7 samples an axis, of the kinds that hurt. Shrinking makes the volume smaller and its values
+// simpler.
 //
 // Number of trials per property: ISOATLAS_TRIALS in the environment, else a default that keeps the suite short. RC_PARAMS wins over both
 // (RC_PARAMS="seed=... max_success=..."; a failure prints the one that reproduces it).

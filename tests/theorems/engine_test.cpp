@@ -26,10 +26,10 @@ isoatlas::Context odd_context() {
     return context;
 }
 
-#define EXPECT_SAME(text)                  \
-    do {                                   \
+#define EXPECT_SAME(text)                    \
+    do {                                     \
         const std::string difference = text; \
-        RC_ASSERT(difference == "");       \
+        RC_ASSERT(difference == "");         \
     } while (false)
 
 RC_GTEST_PROP(Engine, Elements, ()) {

@@ -50,7 +50,8 @@ RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) {
     RC_ASSERT(canonical_text(analyse_grid(grid)) == canonical_text(analyse_grid(other)));
 }
 
-// Two vertices are in one object at a cut exactly when their labels climb to the same node: the dissertation's flooding gives the join tree.
+// Two vertices are in one object at a cut exactly when their labels climb to the same node: the dissertation's flooding gives the join
+// tree.
 RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) {
     const Elements elements(*arbitrary_grid(6, 60));
     const Result result = analyse(elements);
@@ -61,7 +62,9 @@ RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) {
         for (Index e = 0; e < elements.count(); ++e) {
             if (s.object_of[e] < 0) continue;
             Index node = flooding.label[e];
-            for (Index next = flooding.parent[node]; next >= 0 && elements.rank_of[result.critical[next].element] >= cut; next = flooding.parent[node]) node = next;
+            for (Index next = flooding.parent[node]; next >= 0 && elements.rank_of[result.critical[next].element] >= cut;
+                 next = flooding.parent[node])
+                node = next;
             Index& expected = node_of_object[s.object_of[e]];
             if (expected < 0) expected = node;
             RC_ASSERT(expected == node);

@@ -116,7 +116,8 @@ RC_GTEST_PROP(Theorem, T5_GenusChangeOfAnEvent, ()) {
         for (const Index g : level.in) change -= g;
         RC_ASSERT(level.in.size() != 1 || level.out.size() != 1 || change != 0);  // trivial levels are not listed
         RC_ASSERT(level.value == a.event(level.event).value);
-        predicted[static_cast<std::size_t>(level.event)] += static_cast<Index>(level.out.size()) - static_cast<Index>(level.in.size()) - change;
+        predicted[static_cast<std::size_t>(level.event)] +=
+            static_cast<Index>(level.out.size()) - static_cast<Index>(level.in.size()) - change;
     }
     for (Index i = 0; i < a.event_count(); ++i) RC_ASSERT(a.event(i).delta_chi == predicted[static_cast<std::size_t>(i)]);
 }

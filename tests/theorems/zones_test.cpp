@@ -44,13 +44,15 @@ void check_zones(const Volume& volume, const Context& context) {
         ASSERT_EQ(object, events[e].object_voxels) << "event " << e;
         if (events[e].objects_in == 0) {
             const std::array<double, 3>& p = events[e].position;
-            ASSERT_EQ(analysis.zone(grid.index(static_cast<Index>(p[0]), static_cast<Index>(p[1]), static_cast<Index>(p[2]))), static_cast<Index>(e));
+            ASSERT_EQ(analysis.zone(grid.index(static_cast<Index>(p[0]), static_cast<Index>(p[1]), static_cast<Index>(p[2]))),
+                      static_cast<Index>(e));
         }
     }
 }
 
 TEST(Zones, OfPhantoms) {
-    for (const char* name : {"figure-plateau", "figure-smooth", "nested-shells", "gyroid", "checkerboard", "marschner-lobb", "random-field", "noise"}) {
+    for (const char* name :
+         {"figure-plateau", "figure-smooth", "nested-shells", "gyroid", "checkerboard", "marschner-lobb", "random-field", "noise"}) {
         SCOPED_TRACE(name);
         PhantomOptions options;
         if (std::string(name).find("figure") == std::string::npos) options.size = 18;

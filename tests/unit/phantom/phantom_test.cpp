@@ -52,9 +52,20 @@ constexpr auto kMaximum = Criticality::maximum, kMerge = Criticality::merge, kGe
 TEST(Phantom, FigurePlateauHasExactlyItsFourteenEvents) {
     const Analysis analysis = analyse(make_phantom("figure-plateau"));
     expect_events(analysis,
-                  {{100, kMaximum, 1, 0, 0}, {90, kMaximum, 1, 0, 0}, {80, kMaximum, 1, 0, 0}, {70, kMaximum, 1, 0, 0}, {60, kMerge, 1, 0, 0},
-                   {58, kGenus, 0, 1, 0},    {56, kGenus, 1, 0, 0},   {50, kMerge, 1, 0, 0},   {48, kGenus, 0, 1, 0},   {46, kGenus, 1, 0, 0},
-                   {40, kMerge, 1, 0, 0},    {38, kGenus, 0, 1, 0},   {30, kComplex, 2, 0, 1}, {20, kMinimum, 1, 0, 0}},
+                  {{100, kMaximum, 1, 0, 0},
+                   {90, kMaximum, 1, 0, 0},
+                   {80, kMaximum, 1, 0, 0},
+                   {70, kMaximum, 1, 0, 0},
+                   {60, kMerge, 1, 0, 0},
+                   {58, kGenus, 0, 1, 0},
+                   {56, kGenus, 1, 0, 0},
+                   {50, kMerge, 1, 0, 0},
+                   {48, kGenus, 0, 1, 0},
+                   {46, kGenus, 1, 0, 0},
+                   {40, kMerge, 1, 0, 0},
+                   {38, kGenus, 0, 1, 0},
+                   {30, kComplex, 2, 0, 1},
+                   {20, kMinimum, 1, 0, 0}},
                   0);
     EXPECT_EQ(analysis.level_count(), 14);
     const Level torus_to_spheres = analysis.level(12);
@@ -67,9 +78,21 @@ TEST(Phantom, FigureSmoothHasExactlyFifteenElements) {
     const Analysis analysis = analyse(volume);
     EXPECT_EQ(analysis.element_count(), 15);
     expect_events(analysis,
-                  {{100, kMaximum, 1, 0, 0}, {90, kMaximum, 1, 0, 0}, {80, kMaximum, 1, 0, 0}, {70, kMaximum, 1, 0, 0}, {60, kMerge, 1, 0, 0},
-                   {58, kGenus, 0, 1, 0},    {56, kGenus, 1, 0, 0},   {50, kMerge, 1, 0, 0},   {48, kGenus, 0, 1, 0},   {46, kGenus, 1, 0, 0},
-                   {40, kMerge, 1, 0, 0},    {38, kGenus, 0, 1, 0},   {30, kGenus, 1, 0, 0},   {29.5, kSplit, 2, 0, 1}, {20, kMinimum, 1, 0, 0}},
+                  {{100, kMaximum, 1, 0, 0},
+                   {90, kMaximum, 1, 0, 0},
+                   {80, kMaximum, 1, 0, 0},
+                   {70, kMaximum, 1, 0, 0},
+                   {60, kMerge, 1, 0, 0},
+                   {58, kGenus, 0, 1, 0},
+                   {56, kGenus, 1, 0, 0},
+                   {50, kMerge, 1, 0, 0},
+                   {48, kGenus, 0, 1, 0},
+                   {46, kGenus, 1, 0, 0},
+                   {40, kMerge, 1, 0, 0},
+                   {38, kGenus, 0, 1, 0},
+                   {30, kGenus, 1, 0, 0},
+                   {29.5, kSplit, 2, 0, 1},
+                   {20, kMinimum, 1, 0, 0}},
                   0.06);
 }
 
@@ -106,8 +129,13 @@ TEST(Phantom, NestedShellsAreHollowSpheres) {
 
 TEST(Phantom, DemoTellsItsStory) {
     expect_events(analyse(make_phantom("demo")),
-                  {{250, kMaximum, 2, 0, 1}, {220, kMaximum, 1, 0, 0}, {200, kMaximum, 0, 1, 0}, {160, kMerge, 2, 0, 1},
-                   {90, kMerge, 1, 1, 1},    {60, kMinimum, 0, 1, 0},  {0, kGenus, 1, 0, 0}},
+                  {{250, kMaximum, 2, 0, 1},
+                   {220, kMaximum, 1, 0, 0},
+                   {200, kMaximum, 0, 1, 0},
+                   {160, kMerge, 2, 0, 1},
+                   {90, kMerge, 1, 1, 1},
+                   {60, kMinimum, 0, 1, 0},
+                   {0, kGenus, 1, 0, 0}},
                   0);
     EXPECT_EQ(make_phantom("demo").info.geometry.unit, "mm");
 }
