@@ -22,10 +22,12 @@ std::size_t rounded(std::size_t bytes) { return (bytes + kHugePage - 1) / kHugeP
 char* map_memory(std::size_t size) {
     void* mapped = mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (mapped == MAP_FAILED) return nullptr;
+    // Keep the highest aligned part: mappings grow downwards, so this one touches the one before and both can be joined when they are free.
     char* const begin = static_cast<char*>(mapped);
-    const std::size_t head = (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
-    if (head > 0) munmap(begin, head);
-    munmap(begin + head + size, kHugePage - head);
+    const std::size_t tail = reinterpret_cast<std::uintptr_t>(begin) % kHugePage;
+    const std::size_t head = kHugePage - tail;
+    munmap(begin, head);
+    if (tail > 0) munmap(begin + head + size, tail);
     madvise(begin + head, size, MADV_HUGEPAGE);  // a wish: refused or not, the memory is there
     return begin + head;
 }

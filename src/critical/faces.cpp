@@ -38,7 +38,7 @@ bool any_set(std::span<const std::uint8_t> bytes) {
 /// Second part of the key of face f of a cell (field/order.h).
 std::int64_t second_key(const CellElements& cell, int f) {
     const std::array<int, 4>& c = kFaceCorners[f];
-    const int low = cell.diagonal[f] == Diagonal::ac ? 1 : 0;
+    const int low = cell.bd_high >> f & 1 ? 0 : 1;
     std::int64_t key = -1;
     for (const int corner : {c[low], c[low + 2]}) {
         if (cell.value[corner] == cell.face_value[f]) key = std::max(key, 2 * cell.voxel[corner] + 1);
@@ -104,8 +104,8 @@ bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std
 
 std::uint8_t default_face_types(const CellElements& cell, const CellTable& table) {
     std::uint8_t types = 0;
-    for (int f = 0; f < 6; ++f) {
-        if (cell.diagonal[f] == Diagonal::none) continue;
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
         const int above = corners_above_face(cell, f);
         int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
         for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {

@@ -16,10 +16,6 @@ namespace isoatlas {
 
 inline constexpr std::uint8_t kFaceBits[3] = {0b000011, 0b001100, 0b110000};
 
-constexpr Diagonal diagonal_of(std::uint8_t faces, int orientation) {
-    const int bits = faces >> (2 * orientation) & 3;
-    return bits == 1 ? Diagonal::ac : bits == 2 ? Diagonal::bd : Diagonal::none;
-}
 
 /// Writes the face bytes of slice z. The xz and yz faces need slice z+1: they are left out when with_next is false.
 /// Returns false when no face of the slice is ambiguous.
@@ -29,9 +25,10 @@ bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std
 /// A cell with all it takes to classify its ambiguous faces: corner values and voxels, face values.
 struct CellElements {
     alignas(16) std::array<double, 8> value;  ///< of corner k
-    std::array<std::int64_t, 8> voxel;  ///< of corner k
-    std::array<Diagonal, 6> diagonal;   ///< Highs of face f; none: not ambiguous
-    std::array<double, 6> face_value;   ///< disambiguation value of an ambiguous face
+    std::array<std::int64_t, 8> voxel;        ///< of corner k
+    unsigned ambiguous;                       ///< bit f: face f is ambiguous
+    unsigned bd_high;                         ///< bit f: and b, d are its Highs
+    std::array<double, 6> face_value;         ///< disambiguation value of an ambiguous face
 };
 
 /// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this

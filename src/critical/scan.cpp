@@ -57,19 +57,24 @@ private:
             cell.value[k] = static_cast<double>(corner[offset_[k]]);
             cell.voxel[k] = z * grid_.extent.slice() + i + offset_[k];
         }
-        cell.diagonal = {diagonal_of(faces[i], 0),     diagonal_of(next[i], 0),  diagonal_of(faces[i], 1),
-                         diagonal_of(faces[i + n], 1), diagonal_of(faces[i], 2), diagonal_of(faces[i + 1], 2)};
-        for (int f = 0; f < 6; ++f) {
-            if (cell.diagonal[f] == Diagonal::none) continue;
+        // Bits 2o of a face byte are face 2o of the cell; the faces on the far sides belong to the neighbours behind.
+        const auto far = [&](int mine, int of_next, int of_y, int of_x) {
+            return static_cast<unsigned>((mine & 0b010101) | (of_next & 0b000001) << 1 | (of_y & 0b000100) << 1 | (of_x & 0b010000) << 1);
+        };
+        const int mine = faces[i], of_next = next[i], of_y = faces[i + n], of_x = faces[i + 1];
+        cell.ambiguous = far(mine | mine >> 1, of_next | of_next >> 1, of_y | of_y >> 1, of_x | of_x >> 1);
+        cell.bd_high = far(mine >> 1, of_next >> 1, of_y >> 1, of_x >> 1);
+        for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+            const int f = std::countr_zero(rest);
             const std::array<int, 4>& c = kFaceCorners[f];
-            cell.face_value[f] =
-                disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], cell.diagonal[f]);
+            const Diagonal highs = cell.bd_high >> f & 1 ? Diagonal::bd : Diagonal::ac;
+            cell.face_value[f] = disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], highs);
         }
         const int types = default_face_types(cell, table_);
-        high[i] += static_cast<std::uint8_t>((types & 1) | (types >> 2 & 1) << 2 | (types >> 4 & 1) << 4);
-        high_next[i] += static_cast<std::uint8_t>(types >> 1 & 1);
-        high[i + n] += static_cast<std::uint8_t>((types >> 3 & 1) << 2);
-        high[i + 1] += static_cast<std::uint8_t>((types >> 5 & 1) << 4);
+        high[i] += static_cast<std::uint8_t>(types & 0b010101);
+        high_next[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
+        high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);
+        high[i + 1] += static_cast<std::uint8_t>(types >> 1 & 0b010000);
     }
 
     const GridView<T>& grid_;
@@ -102,15 +107,15 @@ private:
         out.add({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0)});
     }
 
-    void faces_of_voxel(std::int64_t voxel, std::uint8_t faces, std::uint8_t high, SlabScan& out) const {
-        for (int orientation = 0; orientation < 3; ++orientation) {
-            const Diagonal diagonal = diagonal_of(faces, orientation);
-            if (diagonal == Diagonal::none) continue;
-            const int types_h = high >> (2 * orientation) & 3;
-            if (grid_.is_3d() && types_h == 1) continue;  // one side joins the Highs, the other the Lows: regular
-            const int h0 = !grid_.is_3d() ? 2 : types_h == 0 ? 2 : 1;
-            const int l0 = !grid_.is_3d() ? 2 : 3 - h0;
-            face(voxel, orientation, diagonal, h0, l0, out);
+    void faces_of_voxel(std::int64_t voxel, int faces, int high, SlabScan& out) const {
+        // Two bits a face: in how many of its cells it has type H. One: one side joins the Highs, the other the Lows: regular in 3D.
+        const int ambiguous = (faces | faces >> 1) & 0b010101;
+        const int critical = grid_.is_3d() ? ambiguous & ~high : ambiguous;
+        for (unsigned rest = static_cast<unsigned>(critical); rest != 0; rest &= rest - 1) {
+            const int bit = std::countr_zero(rest);
+            const bool closes = high >> (bit + 1) & 1;
+            const int h0 = !grid_.is_3d() || !closes ? 2 : 1, l0 = !grid_.is_3d() || closes ? 2 : 1;
+            face(voxel, bit / 2, faces >> (bit + 1) & 1 ? Diagonal::bd : Diagonal::ac, h0, l0, out);
         }
     }
 

@@ -13,13 +13,13 @@ constexpr Id kNone = std::numeric_limits<Id>::max();
 
 /// Numbers the groups with a non-trivial level by their highest element. event[b]: at bottoms of such groups.
 template <class Id>
-BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, const LevelFlow<Id>& flow, CriticalityTree<Id>& tree) {
+BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, std::span<const LevelKind> kind, CriticalityTree<Id>& tree) {
     const std::size_t n = bottom.size();
     constexpr Id kKept = kNone<Id> - 1;  // to be numbered
     BigVector<Id> event(n, kNone<Id>);
     std::size_t events = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        if (level[i] != static_cast<Id>(i) || flow.is_trivial(i)) continue;
+        if (level[i] != static_cast<Id>(i) || kind[i] == LevelKind::trivial) continue;
         events += event[bottom[i]] == kNone<Id>;
         event[bottom[i]] = kKept;
     }
@@ -32,6 +32,21 @@ BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> leve
     }
     return event;
 }
+
+/// The kind of an event: that of its non-trivial levels when they agree.
+template <class Id>
+void gather_kinds(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelKind> kind, EventMeasures<Id>& measures) {
+    std::vector<bool> seen(tree.size(), false);
+    measures.kind.resize(tree.size());
+    for (std::size_t r = 0; r < level.size(); ++r) {
+        if (level[r] != static_cast<Id>(r) || kind[r] == LevelKind::trivial) continue;
+        const std::size_t e = tree.event_of_element[r];
+        const auto own = static_cast<Criticality>(kind[r]);
+        measures.kind[e] = !seen[e] || measures.kind[e] == own ? own : Criticality::complex;
+        seen[e] = true;
+    }
+}
+static_assert(static_cast<int>(LevelKind::complex) == static_cast<int>(Criticality::complex));
 
 /// Parents of events; event[b] of dropped groups becomes the next event above. Groups in descending order: children come first.
 template <class Id>
@@ -67,10 +82,10 @@ BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> valu
 }
 
 template <class Id>
-CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow) {
+CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, std::span<const LevelKind> kind) {
     CriticalityTree<Id> tree;
     BigVector<Id>& bottom = group;
-    BigVector<Id> event = number_events<Id>(bottom, level, flow, tree);
+    BigVector<Id> event = number_events<Id>(bottom, level, kind, tree);
     link_events<Id>(join, bottom, event, tree);
     for (Id& b : bottom) b = event[b];
     tree.event_of_element = std::move(bottom);
@@ -79,44 +94,41 @@ CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> jo
 }
 
 template <class Id>
-EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow) {
-    const std::size_t events = tree.size();
-    EventMeasures<Id> measures;
-    measures.lows_out.assign(events, Id{0});
-    measures.contours.assign(events, Id{0});
-    measures.kind.assign(events, Criticality::complex);
-    for (std::size_t r = 0; r < level.size(); ++r) {
-        if (level[r] != static_cast<Id>(r) || flow.is_trivial(r)) continue;
-        const std::size_t e = tree.event_of_element[r];
-        const Criticality kind = flow.kind(r);
-        const bool first = measures.lows_out[e] == 0 && measures.contours[e] == 0;  // every non-trivial level changes one of them or more
-        measures.kind[e] = first || measures.kind[e] == kind ? kind : Criticality::complex;
-        measures.lows_out[e] += flow.out[r].contours;
-        measures.contours[e] += flow.out[r].contours - flow.in[r].contours;  // unsigned sums wrap around and back
-    }
-    return measures;
-}
-
-template <class Id>
-void sum_objects(const CriticalityTree<Id>& tree, std::span<const std::int8_t> delta_chi, EventMeasures<Id>& measures) {
+EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourTree<Id>& contours, std::span<const Id> level,
+                                 std::span<const LevelKind> kind, std::span<const double> value, std::span<const std::int8_t> delta_chi) {
     using Signed = std::make_signed_t<Id>;
-    measures.delta_chi.assign(tree.size(), Signed{0});
-    for (std::size_t i = 0; i < delta_chi.size(); ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
+    const std::size_t n = value.size(), events = tree.size();
+    EventMeasures<Id> measures;
+    gather_kinds<Id>(tree, level, kind, measures);
+    measures.lows_out.assign(events, Id{0});
+    measures.contours.assign(events, Id{0});  // the gain of each event; then sums over objects. Unsigned sums wrap around and back
+    for (std::size_t x = 0; x <= n; ++x) {
+        if (!contours.has_arc(x) || !has_length(contours, value, x)) continue;
+        const std::size_t upper = contours.upper(x), lower = contours.lower(x);
+        if (kind[level[upper]] != LevelKind::trivial) {
+            ++measures.lows_out[tree.event_of_element[upper]];
+            ++measures.contours[tree.event_of_element[upper]];
+        }
+        if (lower < n && kind[level[lower]] != LevelKind::trivial) --measures.contours[tree.event_of_element[lower]];
+    }
+    measures.delta_chi.assign(events, Signed{0});
+    for (std::size_t i = 0; i < n; ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
     measures.chi = measures.delta_chi;
-    for (std::size_t e = 0; e < tree.size(); ++e) {
+    for (std::size_t e = 0; e < events; ++e) {
         if (tree.is_root(e)) continue;
         measures.chi[tree.parent[e]] += measures.chi[e];
         measures.contours[tree.parent[e]] += measures.contours[e];
     }
     // Below the root the object is the whole box: a ball with one contour.
     ISOATLAS_CHECK(measures.chi.back() == 1 && measures.contours.back() == 1);
+    return measures;
 }
 
-#define ISOATLAS_CRITICALITY_TREE(Id)                                                                                                  \
-    template BigVector<Id> join_groups(std::span<const Id>, std::span<const double>);                                                      \
-    template CriticalityTree<Id> criticality_tree(BigVector<Id>, std::span<const Id>, std::span<const Id>, const LevelFlow<Id>&);         \
-    template EventMeasures<Id> gather_levels(const CriticalityTree<Id>&, std::span<const Id>, const LevelFlow<Id>&);           \
-    template void sum_objects(const CriticalityTree<Id>&, std::span<const std::int8_t>, EventMeasures<Id>&);
+#define ISOATLAS_CRITICALITY_TREE(Id)                                                                                                    \
+    template BigVector<Id> join_groups(std::span<const Id>, std::span<const double>);                                                   \
+    template CriticalityTree<Id> criticality_tree(BigVector<Id>, std::span<const Id>, std::span<const Id>, std::span<const LevelKind>); \
+    template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, const ContourTree<Id>&, std::span<const Id>,                  \
+                                              std::span<const LevelKind>, std::span<const double>, std::span<const std::int8_t>);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)
 ISOATLAS_CRITICALITY_TREE(std::uint64_t)
 #undef ISOATLAS_CRITICALITY_TREE

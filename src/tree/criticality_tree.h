@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/big_vector.h"
+#include "isoatlas/analysis.h"
 #include "tree/levels.h"
 
 namespace isoatlas {
@@ -31,23 +32,20 @@ struct EventMeasures {
     BigVector<Id> contours;           ///< of the object
     BigVector<Signed> delta_chi;
     BigVector<Signed> chi;            ///< of the object
-    BigVector<Criticality> kind;
+    BigVector<Criticality> kind;      ///< that of its non-trivial levels when they agree, else complex
 };
 
 /// Per element: the lowest element of its group of equal-valued join nodes. join: parents of the join tree, n + 1 entries. Cost: O(n).
 template <class Id>
 BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> value);
 
-/// group: of join_groups. level, flow: of levels.h. Cost: O(n).
+/// group: of join_groups. level, kind: of levels.h. Cost: O(n).
 template <class Id>
-CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, const LevelFlow<Id>& flow);
+CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, std::span<const LevelKind> kind);
 
-/// What the events do by themselves: kind, lows_out, and in `contours` their gain of contours.
+/// delta_chi: per element. Cost: O(n).
 template <class Id>
-EventMeasures<Id> gather_levels(const CriticalityTree<Id>& tree, std::span<const Id> level, const LevelFlow<Id>& flow);
-
-/// The rest: delta_chi, and chi and contours summed over the objects. delta_chi: per element.
-template <class Id>
-void sum_objects(const CriticalityTree<Id>& tree, std::span<const std::int8_t> delta_chi, EventMeasures<Id>& measures);
+EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourTree<Id>& contours, std::span<const Id> level,
+                                 std::span<const LevelKind> kind, std::span<const double> value, std::span<const std::int8_t> delta_chi);
 
 }  // namespace isoatlas

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "base/big_vector.h"
-#include "isoatlas/analysis.h"
 #include "tree/contour_tree.h"
 
 namespace isoatlas {
@@ -23,22 +22,11 @@ template <class Id>
 template <class Id>
 BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value);
 
-/// Contours through levels, indexed by element, meaningful at roots.
-template <class Id>
-struct LevelFlow {
-    struct Side {
-        Id contours;
-        std::make_signed_t<Id> genus;   ///< sum over the contours
-    };
-    BigVector<Side> in, out;            ///< just above, just below
+/// What happens at a level: k contours in, m out, and whether the sum of their genera changes.
+enum class LevelKind : std::uint8_t { maximum, minimum, merge, split, genus, complex, trivial };
 
-    [[nodiscard]] bool is_trivial(std::size_t root) const {
-        return in[root].contours == 1 && out[root].contours == 1 && in[root].genus == out[root].genus;
-    }
-    [[nodiscard]] Criticality kind(std::size_t root) const;
-};
-
+/// Per element, meaningful at the roots of levels. level: of level_roots. Cost: O(n); 10 bytes an element while it runs.
 template <class Id>
-LevelFlow<Id> level_flow(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads = 1);
+BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads = 1);
 
 }  // namespace isoatlas

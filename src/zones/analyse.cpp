@@ -56,9 +56,9 @@ void make_zones(const GridView<T>& grid, BigVector<Id> maxima, BigVector<Id> bas
     arrays.zone = std::move(basin);
 }
 
-/// Criticality tree, contour tree and genus from the critical elements alone; reads nothing else.
+/// Criticality tree, contour tree and genus from the critical elements alone. Returns the kinds of the levels.
 template <class Id>
-void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
+BigVector<LevelKind> make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     BigVector<Id> join, split;
     run_both(threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
     for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) release(*field);
@@ -70,10 +70,9 @@ void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     arrays.code = std::move(set.code);
     BigVector<Id> group;
     run_both(threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); }, [&] { group = join_groups<Id>(join, arrays.value); });
-    const LevelFlow<Id> flow = level_flow<Id>(arrays.contours, arrays.level, arrays.value, threads);
-    arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, flow);
-    release(join);
-    arrays.measures = gather_levels<Id>(arrays.tree, arrays.level, flow);
+    BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, threads);
+    arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, kind);
+    return kind;
 }
 
 template <class T, class Id>
@@ -84,10 +83,10 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     BigVector<Id> maxima = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
     if (!options.zones) release(criticals.basin);
     context.report("trees", 3, kPhases, 0);
-    make_trees(std::move(criticals.set), arrays, context.threads);
+    const BigVector<LevelKind> kind = make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);
     if (options.zones) make_zones<T, Id>(grid, std::move(maxima), std::move(criticals.basin), arrays, context);
-    sum_objects<Id>(arrays.tree, delta_chis(arrays.code, grid.extent.rank), arrays.measures);
+    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, arrays.value, delta_chis(arrays.code, grid.extent.rank));
     context.report("zones", 4, kPhases, 1);
     return result;
 }

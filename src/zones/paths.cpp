@@ -69,7 +69,7 @@ void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<c
     });
     Id next = 0;
     for (Path& path : paths_) next += std::exchange(path.first, next);
-    BigVector<Id> path_of(tree.size());
+    BigVector<Id>& path_of = bucket_;  // scratch until the buckets are made
     for_each_path([&](Path& path, Id number) {
         Id position = paths_[number + 1].first;
         for (Id e = path.below;; e = tree.parent[e]) {
