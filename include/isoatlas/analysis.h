@@ -41,13 +41,13 @@ enum class Criticality : std::uint8_t { maximum, minimum, merge, split, genus, c
 /// A level: the genera of the contours that arrive from above and leave below, sorted. Only non-trivial ones are kept.
 struct Level {
     double value;
-    std::int64_t event;                  ///< the event it belongs to
-    std::vector<std::int64_t> in, out;   ///< genus of each contour just above / just below
+    std::int64_t event;                 ///< the event it belongs to
+    std::vector<std::int64_t> in, out;  ///< genus of each contour just above / just below
 };
 
 /// An arc of the contour tree: one contour while it lives, for tau in (value_low, value_high].
 struct ContourArc {
-    std::int64_t upper, lower;   ///< element ids of its ends; lower == element_count(): the outside of the volume
+    std::int64_t upper, lower;  ///< element ids of its ends; lower == element_count(): the outside of the volume
     double value_high, value_low;
     std::int64_t genus;
 };
@@ -55,24 +55,24 @@ struct ContourArc {
 /// Isovalue interval (tau_low, tau_high]; tau_low is -infinity for the root.
 struct ZoneRange {
     double tau_low, tau_high;
-    std::int64_t voxels;   ///< samples whose value lies in the interval inside this object: they form the zone
+    std::int64_t voxels;  ///< samples whose value lies in the interval inside this object: they form the zone
 };
 
 /// A node of the criticality tree: at `value`, topology of one object changes. Its zone is the interval below it in which nothing changes.
 struct Event {
     std::int64_t id;
     double value;
-    std::array<double, 3> position;       ///< voxel coordinates of its highest critical element
+    std::array<double, 3> position;  ///< voxel coordinates of its highest critical element
     Criticality kind;
-    std::int64_t parent;                  ///< next event of the same object going down; -1: root
+    std::int64_t parent;                     ///< next event of the same object going down; -1: root
     std::span<const std::int64_t> children;  ///< the events (objects) that arrive here from above; valid while the Analysis lives
-    std::int64_t objects_in;              ///< number of children
-    std::int64_t lows_out;                ///< low components that leave the event's levels just below
-    std::int64_t delta_chi;               ///< change of the Euler characteristic of the High set
+    std::int64_t objects_in;                 ///< number of children
+    std::int64_t lows_out;                   ///< low components that leave the event's levels just below
+    std::int64_t delta_chi;                  ///< change of the Euler characteristic of the High set
     ZoneRange zone;
-    std::int64_t chi, b1, b2;             ///< of the object inside the zone (b0 = 1); 2D: b2 = 0
-    std::int64_t contours;                ///< number of contours of the object inside the zone
-    std::int64_t object_voxels;           ///< voxels of the object at the low end of the zone (just above tau_low)
+    std::int64_t chi, b1, b2;    ///< of the object inside the zone (b0 = 1); 2D: b2 = 0
+    std::int64_t contours;       ///< number of contours of the object inside the zone
+    std::int64_t object_voxels;  ///< voxels of the object at the low end of the zone (just above tau_low)
 };
 
 /// How many contours of one genus an object has.
@@ -82,7 +82,7 @@ struct GenusCount {
 
 struct AnalysisOptions {
     Interpolant interpolant = Interpolant::faces;
-    bool zones = true;   ///< label every voxel with its zone (needed for voxel counts); false: trees only
+    bool zones = true;  ///< label every voxel with its zone (needed for voxel counts); false: trees only
 };
 
 class Analysis {

@@ -8,19 +8,19 @@
 namespace isoatlas {
 
 struct Progress {
-    std::string_view phase;   ///< "classify", "join tree", ...
-    int phase_index = 0;      ///< 0-based
+    std::string_view phase;  ///< "classify", "join tree", ...
+    int phase_index = 0;     ///< 0-based
     int phase_count = 1;
-    double fraction = 0;      ///< of this phase, 0..1
+    double fraction = 0;  ///< of this phase, 0..1
 };
 
 /// Defaults are right for almost everybody: all processors, no progress, never cancelled.
 /// The results of every function are the same bytes for any value of threads and slab_slices.
 struct Context {
-    int threads = 0;                                  ///< 0: one per processor
-    std::int64_t slab_slices = 0;                     ///< slices (last axis) per slab; 0: chosen for the thread count
-    std::function<void(const Progress&)> progress;    ///< called from the calling thread only; may be empty
-    std::function<bool()> cancelled;                  ///< polled between slabs; true: Error{cancelled} is thrown
+    int threads = 0;                                ///< 0: one per processor
+    std::int64_t slab_slices = 0;                   ///< slices (last axis) per slab; 0: chosen for the thread count
+    std::function<void(const Progress&)> progress;  ///< called from the calling thread only; may be empty
+    std::function<bool()> cancelled;                ///< polled between slabs; true: Error{cancelled} is thrown
 
     void report(std::string_view phase, int index, int count, double fraction) const {
         if (progress) progress({phase, index, count, fraction});

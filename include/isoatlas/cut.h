@@ -19,18 +19,18 @@ namespace isoatlas {
 enum class Shell : std::uint8_t { outer, inner };
 
 struct CutContour {
-    std::int64_t id;       ///< index of a voxel: highest of the object (outer), lowest of the cavity (inner)
-    std::int64_t object;   ///< id of its object
+    std::int64_t id;      ///< index of a voxel: highest of the object (outer), lowest of the cavity (inner)
+    std::int64_t object;  ///< id of its object
     Shell shell;
-    std::int64_t genus;    ///< 2D: 0
-    std::int64_t hits;     ///< crossed grid edges (edges to the padding included)
+    std::int64_t genus;  ///< 2D: 0
+    std::int64_t hits;   ///< crossed grid edges (edges to the padding included)
 };
 
 struct CutObject {
-    std::int64_t id;          ///< index of its highest voxel
-    std::int64_t chi, b1, b2; ///< b0 = 1; b2 = number of cavities in 3D; 2D: b1 = number of holes, b2 = 0
+    std::int64_t id;           ///< index of its highest voxel
+    std::int64_t chi, b1, b2;  ///< b0 = 1; b2 = number of cavities in 3D; 2D: b1 = number of holes, b2 = 0
     std::int64_t voxels;
-    double measure;           ///< physical volume (area in 2D): sum of voxel boxes
+    double measure;                                 ///< physical volume (area in 2D): sum of voxel boxes
     std::array<std::int64_t, 3> box_low, box_high;  ///< inclusive voxel bounds
     std::int64_t first_contour, contour_count;      ///< range in Cut::contours: the outer one first, then cavities by id
 };
@@ -40,15 +40,15 @@ struct Cut {
     double tau;
     Interpolant interpolant;
     std::vector<CutObject> objects;
-    std::vector<CutContour> contours;    ///< grouped by object, in the order of objects
-    std::int64_t active_cells;           ///< cells the surface passes through (padding cells included)
+    std::vector<CutContour> contours;  ///< grouped by object, in the order of objects
+    std::int64_t active_cells;         ///< cells the surface passes through (padding cells included)
     /// Position in `objects` of the object of each voxel, -1 for Lows. Empty unless asked for.
     std::vector<std::int32_t> label;
 };
 
 struct CutOptions {
     Interpolant interpolant = Interpolant::faces;
-    bool label = false;   ///< fill Cut::label (4 bytes a voxel)
+    bool label = false;  ///< fill Cut::label (4 bytes a voxel)
 };
 
 /// tau is a stored value. Any finite tau: above the maximum there are no objects, at or below the minimum there is one.

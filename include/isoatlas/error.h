@@ -11,14 +11,14 @@ namespace isoatlas {
 
 /// What kind of failure; the value is the exit code of the command line.
 enum class ErrorKind : int {
-    internal = 1,       ///< a check of isoatlas itself failed: a bug
-    usage = 2,          ///< the caller asked for something contradictory
-    input = 3,          ///< a file is missing, unreadable, truncated or corrupt
-    unsupported = 4,    ///< a valid file of a format or type that isoatlas does not read
-    resource = 5,       ///< output cannot be written, disk full, not enough memory
-    not_found = 6,      ///< no such object or contour, isovalue outside the range
-    verification = 7,   ///< a guarantee does not hold for this mesh or volume
-    cancelled = 130     ///< stopped by the user
+    internal = 1,      ///< a check of isoatlas itself failed: a bug
+    usage = 2,         ///< the caller asked for something contradictory
+    input = 3,         ///< a file is missing, unreadable, truncated or corrupt
+    unsupported = 4,   ///< a valid file of a format or type that isoatlas does not read
+    resource = 5,      ///< output cannot be written, disk full, not enough memory
+    not_found = 6,     ///< no such object or contour, isovalue outside the range
+    verification = 7,  ///< a guarantee does not hold for this mesh or volume
+    cancelled = 130    ///< stopped by the user
 };
 
 /// The parts of an error message. Empty parts are left out.

@@ -1,4 +1,5 @@
-// Objects: the table people come for. Which objects are in this volume, at which isovalues, which isovalue shows each best, how big are they?
+// Objects: the table people come for. Which objects are in this volume, at which isovalues, which isovalue shows each best, how big are
+// they?
 #pragma once
 
 #include <array>
@@ -12,31 +13,32 @@ namespace isoatlas {
 
 /// One entry of the table: a branch of the criticality tree and the isovalue that shows it best.
 struct ObjectEntry {
-    std::int64_t id;             ///< index of the highest voxel of the object at best_tau: `extract --object ID --tau BEST`
-    std::int64_t event;          ///< the event whose zone contains best_tau
-    double appears, merges;      ///< stored values: the object is on its own for tau in (merges, appears]; merges = -infinity: never
-    double best_tau;             ///< stored value
-    std::int64_t voxels;         ///< at best_tau
-    double measure;              ///< physical volume (area in 2D) at best_tau
-    std::int64_t tunnels;        ///< b1 at best_tau
-    std::int64_t cavities;       ///< b2 at best_tau
-    double hypervolume;          ///< sum over the object just above `merges` of (value - merges); the rank
+    std::int64_t id;                 ///< index of the highest voxel of the object at best_tau: `extract --object ID --tau BEST`
+    std::int64_t event;              ///< the event whose zone contains best_tau
+    double appears, merges;          ///< stored values: the object is on its own for tau in (merges, appears]; merges = -infinity: never
+    double best_tau;                 ///< stored value
+    std::int64_t voxels;             ///< at best_tau
+    double measure;                  ///< physical volume (area in 2D) at best_tau
+    std::int64_t tunnels;            ///< b1 at best_tau
+    std::int64_t cavities;           ///< b2 at best_tau
+    double hypervolume;              ///< sum over the object just above `merges` of (value - merges); the rank
     std::array<double, 3> position;  ///< voxel coordinates of the highest voxel
-    std::string note;            ///< "largest", "outline", "inside 3", ...
+    std::string note;                ///< "largest", "outline", "inside 3", ...
 };
 
 struct ObjectTable {
-    std::vector<ObjectEntry> entries;    ///< by rank
-    std::int64_t branches = 0;           ///< how many objects there are in all (maxima events)
-    double noise = 0;                    ///< estimated standard deviation of the noise, stored units
+    std::vector<ObjectEntry> entries;  ///< by rank
+    std::int64_t branches = 0;         ///< how many objects there are in all (maxima events)
+    double noise = 0;                  ///< estimated standard deviation of the noise, stored units
 };
 
 struct RankOptions {
-    std::int64_t top = 24;        ///< at most this many entries; 0: all that pass the gate
-    bool gate = true;             ///< drop what noise alone explains (essential.md section 2)
+    std::int64_t top = 24;  ///< at most this many entries; 0: all that pass the gate
+    bool gate = true;       ///< drop what noise alone explains (essential.md section 2)
 };
 
 /// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3).
-[[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {}, const Context& context = {});
+[[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
+                                       const Context& context = {});
 
 }  // namespace isoatlas

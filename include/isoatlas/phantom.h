@@ -10,12 +10,12 @@
 namespace isoatlas {
 
 struct PhantomOptions {
-    std::int64_t size = 0;       ///< samples per axis; 0: the phantom's own default
-    std::uint64_t seed = 1;      ///< for random ones
-    std::int64_t genus = 3;      ///< torus-chain
-    std::int64_t shells = 3;     ///< nested-shells
-    double noise = 0;            ///< uniform noise of +- this fraction of the range, added last
-    std::int64_t quantise = 0;   ///< number of grey levels (2..65536); 0: off. Up to 256 gives uint8, else uint16
+    std::int64_t size = 0;      ///< samples per axis; 0: the phantom's own default
+    std::uint64_t seed = 1;     ///< for random ones
+    std::int64_t genus = 3;     ///< torus-chain
+    std::int64_t shells = 3;    ///< nested-shells
+    double noise = 0;           ///< uniform noise of +- this fraction of the range, added last
+    std::int64_t quantise = 0;  ///< number of grey levels (2..65536); 0: off. Up to 256 gives uint8, else uint16
 };
 
 struct PhantomDescription {

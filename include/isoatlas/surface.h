@@ -18,16 +18,16 @@ namespace isoatlas {
 
 struct Surface {
     std::vector<std::array<double, 3>> points;
-    std::vector<std::array<float, 3>> normals;            ///< unit length, per point; empty when not asked for
+    std::vector<std::array<float, 3>> normals;  ///< unit length, per point; empty when not asked for
     std::vector<std::array<std::int64_t, 3>> triangles;
-    std::vector<std::array<std::int64_t, 2>> segments;    ///< 2D only
-    std::vector<std::int64_t> object;                     ///< per point, id as in Cut; empty when not asked for
-    std::vector<std::int64_t> contour;                    ///< per point, id as in Cut; empty when not asked for
-    double tau = 0;                                       ///< stored value
-    double reported_tau = 0;                              ///< calibrated value
-    std::string space = "unknown";                        ///< of the points
+    std::vector<std::array<std::int64_t, 2>> segments;  ///< 2D only
+    std::vector<std::int64_t> object;                   ///< per point, id as in Cut; empty when not asked for
+    std::vector<std::int64_t> contour;                  ///< per point, id as in Cut; empty when not asked for
+    double tau = 0;                                     ///< stored value
+    double reported_tau = 0;                            ///< calibrated value
+    std::string space = "unknown";                      ///< of the points
     std::string unit;
-    bool closed = true;                                   ///< false: open at the border of the volume (Boundary::open)
+    bool closed = true;  ///< false: open at the border of the volume (Boundary::open)
 };
 
 /// closed: samples outside the volume are -infinity, caps close every surface. open: the caps are left off.
@@ -40,11 +40,11 @@ struct ExtractOptions {
     Interpolant interpolant = Interpolant::faces;
     Boundary boundary = Boundary::closed;
     SurfaceStyle style = SurfaceStyle::compact;
-    std::vector<std::int64_t> objects;    ///< voxel indices: the objects at tau that contain them; empty: all
-    std::vector<std::int64_t> contours;   ///< contour ids as in Cut; empty: all
+    std::vector<std::int64_t> objects;   ///< voxel indices: the objects at tau that contain them; empty: all
+    std::vector<std::int64_t> contours;  ///< contour ids as in Cut; empty: all
     ShellChoice shell = ShellChoice::all;
     bool normals = true;
-    bool ids = true;                      ///< fill Surface::object and Surface::contour
+    bool ids = true;  ///< fill Surface::object and Surface::contour
 };
 
 /// Cost: O(volume) scan plus O(surface). Throws Error{not_found} for an object or contour that does not exist at tau.
@@ -54,14 +54,14 @@ struct ExtractOptions {
 /// What a triangle mesh is, decided on indices alone (degenerate triangles on coordinates).
 struct SurfaceReport {
     std::int64_t points = 0, triangles = 0, edges = 0;
-    std::int64_t boundary_edges = 0;         ///< edges with one triangle
-    std::int64_t non_manifold_edges = 0;     ///< edges with more than two
-    std::int64_t misoriented_edges = 0;      ///< edges whose two triangles run the same way
-    std::int64_t non_manifold_points = 0;    ///< points whose triangles are not one fan
+    std::int64_t boundary_edges = 0;       ///< edges with one triangle
+    std::int64_t non_manifold_edges = 0;   ///< edges with more than two
+    std::int64_t misoriented_edges = 0;    ///< edges whose two triangles run the same way
+    std::int64_t non_manifold_points = 0;  ///< points whose triangles are not one fan
     std::int64_t unused_points = 0;
-    std::int64_t zero_area_triangles = 0;    ///< repeated or collinear points
-    std::int64_t coincident_points = 0;      ///< points equal in all coordinates to an earlier one
-    std::vector<std::int64_t> component_chi; ///< Euler number of each component, in order of the first point
+    std::int64_t zero_area_triangles = 0;     ///< repeated or collinear points
+    std::int64_t coincident_points = 0;       ///< points equal in all coordinates to an earlier one
+    std::vector<std::int64_t> component_chi;  ///< Euler number of each component, in order of the first point
     [[nodiscard]] bool is_closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
     [[nodiscard]] bool is_manifold() const { return non_manifold_edges == 0 && non_manifold_points == 0; }
     [[nodiscard]] bool is_oriented() const { return misoriented_edges == 0; }
@@ -70,7 +70,8 @@ struct SurfaceReport {
 [[nodiscard]] SurfaceReport inspect(std::span<const std::array<double, 3>> points, std::span<const std::array<std::int64_t, 3>> triangles);
 
 /// The format follows the name: .ply (binary), .stl (binary), .obj, .vtp, .glb. Written to a temporary name and renamed: never half a file.
-/// Returns warnings for the user (STL keeps no ids, float32 cannot separate points, ...). Throws Error: usage (unknown extension), resource.
+/// Returns warnings for the user (STL keeps no ids, float32 cannot separate points, ...). Throws Error: usage (unknown extension),
+/// resource.
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface);
 
 /// Reads back what write_surface writes, and the usual variants of the same formats from other tools. STL points are merged when
@@ -78,7 +79,7 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
 struct Mesh {
     std::vector<std::array<double, 3>> points;
     std::vector<std::array<std::int64_t, 3>> triangles;
-    std::vector<std::int64_t> object, contour;   ///< when the file has them
+    std::vector<std::int64_t> object, contour;  ///< when the file has them
 };
 [[nodiscard]] Mesh read_mesh(const std::string& path);
 

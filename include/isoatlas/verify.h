@@ -11,16 +11,16 @@
 namespace isoatlas {
 
 struct CheckResult {
-    std::string name;     ///< "surface_is_closed", "join_tree_is_valid", ...
+    std::string name;  ///< "surface_is_closed", "join_tree_is_valid", ...
     bool holds;
-    std::string detail;   ///< numbers; for a failure the first offender
+    std::string detail;  ///< numbers; for a failure the first offender
 };
 
 /// closed, manifold (edges and points), oriented, no zero-area triangles, even Euler numbers.
 [[nodiscard]] std::vector<CheckResult> verify_mesh(const Mesh& mesh);
 
-/// Tree invariants, Euler sums, zones partition the voxels; and at `levels` isovalues spread over the range (data values and values between):
-/// tree == cut == mesh (components, genus, Euler numbers, closed and manifold).
+/// Tree invariants, Euler sums, zones partition the voxels; and at `levels` isovalues spread over the range (data values and values
+/// between): tree == cut == mesh (components, genus, Euler numbers, closed and manifold).
 [[nodiscard]] std::vector<CheckResult> verify_volume(const Volume& volume, int levels = 8, const Context& context = {});
 
 }  // namespace isoatlas

@@ -30,14 +30,12 @@ enum class ValueType : std::uint8_t { u8, i8, u16, i16, u32, i32, f32, f64 };
 
 /// The shape of a grid. Every size is at least 1; the product fits in 63 bits.
 struct Extent {
-    int rank = 3;                              ///< 2 or 3: decides which theory applies
+    int rank = 3;  ///< 2 or 3: decides which theory applies
     std::array<std::int64_t, 3> size{1, 1, 1};
 
     [[nodiscard]] std::int64_t voxels() const { return size[0] * size[1] * size[2]; }
     [[nodiscard]] std::int64_t slice() const { return size[0] * size[1]; }
-    [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return x + size[0] * (y + size[1] * z);
-    }
+    [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const { return x + size[0] * (y + size[1] * z); }
     [[nodiscard]] std::array<std::int64_t, 3> voxel(std::int64_t i) const {
         return {i % size[0], i / size[0] % size[1], i / (size[0] * size[1])};
     }
@@ -47,12 +45,12 @@ struct Extent {
 /// Where sample (0,0,0) lies and how the axes run: physical = origin + direction * (spacing .* index).
 /// Rectilinear grids carry one coordinate per sample and axis instead of spacing (coordinates[a].size() == size[a], else empty).
 struct Geometry {
-    Vec3 spacing{1, 1, 1};                            ///< positive
+    Vec3 spacing{1, 1, 1};  ///< positive
     Vec3 origin{0, 0, 0};
     Mat3 direction{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< column a = unit vector of axis a
     std::array<std::vector<double>, 3> coordinates{};
-    std::string space = "unknown";                    ///< "LPS", "RAS", "unknown", ...: what the physical axes mean
-    std::string unit;                                 ///< of lengths: "mm", "um", ...; empty when the file does not say
+    std::string space = "unknown";  ///< "LPS", "RAS", "unknown", ...: what the physical axes mean
+    std::string unit;               ///< of lengths: "mm", "um", ...; empty when the file does not say
     bool operator==(const Geometry&) const = default;
 };
 [[nodiscard]] Vec3 to_physical(const Geometry& geometry, const Vec3& voxel_position);
@@ -73,19 +71,19 @@ struct Calibration {
 
 /// What a file is, known from its header alone.
 struct VolumeInfo {
-    std::string path;         ///< as the user gave it
-    std::string format;       ///< "NRRD", "NIfTI-1", "RAW", ...
-    std::string encoding;     ///< "raw", "gzip", "zlib", "ascii", "base64", "TIFF", ...
-    std::string data_file;    ///< where the samples are, if not in path
+    std::string path;       ///< as the user gave it
+    std::string format;     ///< "NRRD", "NIfTI-1", "RAW", ...
+    std::string encoding;   ///< "raw", "gzip", "zlib", "ascii", "base64", "TIFF", ...
+    std::string data_file;  ///< where the samples are, if not in path
     ValueType type = ValueType::u8;
     bool big_endian = false;
     Extent extent;
     Geometry geometry;
     Calibration calibration;
-    std::string value_unit;   ///< of sample values, if the file says
-    std::string description;  ///< free text of the file, if any
-    bool slab_readable = false;   ///< uncompressed: any slab is read without reading what precedes it
-    std::int64_t file_bytes = 0;  ///< size of the file(s) on disk
+    std::string value_unit;          ///< of sample values, if the file says
+    std::string description;         ///< free text of the file, if any
+    bool slab_readable = false;      ///< uncompressed: any slab is read without reading what precedes it
+    std::int64_t file_bytes = 0;     ///< size of the file(s) on disk
     std::vector<std::string> notes;  ///< what the reader chose or ignored, for the user
 };
 
@@ -106,12 +104,12 @@ protected:
 /// What to assume about RAW files; contradictions with a header are errors. Unset: read from a JSON sidecar
 /// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw).
 struct OpenOptions {
-    std::optional<std::vector<std::int64_t>> dims;   ///< x y [z]
+    std::optional<std::vector<std::int64_t>> dims;  ///< x y [z]
     std::optional<ValueType> type;
     std::optional<bool> big_endian;
     std::optional<std::int64_t> skip_bytes;
     std::optional<Vec3> spacing, origin;
-    std::optional<std::int64_t> time_step;           ///< which volume of a 4D file; unset: a 4D file is an error that names this option
+    std::optional<std::int64_t> time_step;  ///< which volume of a 4D file; unset: a 4D file is an error that names this option
 };
 
 /// Chooses the reader by content and name. Allocates nothing in proportion to what a header claims.
@@ -121,8 +119,8 @@ struct OpenOptions {
 /// What to do with NaN and infinite samples (and, if given, a no-data value).
 struct MissingPolicy {
     enum class Action : std::uint8_t { error, replace, below } action = Action::error;
-    double value = 0;                  ///< for replace
-    std::optional<double> no_data;     ///< samples equal to this count as missing too
+    double value = 0;               ///< for replace
+    std::optional<double> no_data;  ///< samples equal to this count as missing too
 };
 
 /// A volume in memory: samples of info.type in host byte order.
@@ -139,7 +137,7 @@ public:
     [[nodiscard]] std::span<T> samples() {
         return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
     }
-    [[nodiscard]] double value(std::int64_t index) const;     ///< stored value, exact
+    [[nodiscard]] double value(std::int64_t index) const;  ///< stored value, exact
     [[nodiscard]] double reported(std::int64_t index) const { return info.calibration.reported(value(index)); }
 };
 

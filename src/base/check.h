@@ -9,14 +9,14 @@ namespace isoatlas {
 
 }  // namespace isoatlas
 
-#define ISOATLAS_CHECK(condition) \
-    do { \
+#define ISOATLAS_CHECK(condition)                                                   \
+    do {                                                                            \
         if (!(condition)) ::isoatlas::check_failed(#condition, __FILE__, __LINE__); \
     } while (false)
 
 #ifdef NDEBUG
 #define ISOATLAS_DCHECK(condition) \
-    do { \
+    do {                           \
     } while (false)
 #else
 #define ISOATLAS_DCHECK(condition) ISOATLAS_CHECK(condition)

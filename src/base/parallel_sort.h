@@ -39,7 +39,9 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t step_of(double key) const { return static_cast<std::size_t>(std::clamp((key - low_) * factor_, 0.0, steps_)); }
+    [[nodiscard]] std::size_t step_of(double key) const {
+        return static_cast<std::size_t>(std::clamp((key - low_) * factor_, 0.0, steps_));
+    }
 
     std::size_t count_;
     std::vector<double> splitters_;  // bucket b holds the keys in (splitter[b-1], splitter[b]]

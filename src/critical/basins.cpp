@@ -24,7 +24,8 @@ constexpr std::array<std::uint8_t, 64> kChoice = [] {
 }  // namespace
 
 template <class Id>
-Basins<Id>::Basins(const Extent& extent, std::int64_t slab_height, Direction direction, std::span<const std::uint8_t> links, std::span<Id> basin)
+Basins<Id>::Basins(const Extent& extent, std::int64_t slab_height, Direction direction, std::span<const std::uint8_t> links,
+                   std::span<Id> basin)
     : extent_(extent), height_(slab_height), direction_(direction), links_(links), basin_(basin) {
     ISOATLAS_CHECK(static_cast<std::uint64_t>(extent.voxels()) < std::uint64_t{kNumber});
 }

@@ -1,8 +1,8 @@
 // The critical elements of any domain, as the tree stage takes them: nothing here knows of grids.
 //
 // Structure of arrays, indexed by critical element in descending total order (0 = highest). An element names the extrema its surroundings
-// lead to ("representatives", theory.md section 4): above, the maxima reached from the h0 objects that meet there; below, the minima reached
-// from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one component.
+// lead to ("representatives", theory.md section 4): above, the maxima reached from the h0 objects that meet there; below, the minima
+// reached from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one component.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace isoatlas {
 template <class Id>
 struct CriticalSet {
     BigVector<double> value;
-    BigVector<std::uint64_t> code;        ///< ElementCode bits; the tree reads h0, l0 only
-    BigVector<Id> up_a, up_b;             ///< maxima numbers; equal when h0 < 2; a maximum names itself
-    BigVector<Id> low_a, low_b;           ///< minima numbers, 0 = outside; a minimum names itself
-    std::int64_t maxima = 0;                ///< maxima are numbered 0 .. maxima-1
-    std::int64_t minima = 0;                ///< minima are numbered 1 .. minima; 0 is the outside
+    BigVector<std::uint64_t> code;  ///< ElementCode bits; the tree reads h0, l0 only
+    BigVector<Id> up_a, up_b;       ///< maxima numbers; equal when h0 < 2; a maximum names itself
+    BigVector<Id> low_a, low_b;     ///< minima numbers, 0 = outside; a minimum names itself
+    std::int64_t maxima = 0;        ///< maxima are numbered 0 .. maxima-1
+    std::int64_t minima = 0;        ///< minima are numbered 1 .. minima; 0 is the outside
     int rank = 3;
 
     [[nodiscard]] std::size_t size() const { return value.size(); }

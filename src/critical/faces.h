@@ -1,6 +1,7 @@
 // Ambiguous faces of a slice, as one byte per voxel, and the type of an ambiguous face inside one of its cells.
 //
-// Byte of voxel a: bits 2o, 2o+1 for the face of orientation o whose corner a is the voxel: bit 2o when a, c are the Highs, 2o+1 when b, d are.
+// Byte of voxel a: bits 2o, 2o+1 for the face of orientation o whose corner a is the voxel: bit 2o when a, c are the Highs, 2o+1 when b, d
+// are.
 #pragma once
 
 #include <array>
@@ -15,7 +16,6 @@
 namespace isoatlas {
 
 inline constexpr std::uint8_t kFaceBits[3] = {0b000011, 0b001100, 0b110000};
-
 
 /// Writes the face bytes of slice z. The xz and yz faces need slice z+1: they are left out when with_next is false.
 /// Returns false when no face of the slice is ambiguous.

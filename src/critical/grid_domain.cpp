@@ -61,7 +61,7 @@ private:
 
 template <class Id>
 BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
-                               const std::vector<std::int64_t>& first_number, int threads) {
+                             const std::vector<std::int64_t>& first_number, int threads) {
     BigVector<Id> basin(static_cast<std::size_t>(extent.voxels()));
     const auto slabs = static_cast<std::int64_t>(first_number.size());
     Basins<Id> basins(extent, height, direction, links, basin);
@@ -75,8 +75,10 @@ BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Directio
 
 /// Sorts the elements, takes them apart into arrays, and looks up where each one leads.
 template <class Id>
-CriticalSet<Id> sort_elements(std::vector<BigVector<KeyedElement>> chunks, const Above& above, const Representatives<Id>& leads, int threads) {
-    BigVector<KeyedElement> sorted = sort_chunks(threads, std::move(chunks), [](const KeyedElement& element) { return -element.value; }, above);
+CriticalSet<Id> sort_elements(std::vector<BigVector<KeyedElement>> chunks, const Above& above, const Representatives<Id>& leads,
+                              int threads) {
+    BigVector<KeyedElement> sorted =
+        sort_chunks(threads, std::move(chunks), [](const KeyedElement& element) { return -element.value; }, above);
     const std::size_t n = sorted.size();
     constexpr std::size_t kBlock = 1 << 16;
     const auto for_each = [&](auto&& work) {
@@ -139,7 +141,7 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
     return result;
 }
 
-#define ISOATLAS_GRID(T)                           \
+#define ISOATLAS_GRID(T)                         \
     template class GridDomain<T, std::uint32_t>; \
     template class GridDomain<T, std::uint64_t>;
 ISOATLAS_GRID(std::uint8_t)

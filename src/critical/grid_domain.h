@@ -8,9 +8,9 @@
 #include <concepts>
 
 #include "critical/basins.h"
+#include "critical/critical_set.h"
 #include "critical/scan.h"
 #include "isoatlas/context.h"
-#include "critical/critical_set.h"
 
 namespace isoatlas {
 
@@ -27,7 +27,7 @@ concept Domain = requires(const D& domain, const Context& context, std::uint64_t
     typename D::Sample;
     { domain.critical(context) } -> std::same_as<Criticals<typename D::Id>>;
     { domain.position(code) } -> std::same_as<std::array<double, 3>>;
-    { domain.above(element, element) } -> std::same_as<bool>;   // the total order
+    { domain.above(element, element) } -> std::same_as<bool>;  // the total order
     { domain.vertices() } -> std::same_as<std::int64_t>;
     { domain.sample(std::int64_t{}) } -> std::same_as<typename D::Sample>;
 };

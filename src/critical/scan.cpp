@@ -23,7 +23,8 @@ std::array<std::int64_t, 8> corner_offsets(const GridSteps& steps) {
 template <class T>
 class LayerTypes {
 public:
-    LayerTypes(const GridView<T>& grid) : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), any_(grid.extent.size[0] + 8) {}
+    LayerTypes(const GridView<T>& grid)
+        : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), any_(grid.extent.size[0] + 8) {}
 
     void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next) {
         const std::int64_t n = grid_.extent.size[0];
@@ -45,7 +46,8 @@ public:
 private:
     void gather_row(const std::uint8_t* faces, const std::uint8_t* next, std::int64_t n) {
         for (std::int64_t x = 0; x + 1 < n; ++x) {
-            any_[x] = static_cast<std::uint8_t>(faces[x] | (faces[x + n] & kFaceBits[1]) | (faces[x + 1] & kFaceBits[2]) | (next[x] & kFaceBits[0]));
+            any_[x] = static_cast<std::uint8_t>(faces[x] | (faces[x + n] & kFaceBits[1]) | (faces[x + 1] & kFaceBits[2]) |
+                                                (next[x] & kFaceBits[0]));
         }
     }
 

@@ -1,7 +1,8 @@
 // The slab pass: samples in, links of the voxels and critical elements out (theory.md sections 3 and 9).
 //
 // Everything is decided from three slices: a vertex by its neighbours, an ambiguous face by the two cells that share it.
-// The owner of a face is the slab of its corner a. Elements come out in raster order of their owner voxel, the vertex first, then faces xy, xz, yz.
+// The owner of a face is the slab of its corner a. Elements come out in raster order of their owner voxel, the vertex first, then faces xy,
+// xz, yz.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,9 @@
 namespace isoatlas {
 
 struct SlabScan {
-    static constexpr std::size_t kChunk = std::size_t{1} << 18;   ///< a list that grows without copying nor reserve
-    std::vector<BigVector<KeyedElement>> chunks;                   ///< critical elements owned by the slab; all but the last are full
-    std::int64_t maxima = 0, minima = 0;                           ///< how many of them have no upper / no lower link
+    static constexpr std::size_t kChunk = std::size_t{1} << 18;  ///< a list that grows without copying nor reserve
+    std::vector<BigVector<KeyedElement>> chunks;                 ///< critical elements owned by the slab; all but the last are full
+    std::int64_t maxima = 0, minima = 0;                         ///< how many of them have no upper / no lower link
 
     void add(const KeyedElement& element) {
         if (chunks.empty() || chunks.back().size() == kChunk) chunks.emplace_back();

@@ -31,7 +31,8 @@ struct ElementCode {
         return {static_cast<std::uint64_t>(voxel) << 10 | static_cast<std::uint64_t>(h0 << 4 | l0 << 2)};
     }
     static constexpr ElementCode face(std::int64_t number, int tie_corner, bool bd_high, int h0, int l0) {
-        return {static_cast<std::uint64_t>(number) << 10 | static_cast<std::uint64_t>(tie_corner << 7 | int{bd_high} << 6 | h0 << 4 | l0 << 2 | 1)};
+        return {static_cast<std::uint64_t>(number) << 10 |
+                static_cast<std::uint64_t>(tie_corner << 7 | int{bd_high} << 6 | h0 << 4 | l0 << 2 | 1)};
     }
     [[nodiscard]] constexpr CodeKind kind() const { return static_cast<CodeKind>(bits & 3); }
     [[nodiscard]] constexpr int l0() const { return static_cast<int>(bits >> 2 & 3); }

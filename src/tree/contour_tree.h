@@ -1,9 +1,9 @@
 // Contour tree and the genus of every contour (theory.md T4).
 //
 // Merge of join and split tree by leaf removal (Carr, Snoeyink, Axen 2003). Nodes are the critical elements 0..n-1 in descending order and
-// the outside n. Each removed node leaves exactly one arc, so arcs are indexed by the node whose removal made them: n arcs, one node without.
-// half_chi of an arc = half the Euler number of its contour = 1 - genus (3D). At every node: sum(below) = sum(above) + delta_chi, so the
-// same removal order that finds the arcs finds their Euler numbers.
+// the outside n. Each removed node leaves exactly one arc, so arcs are indexed by the node whose removal made them: n arcs, one node
+// without. half_chi of an arc = half the Euler number of its contour = 1 - genus (3D). At every node: sum(below) = sum(above) + delta_chi,
+// so the same removal order that finds the arcs finds their Euler numbers.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace isoatlas {
 template <class Id>
 struct ContourTree {
     using Signed = std::make_signed_t<Id>;
-    BigVector<Id> other;          ///< per node x: the other end of its arc; x itself for the last node, which has none
-    BigVector<Signed> half_chi;   ///< per node x: of its arc
+    BigVector<Id> other;         ///< per node x: the other end of its arc; x itself for the last node, which has none
+    BigVector<Signed> half_chi;  ///< per node x: of its arc
 
     [[nodiscard]] std::size_t nodes() const { return other.size(); }
     [[nodiscard]] bool has_arc(std::size_t x) const { return other[x] != static_cast<Id>(x); }

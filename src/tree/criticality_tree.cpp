@@ -13,7 +13,8 @@ constexpr Id kNone = std::numeric_limits<Id>::max();
 
 /// Numbers the groups with a non-trivial level by their highest element. event[b]: at bottoms of such groups.
 template <class Id>
-BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, std::span<const LevelKind> kind, CriticalityTree<Id>& tree) {
+BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> level, std::span<const LevelKind> kind,
+                            CriticalityTree<Id>& tree) {
     const std::size_t n = bottom.size();
     constexpr Id kKept = kNone<Id> - 1;  // to be numbered
     BigVector<Id> event(n, kNone<Id>);
@@ -35,7 +36,8 @@ BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> leve
 
 /// The kind of an event: that of its non-trivial levels when they agree.
 template <class Id>
-void gather_kinds(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelKind> kind, EventMeasures<Id>& measures) {
+void gather_kinds(const CriticalityTree<Id>& tree, std::span<const Id> level, std::span<const LevelKind> kind,
+                  EventMeasures<Id>& measures) {
     std::vector<bool> seen(tree.size(), false);
     measures.kind.resize(tree.size());
     for (std::size_t r = 0; r < level.size(); ++r) {
@@ -82,7 +84,8 @@ BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> valu
 }
 
 template <class Id>
-CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, std::span<const LevelKind> kind) {
+CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level,
+                                     std::span<const LevelKind> kind) {
     CriticalityTree<Id> tree;
     BigVector<Id>& bottom = group;
     BigVector<Id> event = number_events<Id>(bottom, level, kind, tree);
@@ -124,7 +127,7 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     return measures;
 }
 
-#define ISOATLAS_CRITICALITY_TREE(Id)                                                                                                    \
+#define ISOATLAS_CRITICALITY_TREE(Id)                                                                                                   \
     template BigVector<Id> join_groups(std::span<const Id>, std::span<const double>);                                                   \
     template CriticalityTree<Id> criticality_tree(BigVector<Id>, std::span<const Id>, std::span<const Id>, std::span<const LevelKind>); \
     template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, const ContourTree<Id>&, std::span<const Id>,                  \

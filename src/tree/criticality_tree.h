@@ -15,10 +15,10 @@ namespace isoatlas {
 
 template <class Id>
 struct CriticalityTree {
-    BigVector<Id> event_of_element;   ///< per element: its event; for a dropped one the next event above
+    BigVector<Id> event_of_element;  ///< per element: its event; for a dropped one the next event above
     // per event
-    BigVector<Id> top;                ///< its highest element
-    BigVector<Id> parent;             ///< the event itself for the root
+    BigVector<Id> top;     ///< its highest element
+    BigVector<Id> parent;  ///< the event itself for the root
 
     [[nodiscard]] std::size_t size() const { return top.size(); }
     [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e); }
@@ -29,10 +29,10 @@ template <class Id>
 struct EventMeasures {
     using Signed = std::make_signed_t<Id>;
     BigVector<Id> lows_out;
-    BigVector<Id> contours;           ///< of the object
+    BigVector<Id> contours;  ///< of the object
     BigVector<Signed> delta_chi;
-    BigVector<Signed> chi;            ///< of the object
-    BigVector<Criticality> kind;      ///< that of its non-trivial levels when they agree, else complex
+    BigVector<Signed> chi;        ///< of the object
+    BigVector<Criticality> kind;  ///< that of its non-trivial levels when they agree, else complex
 };
 
 /// Per element: the lowest element of its group of equal-valued join nodes. join: parents of the join tree, n + 1 entries. Cost: O(n).
@@ -41,7 +41,8 @@ BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> valu
 
 /// group: of join_groups. level, kind: of levels.h. Cost: O(n).
 template <class Id>
-CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level, std::span<const LevelKind> kind);
+CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level,
+                                     std::span<const LevelKind> kind);
 
 /// delta_chi: per element. Cost: O(n).
 template <class Id>

@@ -58,8 +58,9 @@ LevelKind kind_of(int k, int m, bool same_genus) {
 template <class Id>
 BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads) {
     Side<Id> in, out;
-    run_both(threads, [&] { in = gather_side<Id>(tree, level, value, [&](std::size_t x) { return tree.lower(x); }); },
-             [&] { out = gather_side<Id>(tree, level, value, [&](std::size_t x) { return tree.upper(x); }); });
+    run_both(
+        threads, [&] { in = gather_side<Id>(tree, level, value, [&](std::size_t x) { return tree.lower(x); }); },
+        [&] { out = gather_side<Id>(tree, level, value, [&](std::size_t x) { return tree.upper(x); }); });
     BigVector<LevelKind> kind(value.size());
     for (std::size_t r = 0; r < kind.size(); ++r) kind[r] = kind_of(in.contours[r], out.contours[r], in.genus[r] == out.genus[r]);
     return kind;

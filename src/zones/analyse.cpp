@@ -69,7 +69,9 @@ BigVector<LevelKind> make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays,
     arrays.value = std::move(set.value);
     arrays.code = std::move(set.code);
     BigVector<Id> group;
-    run_both(threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); }, [&] { group = join_groups<Id>(join, arrays.value); });
+    run_both(
+        threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); },
+        [&] { group = join_groups<Id>(join, arrays.value); });
     BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, threads);
     arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, kind);
     return kind;
@@ -86,7 +88,8 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     const BigVector<LevelKind> kind = make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);
     if (options.zones) make_zones<T, Id>(grid, std::move(maxima), std::move(criticals.basin), arrays, context);
-    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, arrays.value, delta_chis(arrays.code, grid.extent.rank));
+    arrays.measures =
+        measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, arrays.value, delta_chis(arrays.code, grid.extent.rank));
     context.report("zones", 4, kPhases, 1);
     return result;
 }

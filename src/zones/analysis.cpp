@@ -71,7 +71,8 @@ ContourArc Analysis::contour_arc(std::int64_t id) const {
         const auto upper = static_cast<std::int64_t>(tree.upper(x)), lower = static_cast<std::int64_t>(tree.lower(x));
         const bool outside = lower == static_cast<std::int64_t>(held.arrays.value.size());
         return ContourArc{upper, lower, held.arrays.value[upper],
-                          outside ? -std::numeric_limits<double>::infinity() : held.arrays.value[lower], 1 - static_cast<std::int64_t>(tree.half_chi[x])};
+                          outside ? -std::numeric_limits<double>::infinity() : held.arrays.value[lower],
+                          1 - static_cast<std::int64_t>(tree.half_chi[x])};
     });
 }
 
@@ -84,8 +85,8 @@ Level Analysis::level(std::int64_t id) const {
     return data_->visit([&](const auto& held) {
         const auto& index = held.index();
         const std::size_t root = index.levels[id];
-        return Level{held.arrays.value[root], static_cast<std::int64_t>(held.arrays.tree.event_of_element[root]), list_at(index.level_in, id),
-                     list_at(index.level_out, id)};
+        return Level{held.arrays.value[root], static_cast<std::int64_t>(held.arrays.tree.event_of_element[root]),
+                     list_at(index.level_in, id), list_at(index.level_out, id)};
     });
 }
 
@@ -126,7 +127,8 @@ void Analysis::visit_object_contours(const std::function<void(std::int64_t, std:
     data_->visit([&](const auto& held) {
         const auto& arrays = held.arrays;
         const auto& index = held.index();
-        std::vector<Histogram> waiting(arrays.tree.size());  // of finished children, gathered at their parent; moved on, so few live at a time
+        std::vector<Histogram> waiting(
+            arrays.tree.size());  // of finished children, gathered at their parent; moved on, so few live at a time
         std::vector<GenusCount> flat;
         for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
             Histogram own = std::move(waiting[e]);

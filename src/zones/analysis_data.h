@@ -17,12 +17,12 @@ struct AnalysisArrays {
     // per critical element, descending
     BigVector<double> value;
     BigVector<std::uint64_t> code;
-    BigVector<Id> level;             ///< highest element of its level
-    ContourTree<Id> contours;        ///< n + 1 nodes, the last is the outside
+    BigVector<Id> level;       ///< highest element of its level
+    ContourTree<Id> contours;  ///< n + 1 nodes, the last is the outside
     CriticalityTree<Id> tree;
     EventMeasures<Id> measures;
-    BigVector<Id> voxels;            ///< per event, of its zone; empty without zones
-    BigVector<Id> zone;              ///< per voxel; empty without zones
+    BigVector<Id> voxels;  ///< per event, of its zone; empty without zones
+    BigVector<Id> zone;    ///< per voxel; empty without zones
 };
 
 /// Compressed lists: the items of i are item[first[i]] .. item[first[i + 1]].
@@ -34,13 +34,13 @@ struct Lists {
 /// Built on first use from the arrays.
 template <class Id>
 struct AnalysisIndex {
-    std::vector<Id> arcs;                    ///< nodes whose arc has a length, by (upper, lower)
-    std::vector<Id> levels;                  ///< roots of the non-trivial levels, descending
-    Lists<Id> level_in, level_out;           ///< genera, sorted, by position in `levels`
-    Lists<Id> event_levels;                  ///< positions in `levels`, by event
-    std::vector<std::int64_t> first_child;   ///< by event
+    std::vector<Id> arcs;                   ///< nodes whose arc has a length, by (upper, lower)
+    std::vector<Id> levels;                 ///< roots of the non-trivial levels, descending
+    Lists<Id> level_in, level_out;          ///< genera, sorted, by position in `levels`
+    Lists<Id> event_levels;                 ///< positions in `levels`, by event
+    std::vector<std::int64_t> first_child;  ///< by event
     std::vector<std::int64_t> children;
-    std::vector<Id> object_voxels;           ///< by event: of its object at the low end of the zone; empty without zones
+    std::vector<Id> object_voxels;  ///< by event: of its object at the low end of the zone; empty without zones
 };
 
 template <class Id>

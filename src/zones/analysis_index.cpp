@@ -40,9 +40,8 @@ std::vector<Id> arcs_with_length(const AnalysisArrays<Id>& arrays) {
         if (!tree.has_arc(x)) continue;
         if (has_length<Id>(tree, arrays.value, x)) arcs.push_back(static_cast<Id>(x));
     }
-    std::sort(arcs.begin(), arcs.end(), [&](Id p, Id q) {
-        return tree.upper(p) != tree.upper(q) ? tree.upper(p) < tree.upper(q) : tree.lower(p) < tree.lower(q);
-    });
+    std::sort(arcs.begin(), arcs.end(),
+              [&](Id p, Id q) { return tree.upper(p) != tree.upper(q) ? tree.upper(p) < tree.upper(q) : tree.lower(p) < tree.lower(q); });
     return arcs;
 }
 

@@ -62,8 +62,9 @@ Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double>
         b.voxels = sums.voxels[e];
         branches.push_back(b);
     }
-    std::sort(branches.begin() + 1, branches.end(),
-              [](const Branch& p, const Branch& q) { return p.hypervolume != q.hypervolume ? p.hypervolume > q.hypervolume : p.top < q.top; });
+    std::sort(branches.begin() + 1, branches.end(), [](const Branch& p, const Branch& q) {
+        return p.hypervolume != q.hypervolume ? p.hypervolume > q.hypervolume : p.top < q.top;
+    });
     result.of_event.resize(events);
     for (std::size_t i = 0; i < branches.size(); ++i) {
         for (std::int64_t e = branches[i].bottom; e >= 0; e = next_above[e]) result.of_event[e] = static_cast<std::int64_t>(i);

@@ -1,7 +1,8 @@
 // Branches: the criticality tree cut into objects, by hypervolume (essential.md sections 0 and 1).
 //
-// Hypervolume of the object of event e at its low end tau: sum over its voxels of (value - tau). Where objects merge, the one with the largest
-// hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small bright peak.)
+// Hypervolume of the object of event e at its low end tau: sum over its voxels of (value - tau). Where objects merge, the one with the
+// largest hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small
+// bright peak.)
 #pragma once
 
 #include <cstdint>
@@ -13,24 +14,24 @@
 namespace isoatlas {
 
 struct Branch {
-    std::int64_t top, bottom;    ///< its highest event (a maximum) and its lowest
-    std::int64_t highest;        ///< event of the highest element in the object at the low end (may lie in another branch)
-    double appears, merges;      ///< value of top; value at which it ends, -infinity for the trunk
-    double hypervolume;          ///< of the object just above merges (the trunk: above the lowest sample)
-    double height;               ///< highest value of that object - merges
-    std::int64_t voxels;         ///< of that object
+    std::int64_t top, bottom;  ///< its highest event (a maximum) and its lowest
+    std::int64_t highest;      ///< event of the highest element in the object at the low end (may lie in another branch)
+    double appears, merges;    ///< value of top; value at which it ends, -infinity for the trunk
+    double hypervolume;        ///< of the object just above merges (the trunk: above the lowest sample)
+    double height;             ///< highest value of that object - merges
+    std::int64_t voxels;       ///< of that object
 };
 
 /// Over the object of each event at its low end.
 struct ObjectSums {
     std::vector<std::int64_t> voxels;
-    std::vector<double> sum;         ///< of values
+    std::vector<double> sum;  ///< of values
 };
 
 struct Branches {
-    std::vector<Branch> branch;              ///< by descending hypervolume, ties: higher top first; [0] is the trunk
-    std::vector<std::int64_t> of_event;      ///< position in `branch` of each event's branch
-    std::vector<std::int64_t> highest;       ///< per event: event of the highest element of its object
+    std::vector<Branch> branch;          ///< by descending hypervolume, ties: higher top first; [0] is the trunk
+    std::vector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
+    std::vector<std::int64_t> highest;   ///< per event: event of the highest element of its object
     ObjectSums objects;
 };
 

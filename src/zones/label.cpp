@@ -19,7 +19,8 @@ void add(std::span<Id> counts, Id zone, Id count) {
 }  // namespace
 
 template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone, std::span<Id> counts) {
+void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
+                 std::span<Id> counts) {
     using Value = ComparisonValue<T>;
     std::vector<Value> value(kBlock);
     std::vector<Id> maximum(kBlock);
@@ -45,10 +46,10 @@ void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
     if (run > 0) add(counts, zone, run);
 }
 
-#define ISOATLAS_LABEL(T)                                                                                                      \
-    template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&,         \
-                                                std::span<std::uint32_t>, std::span<std::uint32_t>);                               \
-    template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&,         \
+#define ISOATLAS_LABEL(T)                                                                                                 \
+    template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&, \
+                                                std::span<std::uint32_t>, std::span<std::uint32_t>);                      \
+    template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&, \
                                                 std::span<std::uint64_t>, std::span<std::uint64_t>);
 ISOATLAS_LABEL(std::uint8_t)
 ISOATLAS_LABEL(std::int8_t)

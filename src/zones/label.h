@@ -11,6 +11,7 @@ namespace isoatlas {
 /// Replaces the basin entries of `samples.size()` consecutive voxels by their zones and counts them.
 /// counts (per event, shared by all slabs) is added to atomically. Cost: O(1) expected a voxel.
 template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone, std::span<Id> counts);
+void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
+                 std::span<Id> counts);
 
 }  // namespace isoatlas

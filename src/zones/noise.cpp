@@ -25,7 +25,8 @@ double second_differences(std::span<const T> samples, const Extent& extent) {
     for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride_for(extent.voxels())) {
         const std::int64_t x = i % extent.size[0];
         if (x == 0 || x + 1 == extent.size[0]) continue;
-        differences.push_back(std::abs(static_cast<double>(samples[i - 1]) - 2 * static_cast<double>(samples[i]) + static_cast<double>(samples[i + 1])));
+        differences.push_back(
+            std::abs(static_cast<double>(samples[i - 1]) - 2 * static_cast<double>(samples[i]) + static_cast<double>(samples[i + 1])));
     }
     return at_fraction(differences, 0.5) / (0.6745 * std::sqrt(6.0));
 }

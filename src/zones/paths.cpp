@@ -41,13 +41,15 @@ HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<con
     lay_out(tree, value, maxima, threads);
     for (Id path = 0; path + 1 < paths_.size(); ++path) prepare_scale(path);
     for_each_block(threads, blocks(), [&](std::int64_t b) {
-        for (std::size_t path = b * kBlock; path < std::min((b + 1) * kBlock, paths_.size() - 1); ++path) make_buckets(static_cast<Id>(path));
+        for (std::size_t path = b * kBlock; path < std::min((b + 1) * kBlock, paths_.size() - 1); ++path)
+            make_buckets(static_cast<Id>(path));
     });
 }
 
 // One path a leaf event. A leaf event's top element is a maximum, so paths are the maxima that are the top of their event, in raster order.
 template <class Id, class Value>
-void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads) {
+void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima,
+                                    int threads) {
     const BigVector<Id> heavy = heavy_children(tree, bucket_);
     paths_.reserve(maxima.size() + 1);
     for (const Id element : maxima) {
@@ -124,7 +126,8 @@ Id HeavyPaths<Id, Value>::bucket_of(Id path, Value x) const {
 }
 
 template <class Id, class Value>
-void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch, std::span<Id> zone) const {
+void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch,
+                                  std::span<Id> zone) const {
     for (Id& p : path) p = start_[p];
     std::size_t climbing = x.size();
     for (std::size_t i = 0; i < climbing; ++i) scratch[i] = static_cast<std::uint32_t>(i);

@@ -1,11 +1,12 @@
 // Heavy paths of the criticality tree: where does a climb from an event stop?
 //
-// Every event continues the path of its heaviest child (the one with most events above it); the other children end their paths there. A path
-// is an array of events with ascending values, so a climb is a few jumps (at most log2 of the number of events) and one search in an array.
-// A long path has nearly as many buckets of equal width as events: the search looks at one bucket.
+// Every event continues the path of its heaviest child (the one with most events above it); the other children end their paths there. A
+// path is an array of events with ascending values, so a climb is a few jumps (at most log2 of the number of events) and one search in an
+// array. A long path has nearly as many buckets of equal width as events: the search looks at one bucket.
 //
-// Everything is made small and lies in the raster order of maxima, because a climb is a handful of cache misses and nothing else. Value: the type in which samples are compared
-// with events. float serves samples that are floats or integers of 16 bits: x <= v iff x <= v rounded down to float, for every float x.
+// Everything is made small and lies in the raster order of maxima, because a climb is a handful of cache misses and nothing else. Value:
+// the type in which samples are compared with events. float serves samples that are floats or integers of 16 bits: x <= v iff x <= v
+// rounded down to float, for every float x.
 #pragma once
 
 #include <cstdint>
@@ -35,18 +36,18 @@ public:
 
 private:
     struct Path {
-        Value value_below;   ///< value of the event the path ends at; -infinity for the path of the root
-        Id below;            ///< path of that event
-        Id first;            ///< position of the lowest event; the path goes on to the first of the next one
+        Value value_below;  ///< value of the event the path ends at; -infinity for the path of the root
+        Id below;           ///< path of that event
+        Id first;           ///< position of the lowest event; the path goes on to the first of the next one
     };
     struct Stop {
         Value value;
         Id event;
     };
     struct Scale {
-        double low, factor;   ///< bucket of x = (x - low) * factor
+        double low, factor;  ///< bucket of x = (x - low) * factor
     };
-    static constexpr Id kBucketed = 16;           ///< shorter paths are searched directly
+    static constexpr Id kBucketed = 16;             ///< shorter paths are searched directly
     static constexpr std::size_t kBlock = 1 << 14;  ///< paths that are laid out as one unit of work
 
     void lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads);
@@ -57,11 +58,11 @@ private:
     [[nodiscard]] std::size_t bucket(const Scale& scale, Id buckets, Value x) const;
     [[nodiscard]] Id bucket_of(Id path, Value x) const;
 
-    BigVector<Path> paths_;          ///< and one more, where the last one ends
-    BigVector<Stop> stops_;          ///< by position
-    BigVector<Id> bucket_;           ///< of a long path: its place in scales_, then per bucket the first position in it or a later one
+    BigVector<Path> paths_;  ///< and one more, where the last one ends
+    BigVector<Stop> stops_;  ///< by position
+    BigVector<Id> bucket_;   ///< of a long path: its place in scales_, then per bucket the first position in it or a later one
     std::vector<Scale> scales_;
-    BigVector<Id> start_;            ///< per maximum: the path of its event
+    BigVector<Id> start_;  ///< per maximum: the path of its event
 };
 
 }  // namespace isoatlas

@@ -15,8 +15,8 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kBins = 256;
-constexpr std::size_t kTrunkEntries = 5;   // nested zones of the trunk: skin, skull, enamel, ...
-constexpr double kRelativeSize = 0.003;    // of the largest hypervolume that is not the trunk's
+constexpr std::size_t kTrunkEntries = 5;  // nested zones of the trunk: skin, skull, enamel, ...
+constexpr double kRelativeSize = 0.003;   // of the largest hypervolume that is not the trunk's
 
 /// One row in the making: a branch and one isovalue on it.
 struct Row {
@@ -149,7 +149,8 @@ private:
         std::multimap<std::int64_t, Row*> of_event;
         for (Row& row : rows) {
             row.event = branches_.branch[row.branch].top;
-            while (!arrays_.tree.is_root(row.event) && value_of(arrays_.tree.parent[row.event]) >= row.tau) row.event = arrays_.tree.parent[row.event];
+            while (!arrays_.tree.is_root(row.event) && value_of(arrays_.tree.parent[row.event]) >= row.tau)
+                row.event = arrays_.tree.parent[row.event];
             for (auto c = index_.first_child[row.event]; c < index_.first_child[row.event + 1]; ++c) {
                 row.voxels += branches_.objects.voxels[index_.children[c]];
             }
@@ -164,7 +165,8 @@ private:
             }
         });
         for (Row& row : rows) {
-            row.measure = uniform ? static_cast<double>(row.voxels) * voxel_measure(volume_.info.geometry, extent, 0) : rectilinear_measure(row);
+            row.measure =
+                uniform ? static_cast<double>(row.voxels) * voxel_measure(volume_.info.geometry, extent, 0) : rectilinear_measure(row);
         }
     }
 
@@ -225,7 +227,8 @@ private:
 }  // namespace
 
 ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context&) {
-    if (volume.info.extent != analysis.extent()) throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
+    if (volume.info.extent != analysis.extent())
+        throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
     return analysis.data().visit([&](const auto& held) {
         if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
         return Ranking(volume, held.arrays, held.index(), analysis.extent().rank == 3).table(options);

@@ -17,7 +17,8 @@ std::vector<double> smooth(const std::vector<double>& values) {
     const auto n = static_cast<std::ptrdiff_t>(values.size());
     std::vector<double> result(values.size(), 0);
     for (std::ptrdiff_t i = 0; i < n; ++i) {
-        for (int k = -kReach; k <= kReach; ++k) result[i] += weight[k + kReach] / total * values[std::clamp<std::ptrdiff_t>(i + k, 0, n - 1)];
+        for (int k = -kReach; k <= kReach; ++k)
+            result[i] += weight[k + kReach] / total * values[std::clamp<std::ptrdiff_t>(i + k, 0, n - 1)];
     }
     return result;
 }
@@ -27,7 +28,8 @@ double prominence(const std::vector<double>& s, std::size_t i) {
     const auto valley = [&](int step) {
         double low = s[i];
         for (std::ptrdiff_t k = static_cast<std::ptrdiff_t>(i) + step;; k += step) {
-            if (k < 0 || k >= static_cast<std::ptrdiff_t>(s.size())) return -std::numeric_limits<double>::infinity();  // no higher peak there
+            if (k < 0 || k >= static_cast<std::ptrdiff_t>(s.size()))
+                return -std::numeric_limits<double>::infinity();  // no higher peak there
             if (s[k] > s[i]) return low;
             low = std::min(low, s[k]);
         }

@@ -1,7 +1,7 @@
 // At which isovalues does an object look like itself? Where its volume changes least (essential.md section 3).
 //
-// q(tau) = -d ln V / d tau for the volume V(tau) of the object. A minimum of q is a steep boundary of a compact body (by the coarea formula q is
-// area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5.
+// q(tau) = -d ln V / d tau for the volume V(tau) of the object. A minimum of q is a steep boundary of a compact body (by the coarea formula
+// q is area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5.
 #pragma once
 
 #include <span>
@@ -11,12 +11,12 @@ namespace isoatlas {
 
 struct StableIsovalue {
     double tau;
-    double prominence;   ///< of -ln q; infinity for the highest peak
-    bool outline;        ///< within two bins of the low end of the range: "everything that is not background"
+    double prominence;  ///< of -ln q; infinity for the highest peak
+    bool outline;       ///< within two bins of the low end of the range: "everything that is not background"
 };
 
-/// added[i]: voxels that join the object in bin i of (low, high], bins of equal width from low to high; V(tau at the low edge of bin i) = sum of
-/// added[i..]. Returns peaks by descending prominence, possibly none.
+/// added[i]: voxels that join the object in bin i of (low, high], bins of equal width from low to high; V(tau at the low edge of bin i) =
+/// sum of added[i..]. Returns peaks by descending prominence, possibly none.
 std::vector<StableIsovalue> stable_isovalues(std::span<const double> added, double low, double high);
 
 }  // namespace isoatlas

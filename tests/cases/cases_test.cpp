@@ -89,8 +89,7 @@ TEST_P(Cases, HaveTheirNumbers) {
 
 std::string test_name(const testing::TestParamInfo<NamedCase>& info) {
     std::string name = info.param.name;
-    std::replace_if(
-        name.begin(), name.end(), [](unsigned char ch) { return std::isalnum(ch) == 0; }, '_');
+    std::replace_if(name.begin(), name.end(), [](unsigned char ch) { return std::isalnum(ch) == 0; }, '_');
     return name;
 }
 
