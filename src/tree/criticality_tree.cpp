@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/parallel.h"
 
 namespace isoatlas {
 namespace {
@@ -98,30 +99,45 @@ CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> jo
 
 template <class Id>
 EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourTree<Id>& contours, std::span<const Id> level,
-                                 std::span<const LevelKind> kind, std::span<const double> value, std::span<const std::int8_t> delta_chi) {
+                                 std::span<const LevelKind> kind, std::span<const double> value, std::span<const std::int8_t> delta_chi,
+                                 int threads) {
     using Signed = std::make_signed_t<Id>;
     const std::size_t n = value.size(), events = tree.size();
-    EventMeasures<Id> measures;
-    gather_kinds<Id>(tree, level, kind, measures);
-    measures.lows_out.assign(events, Id{0});
-    measures.contours.assign(events, Id{0});  // the gain of each event; then sums over objects. Unsigned sums wrap around and back
-    for (std::size_t x = 0; x <= n; ++x) {
-        if (!contours.has_arc(x) || !has_length(contours, value, x)) continue;
-        const std::size_t upper = contours.upper(x), lower = contours.lower(x);
-        if (kind[level[upper]] != LevelKind::trivial) {
-            ++measures.lows_out[tree.event_of_element[upper]];
-            ++measures.contours[tree.event_of_element[upper]];
+    // Contours at one end of the non-trivial levels of each event.
+    const auto count_ends = [&](BigVector<Id>& count, auto&& end_of) {
+        count.assign(events, Id{0});
+        for (std::size_t x = 0; x <= n; ++x) {
+            if (!contours.has_arc(x) || !has_length(contours, value, x)) continue;
+            const std::size_t element = end_of(x);
+            if (element < n && kind[level[element]] != LevelKind::trivial) ++count[tree.event_of_element[element]];
         }
-        if (lower < n && kind[level[lower]] != LevelKind::trivial) --measures.contours[tree.event_of_element[lower]];
-    }
-    measures.delta_chi.assign(events, Signed{0});
-    for (std::size_t i = 0; i < n; ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
-    measures.chi = measures.delta_chi;
-    for (std::size_t e = 0; e < events; ++e) {
-        if (tree.is_root(e)) continue;
-        measures.chi[tree.parent[e]] += measures.chi[e];
-        measures.contours[tree.parent[e]] += measures.contours[e];
-    }
+    };
+    const auto sum_over_objects = [&](auto& count) {
+        for (std::size_t e = 0; e < events; ++e) {
+            if (!tree.is_root(e)) count[tree.parent[e]] += count[e];
+        }
+    };
+    EventMeasures<Id> measures;
+    BigVector<Id> arriving;
+    const auto leave = [&] {
+        count_ends(measures.lows_out, [&](std::size_t x) { return contours.upper(x); });
+        gather_kinds<Id>(tree, level, kind, measures);
+    };
+    const auto arrive = [&] {
+        count_ends(arriving, [&](std::size_t x) { return contours.lower(x); });
+        measures.delta_chi.assign(events, Signed{0});
+        for (std::size_t i = 0; i < n; ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
+    };
+    run_both(threads, leave, arrive);
+    const auto count_contours = [&] {
+        measures.contours = std::move(arriving);
+        for (std::size_t e = 0; e < events; ++e) measures.contours[e] = measures.lows_out[e] - measures.contours[e];  // wraps around and back
+        sum_over_objects(measures.contours);
+    };
+    run_both(threads, count_contours, [&] {
+        measures.chi = measures.delta_chi;
+        sum_over_objects(measures.chi);
+    });
     // Below the root the object is the whole box: a ball with one contour.
     ISOATLAS_CHECK(measures.chi.back() == 1 && measures.contours.back() == 1);
     return measures;
@@ -131,7 +147,7 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     template BigVector<Id> join_groups(std::span<const Id>, std::span<const double>);                                                   \
     template CriticalityTree<Id> criticality_tree(BigVector<Id>, std::span<const Id>, std::span<const Id>, std::span<const LevelKind>); \
     template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, const ContourTree<Id>&, std::span<const Id>,                  \
-                                              std::span<const LevelKind>, std::span<const double>, std::span<const std::int8_t>);
+                                              std::span<const LevelKind>, std::span<const double>, std::span<const std::int8_t>, int);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)
 ISOATLAS_CRITICALITY_TREE(std::uint64_t)
 #undef ISOATLAS_CRITICALITY_TREE

@@ -74,10 +74,13 @@ RC_GTEST_PROP(Engine, EventTreeWithoutTiesIsTheFloodingTree, ()) {
 }
 
 RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
-    const Grid grid = as_integers(*arbitrary_grid(7, 200));
-    const std::string expected = canonical_text(isoatlas::analyse(to_volume(grid)));
-    for (const auto& [order, mirror] : turns(grid.rank)) {
-        RC_ASSERT(canonical_text(isoatlas::analyse(to_volume(turned(grid, order, mirror)))) == expected);
+    const Grid grid = as_integers(*arbitrary_grid(7, 120));
+    isoatlas::Context context;
+    context.threads = 1;
+    const std::string expected = canonical_text(isoatlas::analyse(to_volume(grid), {}, context));
+    for (int trial = 0; trial < 4; ++trial) {
+        const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
+        RC_ASSERT(canonical_text(isoatlas::analyse(to_volume(turned(grid, order, mirror)), {}, context)) == expected);
     }
 }
 
