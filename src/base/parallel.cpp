@@ -2,21 +2,39 @@
 
 #include "base/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
-namespace isoatlas {
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <mutex>
 
-int thread_count(int requested) { return requested > 0 ? requested : tbb::this_task_arena::max_concurrency(); }
+namespace isoatlas {
+namespace {
+
+/// Arenas live as long as the process: making one costs more than a small analysis. More threads than processors are not started.
+tbb::task_arena& arena_of(int threads) {
+    static auto* const arenas = new std::map<int, std::unique_ptr<tbb::task_arena>>;
+    static std::mutex lock;
+    const std::lock_guard hold(lock);
+    std::unique_ptr<tbb::task_arena>& arena = (*arenas)[std::min(threads, tbb::info::default_concurrency())];
+    if (!arena) arena = std::make_unique<tbb::task_arena>(std::min(threads, tbb::info::default_concurrency()));
+    return *arena;
+}
+
+}  // namespace
+
+int thread_count(int requested) { return requested > 0 ? requested : tbb::info::default_concurrency(); }
 
 void for_each_block(int threads, std::int64_t blocks, const std::function<void(std::int64_t)>& work) {
     if (thread_count(threads) == 1 || blocks <= 1) {
         for (std::int64_t block = 0; block < blocks; ++block) work(block);
         return;
     }
-    tbb::task_arena arena(thread_count(threads));
-    arena.execute([&] { tbb::parallel_for(std::int64_t{0}, blocks, std::int64_t{1}, work, tbb::simple_partitioner()); });
+    arena_of(thread_count(threads)).execute([&] { tbb::parallel_for(std::int64_t{0}, blocks, std::int64_t{1}, work, tbb::simple_partitioner()); });
 }
 
 void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second) {
@@ -25,8 +43,7 @@ void run_both(int threads, const std::function<void()>& first, const std::functi
         second();
         return;
     }
-    tbb::task_arena arena(thread_count(threads));
-    arena.execute([&] { tbb::parallel_invoke(first, second); });
+    arena_of(thread_count(threads)).execute([&] { tbb::parallel_invoke(first, second); });
 }
 
 }  // namespace isoatlas
