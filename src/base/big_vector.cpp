@@ -14,7 +14,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-constexpr std::size_t kSmall = 2 * kHugePage;  // below: the ordinary heap
+constexpr std::size_t kSmall = 8 * kHugePage;  // below: the ordinary heap
 
 std::size_t rounded(std::size_t bytes) { return (bytes + kHugePage - 1) / kHugePage * kHugePage; }
 
