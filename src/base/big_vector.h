@@ -23,7 +23,7 @@ struct BigAllocator {
     using value_type = T;
     BigAllocator() = default;
     template <class U>
-    BigAllocator(const BigAllocator<U>&) noexcept {}
+    BigAllocator(const BigAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor): what an allocator must offer
 
     [[nodiscard]] T* allocate(std::size_t n) { return static_cast<T*>(allocate_big(n * sizeof(T))); }
     void deallocate(T* memory, std::size_t n) noexcept { free_big(memory, n * sizeof(T)); }

@@ -23,7 +23,7 @@ std::array<std::int64_t, 8> corner_offsets(const GridSteps& steps) {
 template <class T>
 class LayerTypes {
 public:
-    LayerTypes(const GridView<T>& grid)
+    explicit LayerTypes(const GridView<T>& grid)
         : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), any_(grid.extent.size[0] + 8) {}
 
     void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next) {

@@ -21,11 +21,12 @@ constexpr signed char kBlank = -1, kPadding = -2, kEnd = -3, kBad = -4;
 constexpr std::array<signed char, 256> kCodes = [] {
     std::array<signed char, 256> table{};
     table.fill(kBad);
-    for (int i = 0; i < 26; ++i) {
-        table[static_cast<std::size_t>('A' + i)] = static_cast<signed char>(i);
-        table[static_cast<std::size_t>('a' + i)] = static_cast<signed char>(26 + i);
+    constexpr std::size_t kUpper = 'A', kLower = 'a', kDigit = '0';
+    for (std::size_t i = 0; i < 26; ++i) {
+        table[kUpper + i] = static_cast<signed char>(i);
+        table[kLower + i] = static_cast<signed char>(26 + i);
     }
-    for (int i = 0; i < 10; ++i) table[static_cast<std::size_t>('0' + i)] = static_cast<signed char>(52 + i);
+    for (std::size_t i = 0; i < 10; ++i) table[kDigit + i] = static_cast<signed char>(52 + i);
     table['+'] = 62, table['/'] = 63;
     table[' '] = table['\t'] = table['\r'] = table['\n'] = kBlank;
     table['='] = kPadding, table['<'] = kEnd;

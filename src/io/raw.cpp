@@ -86,7 +86,8 @@ std::string what_fits(const Extent& extent, ValueType type, std::int64_t skip, s
     if (holds > voxels * sample) {
         return "if the file begins with a header, add --skip " + std::to_string(skip + holds - voxels * sample);
     }
-    const auto edge = static_cast<std::int64_t>(std::llround(std::cbrt(static_cast<double>(holds / sample))));
+    const std::int64_t samples = holds / sample;
+    const auto edge = static_cast<std::int64_t>(std::llround(std::cbrt(static_cast<double>(samples))));
     if (edge > 0 && edge * edge * edge * sample == holds) {
         const std::string text = std::to_string(edge);
         return "the size fits --dims " + text + "x" + text + "x" + text + " with this type";

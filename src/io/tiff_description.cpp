@@ -23,7 +23,7 @@ std::int64_t count_or(std::string_view word, std::int64_t missing) {
 
 /// The short ASCII name of a length unit; inches are left to the caller.
 std::string unit_name(std::string_view word) {
-    const std::string unit = lower(trim(word));
+    std::string unit = lower(trim(word));
     for (const std::string_view micro :
          {"um", "micron", "microns", "micrometer", "\\u00b5m", "\\u03bcm", "\xc2\xb5m", "\xce\xbcm", "\xb5m"}) {
         if (unit == micro) return "um";

@@ -203,7 +203,8 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
         info.geometry = rectilinear_geometry(path, piece, points, choice.cells, open_coordinates);
     }
     if (info.extent.rank == 2) info.notes.push_back("the grid has a single slice along z: read as a 2D image");
-    return make_sample_reader(std::move(info), open_vtk_array(file, array, info.extent.voxels()));
+    auto source = open_vtk_array(file, array, info.extent.voxels());
+    return make_sample_reader(std::move(info), std::move(source));
 }
 
 }  // namespace isoatlas::io

@@ -25,10 +25,10 @@ std::string describe_voxel(const Extent& extent, std::int64_t voxel) {
 std::int32_t object_at(const Volume& volume, double tau, const Components& components, std::int64_t voxel) {
     const Extent& extent = volume.info.extent;
     if (voxel < 0 || voxel >= extent.voxels()) {
-        throw Error(ErrorKind::usage, {.where = "object " + std::to_string(voxel),
-                                       .what = "there is no such voxel",
-                                       .expected = "a voxel index from 0 to " + std::to_string(extent.voxels() - 1),
-                                       .next = "list the objects at this isovalue and take one of their ids"});
+        throw Error(ErrorKind::not_found, {.where = "object " + std::to_string(voxel),
+                                           .what = "there is no such voxel",
+                                           .expected = "a voxel index from 0 to " + std::to_string(extent.voxels() - 1),
+                                           .next = "list the objects at this isovalue and take one of their ids"});
     }
     const std::array<std::int64_t, 3> at = extent.voxel(voxel);
     const RunRow row = components.runs.row(at[1], at[2]);

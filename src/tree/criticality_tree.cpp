@@ -131,7 +131,8 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     run_both(threads, leave, arrive);
     const auto count_contours = [&] {
         measures.contours = std::move(arriving);
-        for (std::size_t e = 0; e < events; ++e) measures.contours[e] = measures.lows_out[e] - measures.contours[e];  // wraps around and back
+        for (std::size_t e = 0; e < events; ++e)
+            measures.contours[e] = measures.lows_out[e] - measures.contours[e];  // wraps around and back
         sum_over_objects(measures.contours);
     };
     run_both(threads, count_contours, [&] {

@@ -88,8 +88,8 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     const BigVector<LevelKind> kind = make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);
     if (options.zones) make_zones<T, Id>(grid, std::move(maxima), std::move(criticals.basin), arrays, context);
-    arrays.measures =
-        measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, arrays.value, delta_chis(arrays.code, grid.extent.rank), context.threads);
+    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, arrays.value,
+                                         delta_chis(arrays.code, grid.extent.rank), context.threads);
     context.report("zones", 4, kPhases, 1);
     return result;
 }

@@ -46,6 +46,7 @@ void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
     if (run > 0) add(counts, zone, run);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
 #define ISOATLAS_LABEL(T)                                                                                                 \
     template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&, \
                                                 std::span<std::uint32_t>, std::span<std::uint32_t>);                      \
@@ -60,5 +61,6 @@ ISOATLAS_LABEL(std::int32_t)
 ISOATLAS_LABEL(float)
 ISOATLAS_LABEL(double)
 #undef ISOATLAS_LABEL
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas
