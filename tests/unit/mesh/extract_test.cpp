@@ -184,7 +184,7 @@ TEST(Extract, SaysWhyThereIsNoSuchObject) {
     for (const std::int64_t voxel : {std::int64_t{-1}, volume.info.extent.voxels()}) {
         options.objects = {voxel};
         error = error_of([&] { static_cast<void>(extract(volume, 30, options)); });
-        EXPECT_EQ(error.kind(), ErrorKind::usage);
+        EXPECT_EQ(error.kind(), ErrorKind::not_found);
         EXPECT_EQ(error.text().expected, "a voxel index from 0 to 1727");
     }
     options.objects.clear();
