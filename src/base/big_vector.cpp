@@ -28,7 +28,6 @@ char* map_memory(std::size_t size) {
     const std::size_t head = kHugePage - tail;
     munmap(begin, head);
     if (tail > 0) munmap(begin + head + size, tail);
-    madvise(begin + head, size, MADV_HUGEPAGE);  // a wish: refused or not, the memory is there
     return begin + head;
 }
 

@@ -1,8 +1,8 @@
 // BigVector: a vector for the large arrays of the engine.
 //
-// Memory comes from the system in huge pages where it offers them (random access to an array of 100 MB costs half as much). Freed memory is
-// kept for the next array (fresh pages cost more than much of the work done on them), but never more than was in use at once;
-// return_big_memory() gives it back. New elements are not initialised: resize() before writing every element.
+// Freed memory is kept for the next array (fresh pages cost more than much of the work done on them), but never more than was in use at
+// once; return_big_memory() gives it back. Arrays are aligned to huge pages, which the system uses if it likes; asking for them is a loss
+// where it must fetch them from a host (docs/decisions/0006). New elements are not initialised: resize() before writing every element.
 #pragma once
 
 #include <cstddef>

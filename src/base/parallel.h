@@ -12,6 +12,16 @@ namespace isoatlas {
 /// Runs work(block) for block in [0, blocks) on at most `threads` threads (0: all); exceptions are carried out (the first one).
 void for_each_block(int threads, std::int64_t blocks, const std::function<void(std::int64_t)>& work);
 
+/// Runs work(i) for every i in [0, n), in blocks; for work too small to be a block of its own.
+template <class Work>
+void for_each_index(int threads, std::size_t n, const Work& work) {
+    constexpr std::size_t kBlock = std::size_t{1} << 16;
+    for_each_block(threads, static_cast<std::int64_t>((n + kBlock - 1) / kBlock), [&](std::int64_t block) {
+        const std::size_t first = block * kBlock, last = n - first < kBlock ? n : first + kBlock;
+        for (std::size_t i = first; i < last; ++i) work(i);
+    });
+}
+
 /// Runs two independent jobs, at the same time when threads allow.
 void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second);
 

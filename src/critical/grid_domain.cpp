@@ -20,8 +20,8 @@ void stop_if_cancelled(const Context& context) {
 template <class Id>
 class Representatives {
 public:
-    Representatives(const Extent& extent, std::span<const std::uint8_t> links, std::span<const Id> up, std::span<const Id> down)
-        : extent_(extent), steps_(extent), links_(links), up_(up), down_(down) {}
+    Representatives(const Extent& extent, std::span<const Id> up, std::span<const Id> down)
+        : extent_(extent), steps_(extent), up_(up), down_(down) {}
 
     [[nodiscard]] std::array<Id, 4> of(ElementCode code) const { return code.kind() == CodeKind::vertex ? vertex(code) : face(code); }
 
@@ -31,19 +31,19 @@ private:
 
     [[nodiscard]] std::array<Id, 4> vertex(ElementCode code) const {
         const std::int64_t v = code.index();
-        std::array<Id, 4> leads{high(v), high(v), low(v), low(v)};
-        const std::array<std::int64_t, 3> position = extent_.voxel(v);
-        for (int axis = 0; axis < extent_.rank; ++axis) {
-            const int above = links_[v] >> (2 * axis) & 3;
-            const std::int64_t step = steps_.axis[axis];
-            if (above == 3 && code.h0() == 2) {
-                leads[0] = high(v - step), leads[1] = high(v + step);
-            } else if (above == 0 && code.l0() == 2) {  // outside the grid lies the outside
-                leads[2] = position[axis] > 0 ? low(v - step) : Id{0};
-                leads[3] = position[axis] + 1 < extent_.size[axis] ? low(v + step) : Id{0};
-            }
+        if (code.h0() == 2) {
+            const std::int64_t step = steps_.axis[code.axis()];
+            const auto [low_a, low_b] = code.l0() == 2 ? lows(v, 1 - code.axis()) : std::array{low(v), low(v)};
+            return {high(v - step), high(v + step), low_a, low_b};
         }
-        return leads;
+        const auto [low_a, low_b] = code.l0() == 2 ? lows(v, code.axis()) : std::array{low(v), low(v)};
+        return {high(v), high(v), low_a, low_b};
+    }
+
+    /// Outside the grid lies the outside.
+    [[nodiscard]] std::array<Id, 2> lows(std::int64_t v, int axis) const {
+        const std::int64_t step = steps_.axis[axis], size = extent_.size[axis], position = v / step % size;
+        return {position > 0 ? low(v - step) : Id{0}, position + 1 < size ? low(v + step) : Id{0}};
     }
 
     [[nodiscard]] std::array<Id, 4> face(ElementCode code) const {
@@ -55,7 +55,6 @@ private:
 
     const Extent& extent_;
     GridSteps steps_;
-    std::span<const std::uint8_t> links_;
     std::span<const Id> up_, down_;
 };
 
@@ -80,19 +79,13 @@ CriticalSet<Id> sort_elements(std::vector<BigVector<KeyedElement>> chunks, const
     BigVector<KeyedElement> sorted =
         sort_chunks(threads, std::move(chunks), [](const KeyedElement& element) { return -element.value; }, above);
     const std::size_t n = sorted.size();
-    constexpr std::size_t kBlock = 1 << 16;
-    const auto for_each = [&](auto&& work) {
-        for_each_block(threads, static_cast<std::int64_t>((n + kBlock - 1) / kBlock), [&](std::int64_t b) {
-            for (std::size_t i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) work(i);
-        });
-    };
     CriticalSet<Id> set;
     set.value.resize(n);
     set.code.resize(n);
-    for_each([&](std::size_t i) { set.value[i] = sorted[i].value, set.code[i] = sorted[i].code.bits; });
+    for_each_index(threads, n, [&](std::size_t i) { set.value[i] = sorted[i].value, set.code[i] = sorted[i].code.bits; });
     release(sorted);
     for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
-    for_each([&](std::size_t i) {
+    for_each_index(threads, n, [&](std::size_t i) {
         const std::array<Id, 4> to = leads.of(ElementCode{set.code[i]});
         set.up_a[i] = to[0], set.up_b[i] = to[1], set.low_a[i] = to[2], set.low_b[i] = to[3];
     });
@@ -134,9 +127,10 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
     Criticals<Id> result;
     result.basin = resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
     const BigVector<Id> down = resolve_basins<Id>(extent, height, Direction::down, links, first_minimum, context.threads);
+    release(links);
     stop_if_cancelled(context);
     context.report("sort", 2, kPhases, 0);
-    result.set = sort_elements<Id>(std::move(elements), above_, {extent, links, result.basin, down}, context.threads);
+    result.set = sort_elements<Id>(std::move(elements), above_, {extent, result.basin, down}, context.threads);
     result.set.maxima = maxima, result.set.minima = minima, result.set.rank = extent.rank;
     return result;
 }

@@ -21,20 +21,23 @@ void links_of_slice(const GridView<T>& grid, std::int64_t z, std::span<std::uint
 struct VertexType {
     bool critical;
     std::uint8_t h0, l0;
+    std::uint8_t axis = 0;  ///< of a saddle: along it lie the two neighbours above (h0 = 2), else the two below
 };
 
 /// Type of a vertex by its link, for grids of rank 2 and 3.
 constexpr VertexType vertex_type(std::uint8_t link, int rank) {
     int both = 0;
+    std::uint8_t above = 0, below = 0;  // axes
     for (int axis = 0; axis < rank; ++axis) {
         const int bits = link >> (2 * axis) & 3;
         if (bits == 1 || bits == 2) return {false, 1, 1};
         both += bits == 3;
+        (bits == 3 ? above : below) = static_cast<std::uint8_t>(axis);
     }
     if (both == 0) return {true, 0, 1};
     if (both == rank) return {true, 1, 0};
-    if (rank == 2) return {true, 2, 2};
-    return both == 1 ? VertexType{true, 2, 1} : VertexType{true, 1, 2};
+    if (rank == 2) return {true, 2, 2, above};
+    return both == 1 ? VertexType{true, 2, 1, above} : VertexType{true, 1, 2, below};
 }
 
 inline constexpr std::array<std::array<VertexType, 64>, 4> kVertexTypes = [] {

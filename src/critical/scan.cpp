@@ -106,7 +106,7 @@ private:
     void vertex(std::int64_t voxel, VertexType type, SlabScan& out) const {
         out.maxima += type.h0 == 0;
         out.minima += type.l0 == 0;
-        out.add({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0)});
+        out.add({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0, type.axis)});
     }
 
     void faces_of_voxel(std::int64_t voxel, int faces, int high, SlabScan& out) const {

@@ -21,14 +21,15 @@ namespace isoatlas {
 
 enum class CodeKind : std::uint8_t { vertex = 0, face = 1, body_open = 2, body_close = 3 };
 
-/// 64 bits: index (54) | tie corner (3) | diagonal (1) | h0 (2) | l0 (2) | kind (2).
-/// index: voxel, or face number. tie corner: 0: s above the highest Low; 1 + i: s equals the value of corner i of a b c d, the highest Low.
-/// diagonal: 1 when b, d are the Highs.
+/// 64 bits: index (54) | tie corner or axis (3) | diagonal (1) | h0 (2) | l0 (2) | kind (2).
+/// index: voxel, or face number. Of a face: tie corner 0: s above the highest Low; 1 + i: s equals the value of corner i of a b c d, the
+/// highest Low; diagonal 1: b, d are the Highs. Of a saddle vertex: the axis of its two upper neighbours (h0 = 2), else of its two lower
+/// ones.
 struct ElementCode {
     std::uint64_t bits;
 
-    static constexpr ElementCode vertex(std::int64_t voxel, int h0, int l0) {
-        return {static_cast<std::uint64_t>(voxel) << 10 | static_cast<std::uint64_t>(h0 << 4 | l0 << 2)};
+    static constexpr ElementCode vertex(std::int64_t voxel, int h0, int l0, int axis) {
+        return {static_cast<std::uint64_t>(voxel) << 10 | static_cast<std::uint64_t>(axis << 7 | h0 << 4 | l0 << 2)};
     }
     static constexpr ElementCode face(std::int64_t number, int tie_corner, bool bd_high, int h0, int l0) {
         return {static_cast<std::uint64_t>(number) << 10 |
@@ -39,6 +40,7 @@ struct ElementCode {
     [[nodiscard]] constexpr int h0() const { return static_cast<int>(bits >> 4 & 3); }
     [[nodiscard]] constexpr bool bd_high() const { return bits >> 6 & 1; }
     [[nodiscard]] constexpr int tie_corner() const { return static_cast<int>(bits >> 7 & 7); }
+    [[nodiscard]] constexpr int axis() const { return static_cast<int>(bits >> 7 & 7); }
     [[nodiscard]] constexpr std::int64_t index() const { return static_cast<std::int64_t>(bits >> 10); }
 };
 

@@ -1,6 +1,5 @@
 #include "tree/contour_tree.h"
 
-#include <optional>
 #include <utility>
 
 #include "base/check.h"
@@ -9,58 +8,81 @@
 namespace isoatlas {
 namespace {
 
-// One of the two trees while leaves are removed: parent, and the xor of the children (the child itself once only one is left).
+constexpr std::size_t kAhead = 16;  // a parent is fetched so many nodes before it is needed
+
+// A node in both trees while leaves are removed: its parents, and the xor of its children (the child itself once only one is left).
+// Side by side, because a removal touches all four and the next node is somewhere else.
 template <class Id>
+struct Links {
+    Id join_parent, join_children, split_parent, split_children;
+};
+
+/// Nodes of one of the two trees. Parent, Children: its members of Links.
+template <class Id, Id Links<Id>::* Parent, Id Links<Id>::* Children>
 struct ShrinkingTree {
-    BigVector<Id> parent;
-    BigVector<Id> children_xor;
+    std::span<Links<Id>> node;
 
-    explicit ShrinkingTree(BigVector<Id> parents) : parent(std::move(parents)), children_xor(parent.size(), Id{0}) {
-        for (std::size_t x = 0; x < parent.size(); ++x) {
-            if (!is_root(x)) children_xor[parent[x]] ^= static_cast<Id>(x);
+    [[nodiscard]] bool is_root(std::size_t x) const { return node[x].*Parent == static_cast<Id>(x); }
+    [[nodiscard]] Id parent(std::size_t x) const { return node[x].*Parent; }
+
+    /// Fills in the children. Returns how many each node has.
+    [[nodiscard]] BigVector<std::uint8_t> gather_children() {
+        BigVector<std::uint8_t> count(node.size(), std::uint8_t{0});
+        for (std::size_t x = 0; x < node.size(); ++x) {
+            if (x + kAhead < node.size()) __builtin_prefetch(&node[parent(x + kAhead)], 1);
+            if (is_root(x)) continue;
+            node[parent(x)].*Children ^= static_cast<Id>(x);
+            ++count[parent(x)];
         }
+        return count;
     }
-    [[nodiscard]] bool is_root(std::size_t x) const { return parent[x] == static_cast<Id>(x); }
-
-    void remove_leaf(std::size_t x) { children_xor[parent[x]] ^= static_cast<Id>(x); }
+    void remove_leaf(std::size_t x) { node[parent(x)].*Children ^= static_cast<Id>(x); }
     /// x has exactly one child: it takes the place of x.
     void splice(std::size_t x) {
-        const Id child = children_xor[x];
+        const Id child = node[x].*Children;
         if (is_root(x)) {
-            parent[child] = child;
+            node[child].*Parent = child;
         } else {
-            parent[child] = parent[x];
-            children_xor[parent[x]] ^= static_cast<Id>(x) ^ child;
+            node[child].*Parent = parent(x);
+            node[parent(x)].*Children ^= static_cast<Id>(x) ^ child;
         }
     }
 };
 
-/// Numbers of children in both trees, packed: low two bits join (from above), next two split (from below).
 template <class Id>
-BigVector<std::uint8_t> child_counts(const ShrinkingTree<Id>& join, const ShrinkingTree<Id>& split) {
-    BigVector<std::uint8_t> count(join.parent.size(), 0);
-    for (std::size_t x = 0; x < count.size(); ++x) {
-        if (!join.is_root(x)) count[join.parent[x]] += 1;
-        if (!split.is_root(x)) count[split.parent[x]] += 4;
-    }
-    return count;
+using ShrinkingJoinTree = ShrinkingTree<Id, &Links<Id>::join_parent, &Links<Id>::join_children>;
+template <class Id>
+using ShrinkingSplitTree = ShrinkingTree<Id, &Links<Id>::split_parent, &Links<Id>::split_children>;
+
+/// Removes x from both trees: a leaf of one, a node with one child in the other. Returns the other end of its arc.
+template <class Id, class LeafTree, class OtherTree>
+Id remove(std::size_t x, LeafTree& leaf_tree, OtherTree& other_tree) {
+    leaf_tree.remove_leaf(x);
+    other_tree.splice(x);
+    return leaf_tree.parent(x);
 }
 
-constexpr std::uint8_t kUpperLeaf = 4;  // nothing above, one below
-constexpr std::uint8_t kLowerLeaf = 1;
+constexpr std::uint8_t kUpperLeaf = 0 | 1 << 2;  // nothing above, one below (ContourTree::degree)
+constexpr std::uint8_t kLowerLeaf = 1 | 0 << 2;
+constexpr std::uint8_t kGone = 0xff;
 
 }  // namespace
 
 template <class Id>
-ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_parents, std::span<const std::int8_t> delta_chi, int threads) {
+ContourTree<Id> contour_tree(std::span<const Id> join_parents, BigVector<Id> split_parents, std::span<const std::int8_t> delta_chi,
+                             int threads) {
     using Signed = typename ContourTree<Id>::Signed;
-    std::optional<ShrinkingTree<Id>> join_tree, split_tree;
-    run_both(threads, [&] { join_tree.emplace(std::move(join_parents)); }, [&] { split_tree.emplace(std::move(split_parents)); });
-    ShrinkingTree<Id>& join = *join_tree;
-    ShrinkingTree<Id>& split = *split_tree;
-    const std::size_t nodes = join.parent.size();
-    BigVector<std::uint8_t> count = child_counts(join, split);
+    const std::size_t nodes = join_parents.size();
+    BigVector<Links<Id>> links(nodes);
+    for_each_index(threads, nodes, [&](std::size_t x) { links[x] = {join_parents[x], 0, split_parents[x], 0}; });
+    release(split_parents);
+    ShrinkingJoinTree<Id> join{links};
+    ShrinkingSplitTree<Id> split{links};
+    BigVector<std::uint8_t> count, below;
+    run_both(threads, [&] { count = join.gather_children(); }, [&] { below = split.gather_children(); });
+    for (std::size_t x = 0; x < nodes; ++x) count[x] = static_cast<std::uint8_t>(count[x] | below[x] << 2);
     ContourTree<Id> tree;
+    tree.degree = count;
     tree.other.resize(nodes);
     tree.half_chi.assign(nodes, Signed{0});  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
     if (!delta_chi.empty()) {
@@ -74,11 +96,7 @@ ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_par
         // Follow the chain of leaves that this one uncovers; earlier seeds that become leaves are taken by the chain itself.
         for (std::size_t x = seed; count[x] == kUpperLeaf || count[x] == kLowerLeaf;) {
             const bool upper = count[x] == kUpperLeaf;
-            ShrinkingTree<Id>& leaf_tree = upper ? join : split;
-            ShrinkingTree<Id>& other_tree = upper ? split : join;
-            const Id y = leaf_tree.parent[x];
-            leaf_tree.remove_leaf(x);
-            other_tree.splice(x);
+            const Id y = upper ? remove<Id>(x, join, split) : remove<Id>(x, split, join);
             tree.other[x] = y;
             if (upper) {
                 tree.half_chi[y] += tree.half_chi[x];
@@ -88,7 +106,7 @@ ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_par
                 tree.half_chi[y] -= tree.half_chi[x];
                 count[y] = static_cast<std::uint8_t>(count[y] - 4);
             }
-            count[x] = 0xff;  // gone
+            count[x] = kGone;
             ++arcs;
             last = y;
             x = y;
@@ -100,7 +118,9 @@ ContourTree<Id> contour_tree(BigVector<Id> join_parents, BigVector<Id> split_par
     return tree;
 }
 
-template ContourTree<std::uint32_t> contour_tree(BigVector<std::uint32_t>, BigVector<std::uint32_t>, std::span<const std::int8_t>, int);
-template ContourTree<std::uint64_t> contour_tree(BigVector<std::uint64_t>, BigVector<std::uint64_t>, std::span<const std::int8_t>, int);
+template ContourTree<std::uint32_t> contour_tree(std::span<const std::uint32_t>, BigVector<std::uint32_t>, std::span<const std::int8_t>,
+                                                 int);
+template ContourTree<std::uint64_t> contour_tree(std::span<const std::uint64_t>, BigVector<std::uint64_t>, std::span<const std::int8_t>,
+                                                 int);
 
 }  // namespace isoatlas

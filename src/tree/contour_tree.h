@@ -17,8 +17,12 @@ namespace isoatlas {
 template <class Id>
 struct ContourTree {
     using Signed = std::make_signed_t<Id>;
-    BigVector<Id> other;         ///< per node x: the other end of its arc; x itself for the last node, which has none
-    BigVector<Signed> half_chi;  ///< per node x: of its arc
+    BigVector<Id> other;             ///< per node x: the other end of its arc; x itself for the last node, which has none
+    BigVector<Signed> half_chi;      ///< per node x: of its arc
+    BigVector<std::uint8_t> degree;  ///< per node: how many arcs it has above (low two bits) and below
+
+    [[nodiscard]] int above(std::size_t x) const { return degree[x] & 3; }
+    [[nodiscard]] int below(std::size_t x) const { return degree[x] >> 2; }
 
     [[nodiscard]] std::size_t nodes() const { return other.size(); }
     [[nodiscard]] bool has_arc(std::size_t x) const { return other[x] != static_cast<Id>(x); }
@@ -27,10 +31,11 @@ struct ContourTree {
     [[nodiscard]] Id lower(std::size_t x) const { return other[x] < static_cast<Id>(x) ? static_cast<Id>(x) : other[x]; }
 };
 
-/// join, split: parents as made by merge_tree.h, n + 1 entries; both are consumed. delta_chi(x) for x < n;
+/// join, split: parents as made by merge_tree.h, n + 1 entries; split is consumed. delta_chi(x) for x < n;
 /// empty: Euler numbers are not wanted (2D), half_chi is 0.
-/// Cost: O(n) time; 14 bytes a node beyond input and output for 32-bit ids.
+/// A node has as many arcs above as children in the join tree, and as many below as in the split tree.
+/// Cost: O(n) time; 18 bytes a node beyond input and output for 32-bit ids.
 template <class Id>
-ContourTree<Id> contour_tree(BigVector<Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
+ContourTree<Id> contour_tree(std::span<const Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
 
 }  // namespace isoatlas

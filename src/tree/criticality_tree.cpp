@@ -11,6 +11,7 @@ namespace {
 
 template <class Id>
 constexpr Id kNone = std::numeric_limits<Id>::max();
+constexpr std::size_t kAhead = 16;  // what a parent needs is fetched so many elements before
 
 /// Numbers the groups with a non-trivial level by their highest element. event[b]: at bottoms of such groups.
 template <class Id>
@@ -55,11 +56,15 @@ static_assert(static_cast<int>(LevelKind::complex) == static_cast<int>(Criticali
 template <class Id>
 void link_events(std::span<const Id> join, std::span<const Id> bottom, BigVector<Id>& event, CriticalityTree<Id>& tree) {
     const std::size_t n = bottom.size();
-    std::vector<bool> kept(n, false);
+    BigVector<std::uint8_t> kept(n);
     for (std::size_t i = 0; i < n; ++i) kept[i] = event[i] != kNone<Id>;
     tree.parent.resize(tree.size());
     for (std::size_t e = 0; e < tree.size(); ++e) tree.parent[e] = static_cast<Id>(e);
     for (std::size_t i = 0; i < n; ++i) {
+        if (i + kAhead < n && join[i + kAhead] < n) {  // most groups have one element
+            __builtin_prefetch(&bottom[join[i + kAhead]]);
+            __builtin_prefetch(&event[join[i + kAhead]], 1);
+        }
         if (bottom[i] != static_cast<Id>(i) || join[i] == static_cast<Id>(n)) continue;
         const std::size_t next = bottom[join[i]];
         if (kept[next]) {
@@ -99,46 +104,35 @@ CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> jo
 
 template <class Id>
 EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourTree<Id>& contours, std::span<const Id> level,
-                                 std::span<const LevelKind> kind, std::span<const double> value, std::span<const std::int8_t> delta_chi,
-                                 int threads) {
+                                 std::span<const LevelKind> kind, std::span<const std::int8_t> delta_chi, int threads) {
     using Signed = std::make_signed_t<Id>;
-    const std::size_t n = value.size(), events = tree.size();
-    // Contours at one end of the non-trivial levels of each event.
-    const auto count_ends = [&](BigVector<Id>& count, auto&& end_of) {
-        count.assign(events, Id{0});
-        for (std::size_t x = 0; x <= n; ++x) {
-            if (!contours.has_arc(x) || !has_length(contours, value, x)) continue;
-            const std::size_t element = end_of(x);
-            if (element < n && kind[level[element]] != LevelKind::trivial) ++count[tree.event_of_element[element]];
-        }
-    };
+    const std::size_t n = level.size(), events = tree.size();
     const auto sum_over_objects = [&](auto& count) {
         for (std::size_t e = 0; e < events; ++e) {
             if (!tree.is_root(e)) count[tree.parent[e]] += count[e];
         }
     };
     EventMeasures<Id> measures;
-    BigVector<Id> arriving;
-    const auto leave = [&] {
-        count_ends(measures.lows_out, [&](std::size_t x) { return contours.upper(x); });
-        gather_kinds<Id>(tree, level, kind, measures);
-    };
-    const auto arrive = [&] {
-        count_ends(arriving, [&](std::size_t x) { return contours.lower(x); });
-        measures.delta_chi.assign(events, Signed{0});
-        for (std::size_t i = 0; i < n; ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
-    };
-    run_both(threads, leave, arrive);
+    // Arcs of no length, and trivial levels, have as many ends above as below: they do not count.
     const auto count_contours = [&] {
-        measures.contours = std::move(arriving);
-        for (std::size_t e = 0; e < events; ++e)
-            measures.contours[e] = measures.lows_out[e] - measures.contours[e];  // wraps around and back
+        measures.lows_out.assign(events, Id{0});
+        measures.contours.assign(events, Id{0});
+        for (std::size_t i = 0; i < n; ++i) {
+            const Id e = tree.event_of_element[i];
+            measures.contours[e] += static_cast<Id>(contours.below(i) - contours.above(i));  // wraps around and back
+            const bool joins = level[i] != static_cast<Id>(i);                               // by an arc of no length
+            if (kind[level[i]] != LevelKind::trivial) measures.lows_out[e] += static_cast<Id>(contours.below(i) - joins);
+        }
         sum_over_objects(measures.contours);
     };
-    run_both(threads, count_contours, [&] {
+    const auto sum_chi = [&] {
+        gather_kinds<Id>(tree, level, kind, measures);
+        measures.delta_chi.assign(events, Signed{0});
+        for (std::size_t i = 0; i < n; ++i) measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
         measures.chi = measures.delta_chi;
         sum_over_objects(measures.chi);
-    });
+    };
+    run_both(threads, count_contours, sum_chi);
     // Below the root the object is the whole box: a ball with one contour.
     ISOATLAS_CHECK(measures.chi.back() == 1 && measures.contours.back() == 1);
     return measures;
@@ -148,7 +142,7 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     template BigVector<Id> join_groups(std::span<const Id>, std::span<const double>);                                                   \
     template CriticalityTree<Id> criticality_tree(BigVector<Id>, std::span<const Id>, std::span<const Id>, std::span<const LevelKind>); \
     template EventMeasures<Id> measure_events(const CriticalityTree<Id>&, const ContourTree<Id>&, std::span<const Id>,                  \
-                                              std::span<const LevelKind>, std::span<const double>, std::span<const std::int8_t>, int);
+                                              std::span<const LevelKind>, std::span<const std::int8_t>, int);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)
 ISOATLAS_CRITICALITY_TREE(std::uint64_t)
 #undef ISOATLAS_CRITICALITY_TREE

@@ -47,7 +47,6 @@ CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> jo
 /// delta_chi: per element. Cost: O(n).
 template <class Id>
 EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourTree<Id>& contours, std::span<const Id> level,
-                                 std::span<const LevelKind> kind, std::span<const double> value, std::span<const std::int8_t> delta_chi,
-                                 int threads = 1);
+                                 std::span<const LevelKind> kind, std::span<const std::int8_t> delta_chi, int threads = 1);
 
 }  // namespace isoatlas

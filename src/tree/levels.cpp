@@ -1,9 +1,9 @@
 #include "tree/levels.h"
 
-#include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
-#include "base/parallel.h"
 #include "base/union_find.h"
 
 namespace isoatlas {
@@ -20,55 +20,67 @@ BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> v
 
 namespace {
 
-/// One side of every level: its contours, counted to two, and the sum of their genera.
+/// Contours in (k) and out (m) of a level, and the change of the sum of its genera.
 template <class Id>
-struct Side {
-    BigVector<std::uint8_t> contours;
-    BigVector<std::make_signed_t<Id>> genus;
+struct Balance {
+    std::make_signed_t<Id> k, m, genus;
+
+    Balance& operator+=(const Balance& other) {
+        k += other.k, m += other.m, genus += other.genus;
+        return *this;
+    }
 };
 
-/// end_of(arc): the element at that end of the arc.
-template <class Id, class EndOf>
-Side<Id> gather_side(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, const EndOf& end_of) {
-    using Signed = std::make_signed_t<Id>;
-    const std::size_t n = value.size();
-    Side<Id> side{BigVector<std::uint8_t>(n, std::uint8_t{0}), BigVector<Signed>(n, Signed{0})};
-    for (std::size_t x = 0; x <= n; ++x) {
-        if (!tree.has_arc(x) || !has_length(tree, value, x)) continue;
-        const std::size_t element = end_of(x);
-        if (element == n) continue;  // the outside
-        const std::size_t root = level[element];
-        side.contours[root] = static_cast<std::uint8_t>(std::min(side.contours[root] + 1, 2));
-        side.genus[root] += 1 - tree.half_chi[x];
-    }
-    return side;
-}
-
-LevelKind kind_of(int k, int m, bool same_genus) {
+template <class Id>
+LevelKind kind_of(const Balance<Id>& level) {
+    const auto [k, m, genus] = level;
     if (k == 0) return LevelKind::maximum;
     if (m == 0) return LevelKind::minimum;
-    if (k == 1 && m == 1) return same_genus ? LevelKind::trivial : LevelKind::genus;
-    if (same_genus && m == 1) return LevelKind::merge;
-    if (same_genus && k == 1) return LevelKind::split;
+    if (k == 1 && m == 1) return genus == 0 ? LevelKind::trivial : LevelKind::genus;
+    if (genus == 0 && m == 1) return LevelKind::merge;
+    if (genus == 0 && k == 1) return LevelKind::split;
     return LevelKind::complex;
 }
 
 }  // namespace
 
+// The s elements of a level are joined by s - 1 arcs of no length; all other arcs at them are contours. Genus of a contour: 1 - half_chi,
+// and the half_chi out are those in plus the delta_chi of the elements.
 template <class Id>
-BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads) {
-    Side<Id> in, out;
-    run_both(
-        threads, [&] { in = gather_side<Id>(tree, level, value, [&](std::size_t x) { return tree.lower(x); }); },
-        [&] { out = gather_side<Id>(tree, level, value, [&](std::size_t x) { return tree.upper(x); }); });
-    BigVector<LevelKind> kind(value.size());
-    for (std::size_t r = 0; r < kind.size(); ++r) kind[r] = kind_of(in.contours[r], out.contours[r], in.genus[r] == out.genus[r]);
+BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value,
+                                 std::span<const std::int8_t> delta_chi) {
+    const std::size_t n = level.size();
+    const auto change_of = [&](std::size_t i) { return delta_chi.empty() ? 0 : tree.below(i) - tree.above(i) - delta_chi[i]; };
+    const auto balance_of = [&](std::size_t i) { return Balance<Id>{tree.above(i), tree.below(i), change_of(i)}; };
+    // An element on its own: there are few different ones.
+    std::array<LevelKind, 16 * 8> kinds{};
+    for (int degree = 0; degree < 16; ++degree) {
+        for (int change = -4; change < 4; ++change) {
+            kinds[8 * degree + 4 + change] = kind_of(Balance<Id>{degree & 3, degree >> 2, change});
+        }
+    }
+    BigVector<LevelKind> kind(n);
+    for (std::size_t i = 0; i < n; ++i) kind[i] = kinds[8 * tree.degree[i] + 4 + change_of(i)];
+    // Levels of several elements, one run of equal values after the other.
+    std::vector<Balance<Id>> balance;
+    for (std::size_t first = 0, end = 1; first < n; first = end++) {
+        while (end < n && value[end] == value[first]) ++end;
+        if (end == first + 1) continue;
+        balance.assign(end - first, Balance<Id>{0, 0, 0});
+        for (std::size_t i = first; i < end; ++i) {
+            Balance<Id>& of = balance[level[i] - first];
+            of += balance_of(i);
+            if (level[i] != static_cast<Id>(i)) --of.k, --of.m;
+        }
+        for (std::size_t r = first; r < end; ++r) kind[r] = kind_of(balance[r - first]);
+    }
     return kind;
 }
 
-#define ISOATLAS_LEVELS(Id)                                                              \
-    template BigVector<Id> level_roots(const ContourTree<Id>&, std::span<const double>); \
-    template BigVector<LevelKind> level_kinds(const ContourTree<Id>&, std::span<const Id>, std::span<const double>, int);
+#define ISOATLAS_LEVELS(Id)                                                                                         \
+    template BigVector<Id> level_roots(const ContourTree<Id>&, std::span<const double>);                            \
+    template BigVector<LevelKind> level_kinds(const ContourTree<Id>&, std::span<const Id>, std::span<const double>, \
+                                              std::span<const std::int8_t>);
 ISOATLAS_LEVELS(std::uint32_t)
 ISOATLAS_LEVELS(std::uint64_t)
 #undef ISOATLAS_LEVELS

@@ -25,8 +25,10 @@ BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> v
 /// What happens at a level: k contours in, m out, and whether the sum of their genera changes.
 enum class LevelKind : std::uint8_t { maximum, minimum, merge, split, genus, complex, trivial };
 
-/// Per element, meaningful at the roots of levels. level: of level_roots. Cost: O(n); 10 bytes an element while it runs.
+/// Per element, meaningful at the roots of levels. level: of level_roots. value, delta_chi: per element; no delta_chi: contours have no
+/// genus (2D). Cost: O(n); 12 bytes an element of the most frequent value while it runs, for 32-bit ids.
 template <class Id>
-BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value, int threads = 1);
+BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value,
+                                 std::span<const std::int8_t> delta_chi);
 
 }  // namespace isoatlas

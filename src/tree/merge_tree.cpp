@@ -9,29 +9,41 @@
 namespace isoatlas {
 namespace {
 
-/// The state of a sweep: components over extrema, and the last node each component met.
+/// The state of a sweep: components over extrema, and the last node each component met. Side by side: a find ends where it is needed.
 template <class Id>
 class Sweep {
 public:
-    Sweep(std::size_t extrema, BigVector<Id>& parent) : components_(extrema), last_(extrema), parent_(parent) {}
+    Sweep(std::size_t extrema, BigVector<Id>& parent) : components_(extrema), parent_(parent) {}
 
-    void start(Id extremum, Id node) { last_[extremum] = node; }
+    void start(Id extremum, Id node) { components_[extremum] = {extremum, node, 1}; }
 
     /// The component of a passes node; b joins it when it is another one.
     void pass(Id a, Id b, Id node) {
-        a = components_.find(a);
-        parent_[last_[a]] = node;
-        if (b = components_.find(b); b != a) {
-            parent_[last_[b]] = node;
-            components_.attach(a, b);
+        a = find(a);
+        parent_[components_[a].last] = node;
+        if (b = find(b); b != a) {
+            parent_[components_[b].last] = node;
+            if (components_[a].size < components_[b].size) std::swap(a, b);
+            components_[b].root = a;
+            components_[a].size += components_[b].size;
         }
-        last_[a] = node;
+        components_[a].last = node;
     }
-    [[nodiscard]] Id last_of(Id extremum) { return last_[components_.find(extremum)]; }
 
 private:
-    UnionFind<Id> components_;
-    BigVector<Id> last_;
+    struct Component {
+        Id root, last, size;
+    };
+
+    Id find(Id x) {
+        while (components_[x].root != x) {
+            components_[x].root = components_[components_[x].root].root;
+            x = components_[x].root;
+        }
+        return x;
+    }
+
+    BigVector<Component> components_;
     BigVector<Id>& parent_;
 };
 

@@ -72,7 +72,7 @@ BigVector<LevelKind> make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays,
     run_both(
         threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); },
         [&] { group = join_groups<Id>(join, arrays.value); });
-    BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, threads);
+    BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, delta);
     arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, kind);
     return kind;
 }
@@ -88,8 +88,8 @@ std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOp
     const BigVector<LevelKind> kind = make_trees(std::move(criticals.set), arrays, context.threads);
     context.report("zones", 4, kPhases, 0);
     if (options.zones) make_zones<T, Id>(grid, std::move(maxima), std::move(criticals.basin), arrays, context);
-    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, arrays.value,
-                                         delta_chis(arrays.code, grid.extent.rank), context.threads);
+    arrays.measures =
+        measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, delta_chis(arrays.code, grid.extent.rank), context.threads);
     context.report("zones", 4, kPhases, 1);
     return result;
 }

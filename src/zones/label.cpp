@@ -11,10 +11,36 @@ namespace {
 
 constexpr std::size_t kBlock = 1024;  // samples that climb together
 
+/// Voxels per event. Few events are counted apart and added once: threads would fight for their cache lines.
 template <class Id>
-void add(std::span<Id> counts, Id zone, Id count) {
-    std::atomic_ref<Id>(counts[zone]).fetch_add(count, std::memory_order_relaxed);
-}
+class Tally {
+public:
+    explicit Tally(std::span<Id> counts) : shared_(counts), own_(counts.size() <= kFew ? counts.size() : 0, Id{0}) {}
+
+    void add(std::span<const Id> zones) {
+        if (!own_.empty()) {
+            for (const Id zone : zones) ++own_[zone];
+            return;
+        }
+        for (std::size_t i = 0; i < zones.size(); ++i) {
+            if (i + kAhead < zones.size()) __builtin_prefetch(shared_.data() + zones[i + kAhead], 1);
+            add(zones[i], 1);
+        }
+    }
+    void finish() {
+        for (std::size_t zone = 0; zone < own_.size(); ++zone) {
+            if (own_[zone] > 0) add(zone, own_[zone]);
+        }
+    }
+
+private:
+    static constexpr std::size_t kFew = 1 << 16, kAhead = 16;
+
+    void add(std::size_t zone, Id count) { std::atomic_ref<Id>(shared_[zone]).fetch_add(count, std::memory_order_relaxed); }
+
+    std::span<Id> shared_;
+    std::vector<Id> own_;
+};
 
 }  // namespace
 
@@ -25,7 +51,7 @@ void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
     std::vector<Value> value(kBlock);
     std::vector<Id> maximum(kBlock);
     std::vector<std::uint32_t> scratch(kBlock);
-    Id zone = 0, run = 0;
+    Tally<Id> tally(counts);
     for (std::size_t first = 0; first < samples.size(); first += kBlock) {
         const std::size_t count = std::min(kBlock, samples.size() - first);
         const std::span<Id> block = basin_to_zone.subspan(first, count);
@@ -34,16 +60,9 @@ void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
             maximum[i] = Basins<Id>::number(block[i]);
         }
         paths.zones({value.data(), count}, {maximum.data(), count}, scratch, block);
-        for (const Id next : block) {
-            if (next != zone) {
-                if (run > 0) add(counts, zone, run);
-                zone = next;
-                run = 0;
-            }
-            ++run;
-        }
+        tally.add(block);
     }
-    if (run > 0) add(counts, zone, run);
+    tally.finish();
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type

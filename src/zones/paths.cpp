@@ -10,6 +10,8 @@
 namespace isoatlas {
 namespace {
 
+constexpr std::size_t kAhead = 16;  // a parent is fetched so many events before it is needed
+
 /// The largest Value that is not above v.
 template <class Value>
 Value rounded_down(double v) {
@@ -17,118 +19,107 @@ Value rounded_down(double v) {
     return static_cast<double>(rounded) > v ? std::nextafter(rounded, -std::numeric_limits<Value>::infinity()) : rounded;
 }
 
-/// Per event its heaviest child (most events above it; ties: the higher event), the event itself for a leaf. weight: scratch.
+/// Weights, heavy children, lengths. Children come before their parents.
 template <class Id>
-BigVector<Id> heavy_children(const CriticalityTree<Id>& tree, BigVector<Id>& weight) {
-    const std::size_t n = tree.size();
-    std::fill(weight.begin(), weight.end(), Id{1});
-    BigVector<Id> heavy(n);
-    for (std::size_t e = 0; e < n; ++e) heavy[e] = static_cast<Id>(e);
-    for (std::size_t e = 0; e < n; ++e) {  // children before parents
+BigVector<HeavyNode<Id>> weigh(const CriticalityTree<Id>& tree) {
+    BigVector<HeavyNode<Id>> nodes(tree.size());
+    for (std::size_t e = 0; e < nodes.size(); ++e) nodes[e] = {static_cast<Id>(e), 1, 1};
+    for (std::size_t e = 0; e < nodes.size(); ++e) {
+        if (e + kAhead < nodes.size()) __builtin_prefetch(&nodes[tree.parent[e + kAhead]], 1);
         if (tree.is_root(e)) continue;
-        const std::size_t p = tree.parent[e];
-        weight[p] += weight[e];
-        if (heavy[p] == static_cast<Id>(p) || weight[e] > weight[heavy[p]]) heavy[p] = static_cast<Id>(e);
+        const Id p = tree.parent[e];
+        nodes[p].path += nodes[e].path;
+        if (nodes[p].heavy != p && nodes[e].path <= nodes[nodes[p].heavy].path) continue;
+        nodes[p].heavy = static_cast<Id>(e);
+        nodes[p].position = nodes[e].position + 1;
     }
-    return heavy;
+    return nodes;
 }
 
 }  // namespace
 
 template <class Id, class Value>
 HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads)
-    : stops_(tree.size()), bucket_(tree.size()), start_(maxima.size()) {
-    lay_out(tree, value, maxima, threads);
-    for (Id path = 0; path + 1 < paths_.size(); ++path) prepare_scale(path);
-    for_each_block(threads, blocks(), [&](std::int64_t b) {
-        for (std::size_t path = b * kBlock; path < std::min((b + 1) * kBlock, paths_.size() - 1); ++path)
-            make_buckets(static_cast<Id>(path));
+    : stops_(tree.size() + kSteps) {
+    BigVector<HeavyNode<Id>> nodes = weigh(tree);
+    const BigVector<Path> laid = lay_out(tree, value, nodes);
+    // A leaf event's highest element is a maximum: it gives the path its name.
+    BigVector<Id> name(laid.size()), path_of(maxima.size());
+    for_each_index(threads, maxima.size(), [&](std::size_t m) {
+        const Id e = tree.event_of_element[maxima[m]];
+        path_of[m] = nodes[e].path;
+        if (nodes[e].heavy == e && tree.top[e] == maxima[m]) name[path_of[m]] = static_cast<Id>(m);
     });
+    release(nodes);
+    paths_.resize(maxima.size());
+    for_each_index(threads, maxima.size(), [&](std::size_t m) {
+        paths_[m] = laid[path_of[m]];
+        paths_[m].below = name[paths_[m].below];
+    });
+    bucket_.resize(tree.size());
+    for (const Path& path : laid) prepare_scale(path);
+    for_each_index(threads, laid.size(), [&](std::size_t path) { make_buckets(laid[path]); });
 }
 
-// One path a leaf event. A leaf event's top element is a maximum, so paths are the maxima that are the top of their event, in raster order.
+// Parents before their children: a path begins at its lowest event, and its events are met in ascending order.
 template <class Id, class Value>
-void HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima,
-                                    int threads) {
-    const BigVector<Id> heavy = heavy_children(tree, bucket_);
-    paths_.reserve(maxima.size() + 1);
-    for (const Id element : maxima) {
-        const Id top = tree.event_of_element[element];
-        if (tree.top[top] == element && heavy[top] == top) paths_.push_back({0, top, 0});  // its top for now, then its length
+auto HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<HeavyNode<Id>> nodes)
+    -> BigVector<Path> {
+    BigVector<Path> paths;
+    Id end = 0;
+    for (std::size_t e = tree.size(); e-- > 0;) {
+        if (e >= kAhead) __builtin_prefetch(&nodes[tree.parent[e - kAhead]]);
+        HeavyNode<Id>& node = nodes[e];
+        const HeavyNode<Id>& parent = nodes[tree.parent[e]];
+        if (!tree.is_root(e) && parent.heavy == static_cast<Id>(e)) {
+            node.path = parent.path;
+            node.position = parent.position + 1;
+        } else {
+            const Id first = std::exchange(end, end + node.position);
+            paths.push_back(tree.is_root(e) ? Path{-std::numeric_limits<Value>::infinity(), 0, first, end}
+                                            : Path{stops_[parent.position].value, parent.path, first, end});
+            node.path = static_cast<Id>(paths.size() - 1);
+            node.position = first;
+        }
+        stops_[node.position] = {rounded_down<Value>(value[tree.top[e]]), static_cast<Id>(e)};
     }
-    const auto ends_at = [&](Id e) { return tree.is_root(e) || heavy[tree.parent[e]] != e; };
-    const auto for_each_path = [&](auto&& work) {
-        for_each_block(threads, blocks(), [&](std::int64_t b) {
-            for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, paths_.size() - 1); ++i) work(paths_[i], static_cast<Id>(i));
-        });
-    };
-    paths_.push_back({0, 0, 0});
-    for_each_path([&](Path& path, Id) {
-        for (Id e = path.below;; e = tree.parent[e]) {
-            ++path.first;
-            if (ends_at(e)) break;
-        }
-    });
-    Id next = 0;
-    for (Path& path : paths_) next += std::exchange(path.first, next);
-    BigVector<Id>& path_of = bucket_;  // scratch until the buckets are made
-    for_each_path([&](Path& path, Id number) {
-        Id position = paths_[number + 1].first;
-        for (Id e = path.below;; e = tree.parent[e]) {
-            path_of[e] = number;
-            stops_[--position] = {rounded_down<Value>(value[tree.top[e]]), e};
-            if (ends_at(e)) break;
-        }
-    });
-    for_each_path([&](Path& path, Id) {
-        const Id bottom = stops_[path.first].event, parent = tree.parent[bottom];
-        path.below = path_of[parent];
-        path.value_below = tree.is_root(bottom) ? -std::numeric_limits<Value>::infinity() : rounded_down<Value>(value[tree.top[parent]]);
-    });
-    for (std::size_t m = 0; m < maxima.size(); ++m) start_[m] = path_of[tree.event_of_element[maxima[m]]];
+    return paths;
 }
 
 template <class Id, class Value>
-void HeavyPaths<Id, Value>::prepare_scale(Id path) {
-    if (count(path) < kBucketed) return;
-    const Id first = paths_[path].first, end = paths_[path + 1].first, buckets = count(path) - 1;
-    const double low = stops_[first].value, width = static_cast<double>(stops_[end - 1].value) - low;
-    const double factor = static_cast<double>(buckets) / width;
-    bucket_[first] = static_cast<Id>(scales_.size());
+void HeavyPaths<Id, Value>::prepare_scale(const Path& path) {
+    if (!is_long(path)) return;
+    const double low = stops_[path.first].value, width = static_cast<double>(stops_[path.end - 1].value) - low;
+    const double factor = static_cast<double>(buckets(path)) / width;
+    bucket_[path.first] = static_cast<Id>(scales_.size());
     scales_.push_back({low, factor < std::numeric_limits<double>::max() ? factor : 0});  // a width that underflows: one bucket
 }
 
 template <class Id, class Value>
-void HeavyPaths<Id, Value>::make_buckets(Id path) {
-    if (count(path) < kBucketed) return;
-    const Id first = paths_[path].first, end = paths_[path + 1].first, buckets = count(path) - 1;
-    const Scale& scale = scales_[bucket_[first]];
+void HeavyPaths<Id, Value>::make_buckets(const Path& path) {
+    if (!is_long(path)) return;
+    Id* const first_in = bucket_.data() + path.first + 1;
     Id next = 0;
-    for (Id p = first; p < end; ++p) {
-        const std::size_t last = bucket(scale, buckets, stops_[p].value);
-        while (next <= last) bucket_[first + 1 + next++] = p;
+    for (Id p = path.first; p < path.end; ++p) {
+        const Id last = bucket_of(path, stops_[p].value) - path.first - 1;
+        while (next <= last) first_in[next++] = p;
     }
-    while (next < buckets) bucket_[first + 1 + next++] = end - 1;
-}
-
-// Monotone in x, rounding included: that is all the search needs.
-template <class Id, class Value>
-std::size_t HeavyPaths<Id, Value>::bucket(const Scale& scale, Id buckets, Value x) const {
-    const double b = (static_cast<double>(x) - scale.low) * scale.factor;
-    return b > 0 ? static_cast<std::size_t>(std::min(b, static_cast<double>(buckets - 1))) : 0;
+    while (next < buckets(path)) first_in[next++] = path.end - 1;
 }
 
 /// Where bucket_ tells a position not above the lowest event of the path with a value of x or more; for a short path that position itself.
+/// Monotone in x, rounding included: that is all the search needs.
 template <class Id, class Value>
-Id HeavyPaths<Id, Value>::bucket_of(Id path, Value x) const {
-    const Id first = paths_[path].first, buckets = count(path) - 1;
-    return buckets + 1 < kBucketed ? first : first + 1 + static_cast<Id>(bucket(scales_[bucket_[first]], buckets, x));
+Id HeavyPaths<Id, Value>::bucket_of(const Path& path, Value x) const {
+    if (!is_long(path)) return path.first;
+    const Scale& scale = scales_[bucket_[path.first]];
+    const double bucket = (static_cast<double>(x) - scale.low) * scale.factor;
+    return path.first + 1 + (bucket > 0 ? static_cast<Id>(std::min(bucket, static_cast<double>(buckets(path) - 1))) : Id{0});
 }
 
 template <class Id, class Value>
 void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch,
                                   std::span<Id> zone) const {
-    for (Id& p : path) p = start_[p];
     std::size_t climbing = x.size();
     for (std::size_t i = 0; i < climbing; ++i) scratch[i] = static_cast<std::uint32_t>(i);
     while (climbing > 0) {  // one jump for all that still climb
@@ -144,18 +135,27 @@ void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, 
         climbing = kept;
     }
     for (std::size_t i = 0; i < x.size(); ++i) {  // zone: first the bucket, then the position where the search starts, then the zone
-        zone[i] = bucket_of(path[i], x[i]);
+        zone[i] = bucket_of(paths_[path[i]], x[i]);
         __builtin_prefetch(bucket_.data() + zone[i]);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (zone[i] != paths_[path[i]].first) zone[i] = bucket_[zone[i]];
         __builtin_prefetch(stops_.data() + zone[i]);
+        __builtin_prefetch(stops_.data() + zone[i] + kSteps - 1);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
         const Stop* stop = stops_.data() + zone[i];
-        for (int step = 0; step < 8 && stop->value < x[i]; ++step) ++stop;
-        if (stop->value < x[i]) {  // a crowded bucket
-            const Stop* end = stops_.data() + paths_[path[i] + 1].first;
+        // The first steps without branches: nobody can predict them. Once a stop is high enough it stays the answer.
+        bool on = true;
+        std::size_t steps = 0;
+        for (int k = 0; k < kSteps; ++k) {
+            on = on & (stop[k].value < x[i]);
+            steps += on;
+        }
+        stop += steps;
+        for (int k = 0; on && k < 8 && stop->value < x[i]; ++k) ++stop;
+        if (on && stop->value < x[i]) {  // a crowded bucket
+            const Stop* end = stops_.data() + paths_[path[i]].end;
             stop = std::lower_bound(stop, end, x[i], [](const Stop& s, Value value) { return s.value < value; });
         }
         zone[i] = stop->event;
