@@ -41,6 +41,7 @@ BigVector<HeavyNode<Id>> weigh(const CriticalityTree<Id>& tree) {
 template <class Id, class Value>
 HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads)
     : stops_(tree.size() + kSteps) {
+    std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, 0});
     BigVector<HeavyNode<Id>> nodes = weigh(tree);
     const BigVector<Path> laid = lay_out(tree, value, nodes);
     // A leaf event's highest element is a maximum: it gives the path its name.
