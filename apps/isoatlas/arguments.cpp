@@ -66,7 +66,7 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
 }
 
 void add_interpolant(CLI::App& app, Typed& typed) {
-    app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces")
+    app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces, trilinear")
         ->type_name("NAME")
         ->group("Reading");
 }
@@ -182,7 +182,8 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
             usage("--tau is not a finite number", "give an isovalue inside the range that `isoatlas info` prints");
         arguments.tau = typed.tau;
     }
-    arguments.interpolant = parse_choice<Interpolant>("--interpolant", typed.interpolant, {{"faces", Interpolant::faces}});
+    arguments.interpolant = parse_choice<Interpolant>("--interpolant", typed.interpolant,
+                                                      {{"faces", Interpolant::faces}, {"trilinear", Interpolant::trilinear}});
     arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
                                                 {{"all", ShellChoice::all}, {"outer", ShellChoice::outer}, {"inner", ShellChoice::inner}});
     arguments.style =

@@ -67,7 +67,7 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
     } else {
         Session session(arguments, terminal);
         const Volume volume = session.load();
-        checks = verify_volume(volume, arguments.levels, session.context());
+        checks = verify_volume(volume, {.levels = arguments.levels, .interpolant = arguments.interpolant}, session.context());
         head = document("verify", volume.info, arguments.interpolant);
         head["what"] = "volume";
         head["levels"] = arguments.levels;

@@ -21,13 +21,15 @@
 namespace isoatlas {
 
 /// How samples are connected inside cells. `faces`: 6-neighbours plus face disambiguation points (the dissertation's connectivity).
-enum class Interpolant : std::uint8_t { faces };
+/// `trilinear`: exactly as the trilinear interpolant connects them, tunnels through the interior of cells included. The same in 2D.
+enum class Interpolant : std::uint8_t { faces, trilinear };
 [[nodiscard]] const char* name_of(Interpolant interpolant);
 
-enum class ElementKind : std::uint8_t { vertex, face };
+enum class ElementKind : std::uint8_t { vertex, face, body };
 
-/// A critical element: where (voxel coordinates; a face point has two .5 coordinates), and how many objects (h0) meet it just above
-/// and how many low components (l0) just below. 3D: (0,1) maximum, (2,1), (1,2), (1,0) minimum; 2D: saddles are (2,2).
+/// A critical element: where (voxel coordinates; a face point has two .5 coordinates, a body point three: the centre of its cell), and how
+/// many objects (h0) meet it just above and how many low components (l0) just below. 3D: (0,1) maximum, (2,1), (1,2), (1,0) minimum; 2D:
+/// saddles are (2,2).
 struct Element {
     double value;
     std::array<double, 3> position;

@@ -19,8 +19,13 @@ struct CheckResult {
 /// closed, manifold (edges and points), oriented, no zero-area triangles, even Euler numbers.
 [[nodiscard]] std::vector<CheckResult> verify_mesh(const Mesh& mesh);
 
-/// Tree invariants, Euler sums, zones partition the voxels; and at `levels` isovalues spread over the range (data values and values
+struct VerifyOptions {
+    int levels = 8;  ///< isovalues to compare at
+    Interpolant interpolant = Interpolant::faces;
+};
+
+/// Tree invariants, Euler sums, zones partition the voxels; and at some isovalues spread over the range (data values and values
 /// between): tree == cut == mesh (components, genus, Euler numbers, closed and manifold).
-[[nodiscard]] std::vector<CheckResult> verify_volume(const Volume& volume, int levels = 8, const Context& context = {});
+[[nodiscard]] std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

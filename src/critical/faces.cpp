@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -100,6 +101,27 @@ bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std
         faces_of_row(r00, r10, r01, r11, n, faces.data() + y * n);
     }
     return any_set(faces);
+}
+
+void find_ambiguous_faces(CellElements& cell) {
+    cell.ambiguous = cell.bd_high = 0;
+    for (int f = 0; f < 6; ++f) {
+        const std::array<int, 4>& corner = kFaceCorners[f];
+        const double a = cell.value[corner[0]], b = cell.value[corner[1]], c = cell.value[corner[2]], d = cell.value[corner[3]];
+        const Diagonal highs = high_diagonal(a, b, c, d);
+        if (highs == Diagonal::none) continue;
+        cell.ambiguous |= 1U << f;
+        cell.bd_high |= unsigned{highs == Diagonal::bd} << f;
+        cell.face_value[f] = disambiguation_value(a, b, c, d, highs);
+    }
+}
+
+bool element_below(const CellElements& cell, int element, int other) {
+    const auto key = [&cell](int e) {
+        return e < 8 ? std::tuple(cell.value[e], 2 * cell.voxel[e], std::int64_t{0})
+                     : std::tuple(cell.face_value[e - 8], second_key(cell, e - 8), face_number(cell, e - 8));
+    };
+    return key(element) < key(other);
 }
 
 std::uint8_t default_face_types(const CellElements& cell, const CellTable& table) {

@@ -31,6 +31,12 @@ struct CellElements {
     std::array<double, 6> face_value;         ///< disambiguation value of an ambiguous face
 };
 
+/// Fills in the ambiguous faces of a cell from its corners.
+void find_ambiguous_faces(CellElements& cell);
+
+/// Order of two elements of one cell: corners 0..7, ambiguous face f is 8 + f.
+bool element_below(const CellElements& cell, int element, int other);
+
 /// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this
 /// cell by elements above F; clear = type L, the Lows are joined below.
 std::uint8_t default_face_types(const CellElements& cell, const CellTable& table = cell_table());

@@ -23,7 +23,10 @@ public:
     Representatives(const Extent& extent, std::span<const Id> up, std::span<const Id> down)
         : extent_(extent), steps_(extent), up_(up), down_(down) {}
 
-    [[nodiscard]] std::array<Id, 4> of(ElementCode code) const { return code.kind() == CodeKind::vertex ? vertex(code) : face(code); }
+    [[nodiscard]] std::array<Id, 4> of(ElementCode code) const {
+        if (code.kind() == CodeKind::vertex) return vertex(code);
+        return code.is_body() ? body(code) : face(code);
+    }
 
 private:
     [[nodiscard]] Id high(std::int64_t v) const { return Basins<Id>::number(up_[v]); }
@@ -51,6 +54,13 @@ private:
         const auto corner = [&](int i) { return steps_.face_voxel(code.index(), i); };
         const Id high_a = high(corner(first_high)), low_a = low(corner(first_low));
         return {high_a, code.h0() == 2 ? high(corner(first_high + 2)) : high_a, low_a, code.l0() == 2 ? low(corner(first_low + 2)) : low_a};
+    }
+
+    [[nodiscard]] std::array<Id, 4> body(ElementCode code) const {
+        const auto corner = [&](int i) { return steps_.cell_corner(code.cell(), code.body_corner(i)); };
+        const std::int64_t a = corner(0), b = corner(1), ring = corner(2);
+        if (code.kind() == CodeKind::body_open) return {high(a), high(b), low(ring), low(ring)};
+        return {high(ring), high(ring), low(a), low(b)};
     }
 
     const Extent& extent_;
@@ -111,7 +121,7 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
         stop_if_cancelled(context);
         const Slab slab = slab_at(i, height, extent.size[2]);
         const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
-        scans[i] = scan_slab(grid_, slab, std::span<std::uint8_t>(links).subspan(first, count));
+        scans[i] = scan_slab(grid_, slab, std::span<std::uint8_t>(links).subspan(first, count), interior_);
     });
 
     std::vector<std::int64_t> first_maximum(slabs), first_minimum(slabs);

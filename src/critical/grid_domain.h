@@ -38,7 +38,7 @@ public:
     using Id = IdType;
     using Sample = T;
 
-    explicit GridDomain(GridView<T> grid) : grid_(grid), above_{GridSteps(grid.extent)} {}
+    GridDomain(GridView<T> grid, bool interior) : grid_(grid), above_{GridSteps(grid.extent)}, interior_(interior) {}
 
     /// Scans, resolves basins, sorts. Cost: O(voxels + c log c); memory 9 bytes a voxel and 64 a critical element while it runs.
     [[nodiscard]] Criticals<Id> critical(const Context& context) const;
@@ -50,6 +50,7 @@ public:
 private:
     GridView<T> grid_;
     Above above_;
+    bool interior_;  ///< trilinear cells, not faces only
 };
 
 /// Slices per slab: what the context asks for, or enough slabs to keep every thread busy.

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "critical/bodies.h"
 #include "critical/faces.h"
 #include "critical/links.h"
 
@@ -23,10 +24,12 @@ std::array<std::int64_t, 8> corner_offsets(const GridSteps& steps) {
 template <class T>
 class LayerTypes {
 public:
-    explicit LayerTypes(const GridView<T>& grid)
-        : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), any_(grid.extent.size[0] + 8) {}
+    LayerTypes(const GridView<T>& grid, bool interior)
+        : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), interior_(interior), any_(grid.extent.size[0] + 8) {}
 
-    void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next) {
+    /// bodies: where body points go; null: they belong to another slab.
+    void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next, SlabScan* bodies) {
+        bodies_ = bodies;
         const std::int64_t n = grid_.extent.size[0];
         for (std::int64_t y = 0; y + 1 < grid_.extent.size[1]; ++y) {
             const std::int64_t base = y * n;
@@ -72,18 +75,32 @@ private:
             const Diagonal highs = cell.bd_high >> f & 1 ? Diagonal::bd : Diagonal::ac;
             cell.face_value[f] = disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], highs);
         }
-        const int types = default_face_types(cell, table_);
+        unsigned types = default_face_types(cell, table_);
+        if (interior_) types ^= add_bodies(cell, types);
         high[i] += static_cast<std::uint8_t>(types & 0b010101);
         high_next[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
         high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);
         high[i + 1] += static_cast<std::uint8_t>(types >> 1 & 0b010000);
     }
 
+    /// Returns the faces whose type is not the default one.
+    unsigned add_bodies(const CellElements& cell, unsigned types) {
+        const CellBodies found = bodies_of_cell(cell, types);
+        if (found.exceptional == 0 || bodies_ == nullptr) return found.exceptional;
+        for (const CodeKind kind : {CodeKind::body_open, CodeKind::body_close}) {
+            const std::optional<BodyPoint>& body = kind == CodeKind::body_open ? found.opening : found.closing;
+            if (body) bodies_->add({body->value, ElementCode::body(kind, cell.voxel[0], body->region_a, body->region_b, body->ring)});
+        }
+        return found.exceptional;
+    }
+
     const GridView<T>& grid_;
     GridSteps steps_;
     std::array<std::int64_t, 8> offset_;
+    bool interior_;
     const CellTable& table_ = cell_table();
     Bytes any_;
+    SlabScan* bodies_ = nullptr;
 };
 
 /// Appends the critical elements of one slice.
@@ -142,10 +159,10 @@ private:
 }  // namespace
 
 template <class T>
-SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links) {
+SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, bool interior) {
     const std::int64_t slice = grid.extent.slice(), slices = grid.extent.size[2];
     Bytes faces(slice), faces_next(slice), high(slice), high_next(slice);
-    LayerTypes<T> layer(grid);
+    LayerTypes<T> layer(grid, interior && grid.is_3d());
     const Emitter<T> emit(grid);
     SlabScan out;
     // The layer below the slab decides one side of the xy faces of the first slice.
@@ -154,7 +171,7 @@ SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> l
     for (std::int64_t z = first_layer; z < slab.z_end; ++z) {
         const bool has_next = z + 1 < slices;
         const bool any_next = has_next && faces_of_slice(grid, z + 1, z + 1 < slab.z_end && z + 2 < slices, faces_next);
-        if (has_next && (any || any_next)) layer.add(z, faces, faces_next, high, high_next);
+        if (has_next && (any || any_next)) layer.add(z, faces, faces_next, high, high_next, z >= slab.z_begin ? &out : nullptr);
         if (z >= slab.z_begin) {
             const std::span<std::uint8_t> slice_links = links.subspan((z - slab.z_begin) * slice, slice);
             links_of_slice(grid, z, slice_links);
@@ -168,13 +185,13 @@ SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> l
     return out;
 }
 
-template SlabScan scan_slab(const GridView<std::uint8_t>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<std::int8_t>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<std::uint16_t>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<std::int16_t>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<std::uint32_t>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<std::int32_t>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<float>&, Slab, std::span<std::uint8_t>);
-template SlabScan scan_slab(const GridView<double>&, Slab, std::span<std::uint8_t>);
+template SlabScan scan_slab(const GridView<std::uint8_t>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<std::int8_t>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<std::uint16_t>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<std::int16_t>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<std::uint32_t>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<std::int32_t>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<float>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<double>&, Slab, std::span<std::uint8_t>, bool);
 
 }  // namespace isoatlas

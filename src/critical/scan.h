@@ -2,7 +2,7 @@
 //
 // Everything is decided from three slices: a vertex by its neighbours, an ambiguous face by the two cells that share it.
 // The owner of a face is the slab of its corner a. Elements come out in raster order of their owner voxel, the vertex first, then faces xy,
-// xz, yz.
+// xz, yz; body points come before the slice of their cell.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,9 @@ struct SlabScan {
 
 /// links: one byte per voxel of the slab (critical/links.h). Reads the slices [z_begin - 1, z_end] that exist.
 /// Cost: O(voxels + ambiguous faces) time, O(slice + critical elements) memory.
+/// interior: the trilinear interpolant (trilinear.md), body points included; else faces only.
 template <class T>
-SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links);
+SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, bool interior);
 
 /// Change of the Euler characteristic of the High set when an element passes: l0 - h0 in 3D; in 2D a saddle (2,2) gives -1.
 constexpr int delta_chi(ElementCode code, int rank) {

@@ -1,6 +1,6 @@
 // THE total order of elements. Every comparison in the system that decides a tie is made here.
 //
-// Elements: vertices (voxels) and the points of ambiguous faces; body points of cells will join them (trilinear.md section 3).
+// Elements: vertices (voxels), the points of ambiguous faces, and the body points of cells (trilinear.md section 3).
 // Key of an element = (value, second, third), compared lexicographically:
 //   body B1         (s, -2, cell)
 //   face point      (s, -1, face)                          when s lies above the value of its highest Low
@@ -13,6 +13,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "field/cell.h"
 #include "isoatlas/volume.h"
@@ -35,12 +36,22 @@ struct ElementCode {
         return {static_cast<std::uint64_t>(number) << 10 |
                 static_cast<std::uint64_t>(tie_corner << 7 | int{bd_high} << 6 | h0 << 4 | l0 << 2 | 1)};
     }
+    /// kind: body_open or body_close. a, b, ring: corners of the cell.
+    static constexpr ElementCode body(CodeKind kind, std::int64_t cell, int a, int b, int ring) {
+        const int h0 = kind == CodeKind::body_open ? 2 : 1;
+        return {(static_cast<std::uint64_t>(cell) << 9 | static_cast<std::uint64_t>(a << 6 | b << 3 | ring)) << 10 |
+                static_cast<std::uint64_t>(h0 << 4 | (3 - h0) << 2 | static_cast<int>(kind))};
+    }
     [[nodiscard]] constexpr CodeKind kind() const { return static_cast<CodeKind>(bits & 3); }
     [[nodiscard]] constexpr int l0() const { return static_cast<int>(bits >> 2 & 3); }
     [[nodiscard]] constexpr int h0() const { return static_cast<int>(bits >> 4 & 3); }
     [[nodiscard]] constexpr bool bd_high() const { return bits >> 6 & 1; }
     [[nodiscard]] constexpr int tie_corner() const { return static_cast<int>(bits >> 7 & 7); }
     [[nodiscard]] constexpr int axis() const { return static_cast<int>(bits >> 7 & 7); }
+    [[nodiscard]] constexpr bool is_body() const { return bits >> 1 & 1; }
+    [[nodiscard]] constexpr std::int64_t cell() const { return index() >> 9; }
+    /// Corner of a body point: 0, 1 in the regions it joins, 2 in the ring.
+    [[nodiscard]] constexpr int body_corner(int i) const { return static_cast<int>(index() >> (6 - 3 * i) & 7); }
     [[nodiscard]] constexpr std::int64_t index() const { return static_cast<std::int64_t>(bits >> 10); }
 };
 
@@ -52,6 +63,10 @@ struct GridSteps {
         const FaceAxes axes = kFaceAxes[orientation];
         return (corner == 1 || corner == 2 ? axis[axes.axis1] : 0) + (corner >= 2 ? axis[axes.axis2] : 0);
     }
+    /// Voxel of corner k of the cell whose corner 0 is a voxel.
+    [[nodiscard]] constexpr std::int64_t cell_corner(std::int64_t cell, int k) const {
+        return cell + (k & 1) * axis[0] + (k >> 1 & 1) * axis[1] + (k >> 2) * axis[2];
+    }
     /// Voxel of corner i (0..3 = a..d) of a face number.
     [[nodiscard]] constexpr std::int64_t face_voxel(std::int64_t face, int corner) const {
         return face / 3 + face_corner(static_cast<int>(face % 3), corner);
@@ -61,6 +76,7 @@ struct GridSteps {
 /// Second part of the key.
 constexpr std::int64_t second_key(ElementCode code, const GridSteps& steps) {
     if (code.kind() == CodeKind::vertex) return 2 * code.index();
+    if (code.is_body()) return code.kind() == CodeKind::body_open ? -2 : std::numeric_limits<std::int64_t>::max();
     if (code.tie_corner() == 0) return -1;
     return 2 * steps.face_voxel(code.index(), code.tie_corner() - 1) + 1;
 }
@@ -87,11 +103,14 @@ struct Above {
     }
 };
 
-/// Position of an element in voxel coordinates; a face point lies in the middle of its face.
+/// Position of an element in voxel coordinates; a face point lies in the middle of its face, a body point in that of its cell.
 inline std::array<double, 3> element_position(ElementCode code, const Extent& extent) {
     const bool is_face = code.kind() == CodeKind::face;
-    const std::array<std::int64_t, 3> voxel = extent.voxel(is_face ? code.index() / 3 : code.index());
+    const std::array<std::int64_t, 3> voxel = extent.voxel(code.is_body() ? code.cell() : is_face ? code.index() / 3 : code.index());
     std::array<double, 3> position{static_cast<double>(voxel[0]), static_cast<double>(voxel[1]), static_cast<double>(voxel[2])};
+    if (code.is_body()) {
+        for (double& coordinate : position) coordinate += 0.5;
+    }
     if (is_face) {
         const FaceAxes axes = kFaceAxes[code.index() % 3];
         position[axes.axis1] += 0.5;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "critical/body_saddle.h"
+
 namespace isoatlas {
 namespace {
 
@@ -50,14 +52,70 @@ void write_fan_point(const CellLoops& loops, int loop, const std::int64_t* point
 }  // namespace
 
 template <class T>
-void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) const {
+template <class Visit>
+void CellWriter<T>::for_cells(std::int64_t y, std::int64_t z, Visit&& visit) const {
     const CellCaseTables& cases = cell_cases();
     const std::int64_t corner = extent_.index(-1, y, z);
+    const bool has_tunnels = interior_ && y >= 0 && z >= 0 && y + 1 < extent_.size[1] && z + 1 < extent_.size[2];
     for_active_cells(cell_row(domain_.high, y, z), domain_.high.words(), domain_.cells, [&](std::int64_t p, int pattern) {
-        const CellTriangles& cell = triangles_[case_of(cases, corner + p, pattern)];
-        place.triangle += cell.triangles;
-        place.fans += cell.fans;
+        State state{pattern, 0, cases.first_case[pattern], std::nullopt};
+        if (const int split = cases.split_faces[pattern]; split != 0) {
+            state.joined = joiner_.joined_mask(corner + p, pattern, split);
+            state.number = cases.case_of(pattern, state.joined);
+        }
+        if (has_tunnels && p > 0 && p < extent_.size[0]) state.tunnel = tunnels_(corner + p, pattern, state.joined);
+        visit(p, state);
     });
+}
+
+template <class T>
+void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) const {
+    for_cells(y, z, [&](std::int64_t, const State& state) {
+        if (state.tunnel) {
+            const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
+            place.triangle += cell.triangles;
+            place.fans += cell.points();
+        } else {
+            place.triangle += triangles_[state.number].triangles;
+            place.fans += triangles_[state.number].fans;
+        }
+    });
+}
+
+// The slope of the interpolant itself: inside a tunnel it has little to do with differences between voxels.
+template <class T>
+std::array<float, 3> CellWriter<T>::normal_at(const std::array<double, 8>& value, const std::array<std::int64_t, 3>& voxel,
+                                              const Vec3& position) const {
+    const Vec3 corner{static_cast<double>(voxel[0]), static_cast<double>(voxel[1]), static_cast<double>(voxel[2])};
+    const Vec3 origin = map_.point(corner);
+    Vec3 slope{};
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 low = position, high = position, next = corner;
+        low[axis] = 0, high[axis] = 1, next[axis] += 1;
+        const Vec3 step = map_.point(next);
+        slope[axis] = (interpolate(value, high) - interpolate(value, low)) /
+                      std::hypot(step[0] - origin[0], step[1] - origin[1], step[2] - origin[2]);
+    }
+    return map_.normal(slope, 0, 1);
+}
+
+template <class T>
+void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
+                                 std::int64_t* point, Surface& surface) const {
+    const std::array<double, 8> value = tunnels_.values(extent_.index(voxel[0], voxel[1], voxel[2]));
+    const std::array<Vec3, 6> ring = ring_points(cell, *state.tunnel, state.pattern, state.joined, value, joiner_.tau);
+    for (int i = 0; i < cell.ring_points; ++i) {
+        const std::int64_t target = point[12 + i] = next++;
+        Vec3 position = ring[i];
+        if (!surface.normals.empty()) surface.normals[target] = normal_at(value, voxel, position);
+        for (int axis = 0; axis < 3; ++axis) position[axis] += static_cast<double>(voxel[axis]);
+        surface.points[target] = map_.point(position);
+        if (!surface.contour.empty()) surface.contour[target] = surface.contour[point[cell.hit]];
+    }
+    for (int fan = 0; fan < cell.fans; ++fan) {
+        const std::int64_t target = point[12 + cell.ring_points + fan] = next++;
+        write_fan_point(cell_cases().loops[state.number], cell.fan_loop[fan], point, flip_, target, surface);
+    }
 }
 
 template <class T>
@@ -66,24 +124,29 @@ void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layo
     const RowPlace& place = layout[row];
     if (layout[row + 1].triangle == place.triangle) return;
     const CellCaseTables& cases = cell_cases();
-    const std::int64_t corner = extent_.index(-1, y, z);
     HitCursor cursor(domain_, layout, y, z);
     std::array<std::int64_t, 3>* triangle = surface.triangles.data() + place.triangle;
     std::int64_t fan_point = place.first_fan();
     const int second = flip_ ? 2 : 1, third = flip_ ? 1 : 2;
-    for_active_cells(cell_row(domain_.high, y, z), domain_.high.words(), domain_.cells, [&](std::int64_t p, int pattern) {
-        const int number = case_of(cases, corner + p, pattern);
-        const CellTriangles& cell = triangles_[number];
-        std::int64_t point[16];
-        cursor.points_of(cases.hit_edges[pattern], point);
+    for_cells(y, z, [&](std::int64_t p, const State& state) {
+        std::int64_t point[20];
+        cursor.points_of(cases.hit_edges[state.pattern], point);
+        const auto write_triangles = [&](const std::uint8_t* vertex, int count) {
+            for (int i = 0; i < count; ++i, vertex += 3) *triangle++ = {point[vertex[0]], point[vertex[second]], point[vertex[third]]};
+        };
+        if (state.tunnel) {
+            const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
+            write_points(state, cell, {p - 1, y, z}, fan_point, point, surface);
+            fan_point += cell.points();
+            write_triangles(cell.corner.data(), cell.triangles);
+            return;
+        }
+        const CellTriangles& cell = triangles_[state.number];
         for (int fan = 0; fan < cell.fans; ++fan) {
             point[12 + fan] = fan_point;
-            write_fan_point(cases.loops[number], cell.fan_loop[fan], point, flip_, fan_point++, surface);
+            write_fan_point(cases.loops[state.number], cell.fan_loop[fan], point, flip_, fan_point++, surface);
         }
-        const std::uint8_t* vertex = cell.corner.data();
-        for (int i = 0; i < cell.triangles; ++i, vertex += 3) {
-            *triangle++ = {point[vertex[0]], point[vertex[second]], point[vertex[third]]};
-        }
+        write_triangles(cell.corner.data(), cell.triangles);
     });
 }
 

@@ -4,6 +4,8 @@
 #include "field/grid.h"
 #include "mesh/cell_triangles.h"
 #include "mesh/layout.h"
+#include "mesh/physical_map.h"
+#include "mesh/tunnel_cell.h"
 
 namespace isoatlas {
 
@@ -11,8 +13,17 @@ template <class T>
 class CellWriter {
 public:
     /// flip: the geometry is mirrored, so triangles must turn the other way round to keep their normals towards lower values.
-    CellWriter(const GridView<T>& grid, double tau, const MeshDomain& domain, SurfaceStyle style, bool flip)
-        : joiner_(grid, tau), extent_(grid.extent), domain_(domain), triangles_(cell_triangles(style)), flip_(flip) {}
+    CellWriter(const GridView<T>& grid, double tau, const MeshDomain& domain, const PhysicalMap& map, const ExtractOptions& options,
+               bool flip)
+        : joiner_(grid, tau),
+          tunnels_(grid, tau),
+          extent_(grid.extent),
+          domain_(domain),
+          map_(map),
+          style_(options.style),
+          interior_(options.interpolant == Interpolant::trilinear),
+          triangles_(cell_triangles(options.style)),
+          flip_(flip) {}
 
     /// Adds the triangles and articulation points of cell row (y, z) to the counts of its place.
     void count_row(std::int64_t y, std::int64_t z, RowPlace& place) const;
@@ -20,14 +31,27 @@ public:
     void write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const;
 
 private:
-    [[nodiscard]] int case_of(const CellCaseTables& cases, std::int64_t corner, int pattern) const {
-        const int split = cases.split_faces[pattern];
-        return split == 0 ? cases.first_case[pattern] : cases.case_of(pattern, joiner_.joined_mask(corner, pattern, split));
-    }
+    /// A cell at tau.
+    struct State {
+        int pattern, joined, number;
+        std::optional<OpenTunnel> tunnel;
+    };
+    /// Calls visit(p, state) for every active cell of row (y, z).
+    template <class Visit>
+    void for_cells(std::int64_t y, std::int64_t z, Visit&& visit) const;
+    /// Writes the points of a cell with a tunnel behind its hits in `point`; next: the first of their places.
+    void write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
+                      std::int64_t* point, Surface& surface) const;
+    [[nodiscard]] std::array<float, 3> normal_at(const std::array<double, 8>& value, const std::array<std::int64_t, 3>& voxel,
+                                                 const Vec3& position) const;
 
     FaceJoiner<T> joiner_;
+    TunnelFinder<T> tunnels_;
     Extent extent_;
     const MeshDomain& domain_;
+    const PhysicalMap& map_;
+    SurfaceStyle style_;
+    bool interior_;
     const std::vector<CellTriangles>& triangles_;
     bool flip_;
 };

@@ -36,7 +36,7 @@ public:
           domain_(high, options.boundary),
           map_(volume.info.geometry, volume.info.extent),
           flip_(is_mirrored(volume.info)),
-          cells_(grid_, tau, domain_, options.style, flip_) {}
+          cells_(grid_, tau, domain_, map_, options, flip_) {}
 
     void run(Surface& surface) {
         if (domain_.is_empty()) return;
@@ -128,7 +128,7 @@ Surface extract(const Volume& volume, double tau, const ExtractOptions& options,
     const HighBits high = classify(volume, tau, context);
     const bool selects = !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
     std::optional<Components> components;
-    if (selects || options.ids) components = find_components(volume, tau, high, context);
+    if (selects || options.ids) components = find_components(volume, tau, options.interpolant, high, context);
     const std::vector<std::uint8_t> chosen = selects ? chosen_contours(volume, tau, *components, options) : std::vector<std::uint8_t>{};
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "isoatlas/analysis.h"
 #include "query/runs.h"
 
 namespace isoatlas {
@@ -40,8 +41,10 @@ struct Components {
 };
 
 /// Components of the samples at tau; `high` are their classes. Connected are: 6-neighbours (4 in 2D) of one class, and the diagonal of a
-/// 4-hit face that its face point joins (theory.md section 1). Cost: O(runs) beyond the bits. Same result for any threads and slabs.
-[[nodiscard]] Components find_components(const Volume& volume, double tau, const HighBits& high, const Context& context);
+/// 4-hit face that its face point joins (theory.md section 1); with the trilinear interpolant, also the two regions of a cell that a tunnel
+/// joins. Cost: O(runs) beyond the bits, and O(active cells) for tunnels. Same result for any threads and slabs.
+[[nodiscard]] Components find_components(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high,
+                                         const Context& context);
 
 /// Walks along a row and tells the component of ascending positions. Outside the volume everything is low component 0.
 class ComponentCursor {

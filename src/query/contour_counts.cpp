@@ -1,7 +1,9 @@
 #include "query/contour_counts.h"
 
 #include <atomic>
+#include <bit>
 
+#include "critical/open_tunnel.h"
 #include "query/active_cells.h"
 #include "query/slab_work.h"
 
@@ -16,18 +18,18 @@ public:
     Tally& operator=(const Tally&) = delete;
     ~Tally() { flush(); }
 
-    void add(std::int64_t contour, int hits) {
+    void add(std::int64_t contour, int hits, int loops = 1) {
         if (contour != contour_) {
             flush();
             contour_ = contour;
         }
         hits_ += hits;
-        ++loops_;
+        loops_ += loops;
     }
 
 private:
     void flush() {
-        if (loops_ == 0) return;
+        if (hits_ == 0 && loops_ == 0) return;
         std::atomic_ref(totals_.hits[contour_]).fetch_add(hits_, std::memory_order_relaxed);
         std::atomic_ref(totals_.loops[contour_]).fetch_add(loops_, std::memory_order_relaxed);
         hits_ = loops_ = 0;
@@ -36,9 +38,10 @@ private:
     std::int64_t contour_ = -1, hits_ = 0, loops_ = 0;
 };
 
+/// tunnels: null where cells have none.
 template <class T>
-void count_cell_row(const FaceJoiner<T>& joiner, const HighBits& high, const Components& components, std::int64_t y, std::int64_t z,
-                    Tally& tally) {
+void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels, const HighBits& high, const Components& components,
+                    std::int64_t y, std::int64_t z, Tally& tally) {
     const CellCaseTables& cases = cell_cases();
     const std::int64_t base = high.extent().index(-1, y, z);
     std::array<ComponentCursor, 4> cursor{ComponentCursor(components, y, z), ComponentCursor(components, y + 1, z),
@@ -55,6 +58,13 @@ void count_cell_row(const FaceJoiner<T>& joiner, const HighBits& high, const Com
             tally.add(components.contour_between(component[ends[first_is_high ? 0 : 1]], component[ends[first_is_high ? 1 : 0]]),
                       loops.size(loop));
         }
+        if (tunnels == nullptr || p == 0 || p == high.extent().size[0]) return;
+        const std::optional<OpenTunnel> tunnel = (*tunnels)(base + p, pattern, joined);
+        if (!tunnel) return;
+        const std::int32_t joined_component = component[std::countr_zero(tunnel->a)], ring = component[std::countr_zero(tunnel->ring)];
+        tally.add(
+            tunnel->joins_highs ? components.contour_between(joined_component, ring) : components.contour_between(ring, joined_component),
+            0, -2);
     });
 }
 
@@ -74,9 +84,11 @@ void count_square_row(const HighBits& high, const Components& components, std::i
 }
 
 template <class T>
-void count_3d(const GridView<T>& grid, double tau, const HighBits& high, const Components& components, const Context& context,
-              ContourCounts& counts) {
+void count_3d(const GridView<T>& grid, double tau, Interpolant interpolant, const HighBits& high, const Components& components,
+              const Context& context, ContourCounts& counts) {
     const FaceJoiner<T> joiner(grid, tau);
+    const TunnelFinder<T> tunnels(grid, tau);
+    const auto is_inner = [](std::int64_t row, std::int64_t size) { return row >= 0 && row + 1 < size; };
     std::atomic<std::int64_t> active{0};
     for_each_slab(context, {"contours", 2, 3}, {grid.extent.size[2] + 1, grid.extent.slice()}, [&](const Slab& slab) {
         Tally tally(counts);
@@ -84,7 +96,9 @@ void count_3d(const GridView<T>& grid, double tau, const HighBits& high, const C
         for (std::int64_t z = slab.z_begin - 1; z < slab.z_end - 1; ++z) {
             for (std::int64_t y = -1; y < grid.extent.size[1]; ++y) {
                 cells += count_active_cells(cell_row(high, y, z), high.words(), CellWindow::all(grid.extent.size[0]));
-                count_cell_row(joiner, high, components, y, z, tally);
+                const bool has_tunnels =
+                    interpolant == Interpolant::trilinear && is_inner(y, grid.extent.size[1]) && is_inner(z, grid.extent.size[2]);
+                count_cell_row(joiner, has_tunnels ? &tunnels : nullptr, high, components, y, z, tally);
             }
         }
         active += cells;
@@ -98,7 +112,8 @@ void count_3d(const GridView<T>& grid, double tau, const HighBits& high, const C
 
 }  // namespace
 
-ContourCounts count_contours(const Volume& volume, double tau, const HighBits& high, const Components& components, const Context& context) {
+ContourCounts count_contours(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high, const Components& components,
+                             const Context& context) {
     const Extent& extent = volume.info.extent;
     const auto contours = static_cast<std::size_t>(components.contours());
     ContourCounts counts{std::vector<std::int64_t>(contours), std::vector<std::int64_t>(contours), 0};
@@ -119,7 +134,7 @@ ContourCounts count_contours(const Volume& volume, double tau, const HighBits& h
     }
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
-        count_3d(GridView<T>{samples.data(), extent}, tau, high, components, context, counts);
+        count_3d(GridView<T>{samples.data(), extent}, tau, interpolant, high, components, context, counts);
     });
     return counts;
 }

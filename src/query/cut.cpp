@@ -100,8 +100,8 @@ void label_voxels(const Components& components, const std::vector<std::int64_t>&
 
 Cut cut(const Volume& volume, double tau, const CutOptions& options, const Context& context) {
     const HighBits high = classify(volume, tau, context);
-    const Components components = find_components(volume, tau, high, context);
-    const ContourCounts counts = count_contours(volume, tau, high, components, context);
+    const Components components = find_components(volume, tau, options.interpolant, high, context);
+    const ContourCounts counts = count_contours(volume, tau, options.interpolant, high, components, context);
 
     std::vector<CutObject> objects(static_cast<std::size_t>(components.objects()));
     measure_objects(volume, components, objects);

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "critical/open_tunnel.h"
 #include "query/active_cells.h"
 #include "query/slab_work.h"
 
@@ -11,18 +12,25 @@ namespace {
 template <class T>
 class RunJoiner {
 public:
-    RunJoiner(const GridView<T>& grid, double tau, const HighBits& high, const Runs& runs, RunSets& sets)
-        : extent_(grid.extent), joined_(grid, tau), high_(high), runs_(runs), sets_(sets) {}
+    RunJoiner(const GridView<T>& grid, double tau, Interpolant interpolant, const HighBits& high, const Runs& runs, RunSets& sets)
+        : extent_(grid.extent),
+          interior_(interpolant == Interpolant::trilinear && grid.is_3d()),
+          joined_(grid, tau),
+          tunnel_(grid, tau),
+          high_(high),
+          runs_(runs),
+          sets_(sets) {}
 
     /// All connections inside slice z.
     void join_inside(std::int64_t z) {
         for (std::int64_t y = 0; y + 1 < extent_.size[1]; ++y) join_rows(y, z, y + 1, z, 0);
     }
-    /// All connections between slices z and z + 1, and the faces between them.
+    /// All connections between slices z and z + 1, the faces and the cells between them.
     void join_upwards(std::int64_t z) {
         for (std::int64_t y = 0; y < extent_.size[1]; ++y) {
             join_rows(y, z, y, z + 1, 1);
             if (y + 1 < extent_.size[1]) join_faces_across(y, z);
+            if (y + 1 < extent_.size[1] && interior_) join_tunnels(y, z);
         }
     }
 
@@ -67,8 +75,27 @@ private:
         }
     }
 
+    /// The two regions that a tunnel through a cell of the row (y, z) joins.
+    void join_tunnels(std::int64_t y, std::int64_t z) {
+        const CellCaseTables& cases = cell_cases();
+        const std::int64_t base = extent_.index(-1, y, z);
+        for_active_cells(cell_row(high_, y, z), high_.words(), CellWindow::real(extent_.size[0]), [&](std::int64_t p, int pattern) {
+            const int split = cases.split_faces[pattern];
+            const int joined = split == 0 ? 0 : joined_.joined_mask(base + p, pattern, split);
+            const std::optional<OpenTunnel> tunnel = tunnel_(base + p, pattern, joined);
+            if (!tunnel) return;
+            const auto run_at = [&](unsigned corners) {
+                const int k = std::countr_zero(corners);
+                return runs_.row(y + (k >> 1 & 1), z + (k >> 2)).run_at(p + (k & 1));
+            };
+            sets_.join(run_at(tunnel->a), run_at(tunnel->b));
+        });
+    }
+
     const Extent& extent_;
+    bool interior_;
     FaceJoiner<T> joined_;
+    TunnelFinder<T> tunnel_;
     const HighBits& high_;
     const Runs& runs_;
     RunSets& sets_;
@@ -76,12 +103,13 @@ private:
 
 }  // namespace
 
-RunSets unite_runs(const Volume& volume, double tau, const HighBits& high, const Runs& runs, const Context& context) {
+RunSets unite_runs(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high, const Runs& runs,
+                   const Context& context) {
     RunSets sets(static_cast<std::size_t>(runs.count()));
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
         const GridView<T> grid{samples.data(), volume.info.extent};
-        RunJoiner<T> joiner(grid, tau, high, runs, sets);
+        RunJoiner<T> joiner(grid, tau, interpolant, high, runs, sets);
         const Slices slices{grid.extent.size[2], grid.extent.slice()};
         // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.
         for_each_slab(context, {"objects", 1, 3}, slices, [&](const Slab& slab) {

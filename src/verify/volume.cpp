@@ -37,12 +37,12 @@ void check_surface(const Volume& volume, const Cut& cut, SurfaceChecks& checks, 
 
 }  // namespace
 
-std::vector<CheckResult> verify_volume(const Volume& volume, int levels, const Context& context) {
-    const Analysis analysis = analyse(volume, {}, context);
+std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions& options, const Context& context) {
+    const Analysis analysis = analyse(volume, {.interpolant = options.interpolant}, context);
     std::vector<CheckResult> results{join_tree_is_valid(analysis), zones_partition_voxels(analysis, volume), euler_sums_hold(analysis),
                                      contour_tree_is_a_tree(analysis), levels_match_events(analysis)};
 
-    const std::vector<double> isovalues = isovalues_to_check(volume, levels);
+    const std::vector<double> isovalues = isovalues_to_check(volume, options.levels);
     const TreeAtLevels tree(analysis, isovalues);
     Check tree_equals_cut("tree_equals_cut"), arcs_equal_cut("contour_tree_equals_cut");
     SurfaceChecks surface;

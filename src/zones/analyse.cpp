@@ -81,7 +81,7 @@ template <class T, class Id>
 std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOptions& options, const Context& context) {
     auto result = std::make_unique<IndexedArrays<Id>>();
     AnalysisArrays<Id>& arrays = result->arrays;
-    Criticals<Id> criticals = GridDomain<T, Id>(grid).critical(context);
+    Criticals<Id> criticals = GridDomain<T, Id>(grid, options.interpolant == Interpolant::trilinear).critical(context);
     BigVector<Id> maxima = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
     if (!options.zones) release(criticals.basin);
     context.report("trees", 3, kPhases, 0);

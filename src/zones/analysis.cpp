@@ -31,7 +31,7 @@ void add(Histogram& histogram, std::int64_t genus, std::int64_t count) {
 
 }  // namespace
 
-const char* name_of(Interpolant) { return "faces"; }
+const char* name_of(Interpolant interpolant) { return interpolant == Interpolant::faces ? "faces" : "trilinear"; }
 
 const char* name_of(Criticality kind) {
     static constexpr const char* kName[] = {"maximum", "minimum", "merge", "split", "genus change", "complex"};
@@ -55,7 +55,9 @@ Element Analysis::element(std::int64_t id) const {
     return data_->visit([&](const auto& held) {
         const ElementCode code{held.arrays.code[id]};
         return Element{held.arrays.value[id], element_position(code, data_->extent), code.h0(), code.l0(),
-                       code.kind() == CodeKind::vertex ? ElementKind::vertex : ElementKind::face};
+                       code.kind() == CodeKind::vertex ? ElementKind::vertex
+                       : code.is_body()                ? ElementKind::body
+                                                       : ElementKind::face};
     });
 }
 

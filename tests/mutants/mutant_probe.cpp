@@ -4,7 +4,9 @@
 #include <random>
 
 #include "isoatlas/surface.h"
+#include "isoatlas/verify.h"
 #include "oracle/compare.h"
+#include "oracle/finer.h"
 #include "oracle/volumes.h"
 
 namespace {
@@ -70,6 +72,16 @@ void check_volume(const oracle::Grid& grid, bool with_surface) {
     }
 }
 
+void check_interior(const oracle::Grid& grid) {
+    const isoatlas::Volume volume = oracle::to_volume(grid, type_for(grid));
+    isoatlas::Context context;
+    context.threads = 1;
+    for (const isoatlas::CheckResult& check :
+         isoatlas::verify_volume(volume, {.levels = 8, .interpolant = isoatlas::Interpolant::trilinear}, context)) {
+        if (!check.holds) fail(check.name + ": " + check.detail, grid);
+    }
+}
+
 }  // namespace
 
 int main() try {
@@ -88,6 +100,13 @@ int main() try {
             for (double& v : grid.value) v = (v - 40) * 1e200;
         }
         check_volume(grid, !huge);
+        if (!huge && trial % 2 == 0) check_interior(grid);
+    }
+    for (int trial = 0; trial < 40; ++trial) {
+        oracle::Grid cell{3, {2, 2, 2}, {}};
+        for (int k = 0; k < 8; ++k) cell.value.push_back(below(10000) / 10000.0);
+        const std::string difference = oracle::compare_with_finer(cell, 16, 0.01).difference;
+        if (!difference.empty()) fail(difference, cell);
     }
     return 0;
 } catch (const std::exception& error) {

@@ -26,7 +26,7 @@ Volume random_volume(int rank) {
 void expect_all_hold(const Volume& volume) {
     Context context;
     context.threads = 1;
-    for (const CheckResult& check : verify_volume(volume, 9, context)) {
+    for (const CheckResult& check : verify_volume(volume, {.levels = 9}, context)) {
         if (!check.holds) RC_FAIL(check.name + ": " + check.detail);
     }
 }
@@ -36,7 +36,7 @@ RC_GTEST_PROP(VerifyVolume, HoldsIn2D, ()) { expect_all_hold(random_volume(2)); 
 
 TEST(VerifyVolume, ConstantAndSingleVoxel) {
     for (const Extent& extent : {Extent{3, {4, 3, 2}}, Extent{3, {1, 1, 1}}, Extent{2, {3, 3, 1}}}) {
-        for (const CheckResult& check : verify_volume(make_volume(extent, ValueType::f64), 4))
+        for (const CheckResult& check : verify_volume(make_volume(extent, ValueType::f64), {.levels = 4}))
             EXPECT_TRUE(check.holds) << check.name << ": " << check.detail;
     }
 }

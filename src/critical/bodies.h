@@ -1,0 +1,40 @@
+// Body points: where the trilinear interpolant joins two regions of a cell through its interior (trilinear.md sections 1 to 3).
+//
+// Face F of a cell: Highs a, c and Lows b, d; a' b' c' d' lie behind them on the opposite face. The sign of G (side_sign) tells whether the
+// Highs of F are joined inside the cell just under F (G > 0) or its Lows are (G < 0). Where it differs from the default type of F
+// (critical/faces.h) the cell holds a body point:
+//   opening  B1 above F: two High regions A, C are joined there by a tunnel through the interior, and F only closes the ring of Lows
+//            around the tunnel. Default type Lows, in truth Highs.
+//   closing  B2 below F: the same of the negated cell.
+// A cell has at most one of each. Between F and its body point the tunnel is open.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "critical/faces.h"
+
+namespace isoatlas {
+
+/// D^2 times the derivative of the trilinear interpolant into the cell at the saddle of face f; exact for samples of 16 bits. Values of
+/// more than 1e100 overflow: scale them first.
+double side_sign(const std::array<double, 8>& value, int f);
+
+struct BodyPoint {
+    double value;
+    std::array<double, 3> position;  ///< in the cell, 0..1
+    int face;                        ///< its F
+    int region_a, region_b;          ///< a corner of each of the two regions it joins (B1: Highs; B2: Lows)
+    int ring;                        ///< a corner of the region around the tunnel (B1: a Low of F; B2: a High of F)
+};
+
+struct CellBodies {
+    std::optional<BodyPoint> opening;  ///< B1: High iff its value >= tau, below every other element of that value
+    std::optional<BodyPoint> closing;  ///< B2: above every other element of its value
+    unsigned exceptional = 0;          ///< bit f: the type of f in this cell is not the default one
+};
+
+/// default_types: of default_face_types. Cost: O(1); a few flops a face unless a sign disagrees.
+CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types);
+
+}  // namespace isoatlas

@@ -1,0 +1,120 @@
+// f = k0 + k1 x + k2 y + k3 z + k4 xy + k5 xz + k6 yz + k7 xyz. At a critical point X = f_yz, Y = f_xz, Z = f_xy satisfy
+// X = -q/A, Y = -q/B, Z = -q/C with q = +-sqrt(-ABC); XYZ = q > 0 is the saddle of index 1.
+#include "critical/body_saddle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isoatlas {
+namespace {
+
+using Coefficients = std::array<double, 8>;
+
+Coefficients coefficients(const std::array<double, 8>& v) {
+    return {v[0],
+            v[1] - v[0],
+            v[2] - v[0],
+            v[4] - v[0],
+            v[3] - v[1] - v[2] + v[0],
+            v[5] - v[1] - v[4] + v[0],
+            v[6] - v[2] - v[4] + v[0],
+            v[7] - v[6] - v[5] - v[3] + v[4] + v[2] + v[1] - v[0]};
+}
+
+/// (root - k) / k7 without cancellation: numerator is that of (root^2 - k^2) / k7, which divides by a.
+double coordinate(double root, double k, double k7, double numerator, double a) {
+    return root * k <= 0 ? (root - k) / k7 : -numerator / (a * (root + k));
+}
+
+}  // namespace
+
+std::array<double, 8> scaled(const std::array<double, 8>& value, int& exponent) {
+    double most = 0;
+    for (const double v : value) most = std::max(most, std::abs(v));
+    exponent = most == 0 || (most > 1e-30 && most < 1e30) ? 0 : std::ilogb(most);
+    std::array<double, 8> result = value;
+    if (exponent == 0) return result;
+    for (double& v : result) v = std::ldexp(v, -exponent);
+    return result;
+}
+
+double interpolate(const std::array<double, 8>& v, const std::array<double, 3>& p) {
+    const auto between = [](double low, double high, double t) { return low * (1 - t) + high * t; };
+    const double y0 = between(between(v[0], v[1], p[0]), between(v[2], v[3], p[0]), p[1]);
+    const double y1 = between(between(v[4], v[5], p[0]), between(v[6], v[7], p[0]), p[1]);
+    return between(y0, y1, p[2]);
+}
+
+namespace {
+
+/// A way to look at a cell: corner k of the turned cell is corner image(k), new axis a is old axis order[a], seen from corner `origin`.
+struct Turn {
+    int origin;
+    std::array<int, 3> order;
+
+    [[nodiscard]] int image(int k) const {
+        int corner = origin;
+        for (int a = 0; a < 3; ++a) corner ^= (k >> a & 1) << order[a];
+        return corner;
+    }
+    [[nodiscard]] std::array<double, 8> of(const std::array<double, 8>& value) const {
+        std::array<double, 8> turned;
+        for (int k = 0; k < 8; ++k) turned[k] = value[image(k)];
+        return turned;
+    }
+};
+
+/// The turn after which mirrored and permuted copies of a cell are the same: its highest corner first, then the highest neighbours of that.
+Turn canonical_turn(const std::array<double, 8>& value) {
+    std::optional<Turn> best;
+    std::array<double, 8> most{};
+    const double top = *std::max_element(value.begin(), value.end());
+    for (int origin = 0; origin < 8; ++origin) {
+        if (value[origin] != top) continue;
+        std::array<int, 3> order{0, 1, 2};
+        const auto higher = [&](int a, int b) { return value[origin ^ 1 << a] > value[origin ^ 1 << b]; };
+        do {
+            if (higher(order[1], order[0]) || higher(order[2], order[1])) continue;
+            const Turn turn{origin, order};
+            const std::array<double, 8> turned = turn.of(value);
+            if (!best || turned > most) best = turn, most = turned;
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+    return *best;
+}
+
+/// In a cell that is turned already.
+std::optional<BodySaddle> saddle_of_turned(const std::array<double, 8>& value) {
+    const auto [k0, k1, k2, k3, k4, k5, k6, k7] = coefficients(value);
+    const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
+    const double q2 = -(a * b * c);
+    if (!(q2 > 0)) return std::nullopt;
+    const double q = std::sqrt(q2);
+    const BodySaddle saddle{0,
+                            {coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
+                             coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
+                             coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)}};
+    for (const double x : saddle.position) {
+        if (!(x > 0 && x < 1)) return std::nullopt;
+    }
+    return BodySaddle{interpolate(value, saddle.position), saddle.position};
+}
+
+}  // namespace
+
+// Rounding must not depend on how the cell lies: mirrored volumes have the same body values, bit by bit.
+std::optional<BodySaddle> body_saddle(const std::array<double, 8>& value) {
+    const Turn turn = canonical_turn(value);
+    int exponent = 0;
+    std::optional<BodySaddle> saddle = saddle_of_turned(scaled(turn.of(value), exponent));
+    if (!saddle) return saddle;
+    saddle->value = std::ldexp(saddle->value, exponent);
+    const std::array<double, 3> position = saddle->position;
+    for (int a = 0; a < 3; ++a) {
+        const int axis = turn.order[a];
+        saddle->position[axis] = turn.origin >> axis & 1 ? 1 - position[a] : position[a];
+    }
+    return saddle;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,43 @@
+// Is there a tunnel through a cell at one isovalue? Recomputed from the cell alone (trilinear.md section 3).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "field/grid.h"
+#include "field/order.h"
+
+namespace isoatlas {
+
+/// A tunnel at one isovalue. Regions: bit k for corner k of the cell.
+struct OpenTunnel {
+    bool joins_highs;            ///< else Lows
+    std::uint8_t a, b, ring;     ///< the regions it joins, and the one of the other class around it
+    std::array<double, 3> body;  ///< position of its body point in the cell, 0..1
+};
+
+/// Can a cell with this High pattern and these joined faces hold a tunnel at all? 140 of 654 can. O(1).
+bool may_hold_tunnel(int pattern, int joined);
+
+template <class T>
+class TunnelFinder {
+public:
+    TunnelFinder(const GridView<T>& grid, double tau) : grid_(grid), steps_(grid.extent), tau_(tau) {}
+
+    /// cell: the voxel of corner 0; all corners must be voxels. pattern, joined: the cell at tau.
+    [[nodiscard]] std::optional<OpenTunnel> operator()(std::int64_t cell, int pattern, int joined) const {
+        if (!may_hold_tunnel(pattern, joined)) return std::nullopt;
+        return find(cell, pattern, joined);
+    }
+    /// The samples at the corners.
+    [[nodiscard]] std::array<double, 8> values(std::int64_t cell) const;
+
+private:
+    [[nodiscard]] std::optional<OpenTunnel> find(std::int64_t cell, int pattern, int joined) const;
+
+    GridView<T> grid_;
+    GridSteps steps_;
+    double tau_;
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,37 @@
+// The triangles of a cell with an open tunnel: an annulus between two loops (trilinear.md section 5).
+//
+// Seen from a point c inside the cell, the annulus is the radial graph over the ring, the region of the other class around the tunnel:
+// every corner k of the ring is pulled towards c to a point w_k of the surface, and every part of the ring on a face of the cell becomes
+// triangles with these points and the hits. The projection from c maps the cell's boundary one-to-one to a sphere, so the triangles do not
+// meet inside the cell; they have no edge between two hits of one face but the links, so they do not meet in the neighbours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "critical/open_tunnel.h"
+#include "field/cell_loops.h"
+#include "isoatlas/surface.h"
+
+namespace isoatlas {
+
+/// A corner of a triangle is an edge 0..11 (the hit there), or 12 + i: point i of the cell.
+struct TunnelCell {
+    std::uint8_t triangles = 0, ring_points = 0, fans = 0;
+    std::array<std::uint8_t, 6> ring_corner{};  ///< of points 0 .. ring_points - 1: the corner of the cell that is pulled in
+    std::array<std::uint8_t, 2> fan_loop{};     ///< of the points behind: articulation points of loops beside the tunnel
+    std::uint8_t hit = 0;                       ///< a hit of the annulus
+    std::array<std::uint8_t, 3 * 24> corner{};  ///< 3 per triangle, counter-clockwise seen from the Lows
+
+    [[nodiscard]] int points() const { return ring_points + fans; }
+};
+
+/// pattern, joined: the cell at the isovalue of the tunnel.
+TunnelCell tunnel_cell(int pattern, int joined, const OpenTunnel& tunnel, SurfaceStyle style);
+
+/// Positions of the ring points in the cell, 0..1. value: the samples at its corners.
+std::array<Vec3, 6> ring_points(const TunnelCell& cell, const OpenTunnel& tunnel, int pattern, int joined,
+                                const std::array<double, 8>& value, double tau);
+
+}  // namespace isoatlas

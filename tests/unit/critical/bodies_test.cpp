@@ -1,0 +1,187 @@
+// Body points of single cells (trilinear.md sections 1 to 3) against the interpolant itself.
+#include "critical/bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "critical/body_saddle.h"
+#include "critical/tunnels.h"
+
+namespace isoatlas {
+namespace {
+
+CellElements cell_of(const std::array<double, 8>& value) {
+    CellElements cell{value, {0, 1, 2, 3, 4, 5, 6, 7}, 0, 0, {}};
+    find_ambiguous_faces(cell);
+    return cell;
+}
+
+std::array<double, 8> negated(std::array<double, 8> value) {
+    for (double& v : value) v = -v;
+    return value;
+}
+
+std::array<double, 3> gradient(const std::array<double, 8>& value, const std::array<double, 3>& at) {
+    std::array<double, 3> result{};
+    for (int axis = 0; axis < 3; ++axis) {  // linear along every axis: a difference is exact up to rounding
+        std::array<double, 3> low = at, high = at;
+        low[axis] = 0, high[axis] = 1;
+        result[axis] = interpolate(value, high) - interpolate(value, low);
+    }
+    return result;
+}
+
+class Cells : public testing::Test {
+protected:
+    std::array<double, 8> uniform() {
+        std::array<double, 8> value{};
+        for (double& v : value) v = std::uniform_real_distribution<>(-1, 1)(random_);
+        return value;
+    }
+    std::array<double, 8> small_integers(int levels) {
+        std::array<double, 8> value{};
+        for (double& v : value) v = std::uniform_int_distribution<>(0, levels - 1)(random_);
+        return value;
+    }
+    std::mt19937_64 random_{20261121};
+};
+
+TEST_F(Cells, SaddlesAreCriticalPoints) {
+    int found = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const std::array<double, 8> value = uniform();
+        const std::optional<BodySaddle> saddle = body_saddle(value);
+        if (!saddle) continue;
+        ++found;
+        for (const double slope : gradient(value, saddle->position)) ASSERT_NEAR(slope, 0, 1e-7);
+        ASSERT_NEAR(saddle->value, interpolate(value, saddle->position), 1e-12);
+    }
+    EXPECT_GT(found, 5000);
+}
+
+TEST_F(Cells, SideSignIsTheSlopeIntoTheCell) {
+    for (int i = 0; i < 20000; ++i) {
+        const std::array<double, 8> value = uniform();
+        const CellElements cell = cell_of(value);
+        for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+            const int f = std::countr_zero(rest);
+            const std::array<int, 4>& c = kFaceCorners[f];
+            const double a = value[c[0]], b = value[c[1]], cc = value[c[2]], d = value[c[3]], sum = a + cc - b - d;
+            const FaceAxes axes = kFaceAxes[f / 2];
+            std::array<double, 3> at{};
+            at[axes.axis1] = (a - d) / sum, at[axes.axis2] = (a - b) / sum, at[axes.normal] = f & 1;
+            const double slope = gradient(value, at)[axes.normal] * (f & 1 ? -1 : 1);
+            ASSERT_NEAR(side_sign(value, f) / (sum * sum), slope, 1e-9);
+        }
+    }
+}
+
+// trilinear.md section 8: without ties a body saddle lies inside exactly when the sign of one face disagrees with its default type.
+TEST_F(Cells, BodyPointsAreTheSaddlesInside) {
+    int openings = 0, closings = 0;
+    for (int i = 0; i < 300000; ++i) {
+        const std::array<double, 8> value = uniform();
+        const CellElements cell = cell_of(value);
+        const unsigned types = default_face_types(cell);
+        const CellBodies bodies = bodies_of_cell(cell, types);
+        unsigned wrong = 0;
+        for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+            const int f = std::countr_zero(rest);
+            wrong |= unsigned{(side_sign(value, f) > 0) != ((types >> f & 1) != 0)} << f;
+        }
+        ASSERT_EQ(bodies.exceptional, wrong);
+        const std::optional<BodySaddle> low = body_saddle(value), high = body_saddle(negated(value));
+        ASSERT_EQ(bodies.opening.has_value(), low.has_value());
+        ASSERT_EQ(bodies.closing.has_value(), high.has_value());
+        if (low) {
+            ASSERT_EQ(bodies.opening->value, low->value);
+        }
+        if (high) {
+            ASSERT_EQ(bodies.closing->value, -high->value);
+        }
+        if (low) {
+            ASSERT_GT(bodies.opening->value, cell.face_value[bodies.opening->face]);
+        }
+        if (high) {
+            ASSERT_LT(bodies.closing->value, cell.face_value[bodies.closing->face]);
+        }
+        openings += bodies.opening.has_value(), closings += bodies.closing.has_value();
+    }
+    EXPECT_GT(openings, 20000);
+    EXPECT_GT(closings, 20000);
+}
+
+TEST_F(Cells, TiesLeaveAtMostOneTunnelInOrder) {
+    for (int i = 0; i < 300000; ++i) {
+        const CellElements cell = cell_of(small_integers(2 + i % 7));
+        const CellBodies bodies = bodies_of_cell(cell, default_face_types(cell));
+        ASSERT_EQ(std::popcount(bodies.exceptional), bodies.opening.has_value() + bodies.closing.has_value());
+        if (bodies.opening) {
+            ASSERT_GT(bodies.opening->value, cell.face_value[bodies.opening->face]);
+        }
+        if (bodies.closing) {
+            ASSERT_LT(bodies.closing->value, cell.face_value[bodies.closing->face]);
+        }
+        if (bodies.opening && bodies.closing) {
+            ASSERT_GE(bodies.closing->value, bodies.opening->value);
+        }
+    }
+}
+
+TEST_F(Cells, HugeAndTinyValuesAreScaled) {
+    for (int i = 0; i < 20000; ++i) {
+        const std::array<double, 8> value = uniform();
+        const CellElements cell = cell_of(value);
+        const CellBodies bodies = bodies_of_cell(cell, default_face_types(cell));
+        for (const int exponent : {150, -150}) {  // times a power of two: nothing is rounded
+            std::array<double, 8> other = value;
+            for (double& v : other) v = std::ldexp(v, exponent);
+            const CellElements far = cell_of(other);
+            const CellBodies found = bodies_of_cell(far, default_face_types(far));
+            ASSERT_EQ(found.exceptional, bodies.exceptional);
+            if (bodies.opening) {
+                ASSERT_NEAR(std::ldexp(found.opening->value, -exponent), bodies.opening->value, 1e-12);
+            }
+        }
+    }
+}
+
+// A cell and its negative: Highs and Lows change roles.
+TEST_F(Cells, NegatedCellsHaveTheOtherBodies) {
+    for (int i = 0; i < 100000; ++i) {
+        const std::array<double, 8> value = uniform();
+        const CellElements cell = cell_of(value), other = cell_of(negated(value));
+        const CellBodies bodies = bodies_of_cell(cell, default_face_types(cell));
+        const CellBodies mirrored = bodies_of_cell(other, default_face_types(other));
+        ASSERT_EQ(bodies.exceptional, mirrored.exceptional);
+        ASSERT_EQ(bodies.opening.has_value(), mirrored.closing.has_value());
+        if (bodies.opening) {
+            ASSERT_EQ(bodies.opening->value, -mirrored.closing->value);
+        }
+        if (bodies.opening) {
+            ASSERT_EQ(bodies.opening->face, mirrored.closing->face);
+        }
+    }
+}
+
+TEST(Tunnels, SixShapesUpToSymmetry) {
+    int fitting = 0;
+    for (unsigned a = 1; a < 256; ++a) {
+        for (unsigned b = 1; b < 256; ++b) {
+            if ((a & b) != 0) continue;
+            for (unsigned ring = 1; ring < 256; ++ring) fitting += (ring & (a | b)) == 0 && tunnel_fits(a, b, ring);
+        }
+    }
+    EXPECT_EQ(fitting % 2, 0);  // either order of a and b
+    EXPECT_GT(fitting, 6);
+    EXPECT_LE(fitting, 6 * 48 * 2);
+    EXPECT_TRUE(tunnel_fits(1U << 3, 1U << 4, 0b1110'0111));
+    EXPECT_FALSE(tunnel_fits(1U << 0, 1U << 1, 0b1111'1100));  // neighbours
+}
+
+}  // namespace
+}  // namespace isoatlas
