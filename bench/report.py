@@ -43,9 +43,10 @@ def engine_table(engine):
         low, high = r["ratio_range"]
         rows.append([r["volume"], dims(r), r["type"], thousands(r["critical_elements"]), f"{r['sort_seconds']:.3f}", f"{r['seconds']:.3f}",
                      f"{r['seconds_one_thread']:.3f}", f"{r['ratio']:.3f} ({low:.3f} to {high:.3f})", verdict,
+                     f"{r['trilinear_ratio']:.2f}" if "trilinear_ratio" in r else "",
                      f"{r['peak_bytes_per_voxel']:.1f}", f"{r['peak_over_allowed']:.2f} {memory}"])
     header = ["volume", "size", "type", "critical elements", "sort, s", f"{engine['threads']} threads, s", "1 thread, s",
-              "ratio to the sort (range)", "goal", "peak bytes a voxel", "peak / allowed"]
+              "ratio to the sort (range)", "goal", "trilinear / faces", "peak bytes a voxel", "peak / allowed"]
     return f"{processor()}, {engine['pairs']} pairs.\n\n" + table(header, rows)
 
 

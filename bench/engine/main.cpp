@@ -94,6 +94,7 @@ ordered_json record_of(const std::string& name, const Arguments& arguments, bool
                         {"events", answer.events},
                         {"seconds", timing.seconds},
                         {"seconds_one_thread", timing.seconds_serial},
+                        {"trilinear_ratio", timing.trilinear_ratio},
                         {"peak_bytes", peak},
                         {"peak_bytes_per_voxel", static_cast<double>(peak) / static_cast<double>(voxels)},
                         {"peak_over_allowed", static_cast<double>(peak) / static_cast<double>(allowed)}};

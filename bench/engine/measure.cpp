@@ -63,7 +63,7 @@ struct Run {
     std::vector<std::pair<std::string, double>> phases;
 };
 
-Run run(const isoatlas::Volume& volume, int threads) {
+Run run(const isoatlas::Volume& volume, int threads, isoatlas::Interpolant interpolant = isoatlas::Interpolant::faces) {
     PhaseClock phases;
     isoatlas::Context context;
     context.threads = threads;
@@ -71,7 +71,7 @@ Run run(const isoatlas::Volume& volume, int threads) {
         if (progress.phase != phases.current()) phases.enter(std::string(progress.phase));
     };
     const Clock::time_point start = Clock::now();
-    const isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, context);
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant}, context);
     const double seconds = since(start);
     phases.leave();
     return {seconds, answer_of(analysis), phases.phases()};
@@ -89,7 +89,7 @@ Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& a
         throw std::runtime_error("wrong answer: " + std::to_string(answer.maxima) + " maxima, but there are " + std::to_string(maxima));
     }
     Timing timing;
-    std::vector<double> sorts, parallel, serial, ratios;
+    std::vector<double> sorts, parallel, serial, ratios, trilinear;
     for (int pair = 0; pair < options.pairs; ++pair) {
         if (options.sort) sorts.push_back(seconds_of_sort(volume));
         Run last = run(volume, options.threads);
@@ -97,6 +97,9 @@ Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& a
         parallel.push_back(last.seconds);
         if (options.sort) ratios.push_back(last.seconds / sorts.back());
         timing.phases = std::move(last.phases);
+        const Run interior = run(volume, options.threads, isoatlas::Interpolant::trilinear);
+        if (interior.answer.maxima != answer.maxima) throw std::runtime_error("wrong answer: the interpolant changes the maxima");
+        trilinear.push_back(interior.seconds / last.seconds);
         const Run one = run(volume, 1);
         require_equal(answer, one.answer);
         serial.push_back(one.seconds);
@@ -105,6 +108,7 @@ Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& a
     timing.seconds = median(parallel);
     timing.seconds_serial = median(serial);
     timing.ratio = median(ratios);
+    timing.trilinear_ratio = median(trilinear);
     if (!ratios.empty()) {
         timing.ratio_low = *std::min_element(ratios.begin(), ratios.end());
         timing.ratio_high = *std::max_element(ratios.begin(), ratios.end());
