@@ -102,7 +102,7 @@ int main() try {
         check_volume(grid, !huge);
         if (!huge && trial % 2 == 0) check_interior(grid);
     }
-    for (int trial = 0; trial < 40; ++trial) {
+    for (int trial = 0; trial < 600; ++trial) {  // the faces alone are wrong in some of them
         oracle::Grid cell{3, {2, 2, 2}, {}};
         for (int k = 0; k < 8; ++k) cell.value.push_back(below(10000) / 10000.0);
         const std::string difference = oracle::compare_with_finer(cell, 16, 0.01).difference;

@@ -16,7 +16,7 @@ struct FinerComparison {
 };
 
 /// Objects, Euler numbers, tunnels and cavities of the trilinear analysis of a grid and of the finer grid, at isovalues that are at least
-/// gap / 2 away from every critical value.
+/// gap / 2 away from every critical value of the finer grid.
 FinerComparison compare_with_finer(const Grid& grid, Index steps, double gap);
 
 }  // namespace oracle
