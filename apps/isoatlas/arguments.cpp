@@ -21,8 +21,8 @@ namespace {
 
 /// Options as typed; converted after the parse so that every message is ours.
 struct Typed {
-    std::string dims, type, endian, spacing, origin, missing, interpolant = "faces", shell = "all", style = "compact", boundary = "closed",
-                                                              detail = "events";
+    std::string dims, type, endian, spacing, origin, missing, interpolant = "faces", tunnel_height, shell = "all", style = "compact",
+                                                              boundary = "closed", detail = "events";
     double no_data = 0;
     double tau = 0;
     std::int64_t skip = 0, time_step = 0;
@@ -68,6 +68,9 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
 void add_interpolant(CLI::App& app, Typed& typed) {
     app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces, trilinear")
         ->type_name("NAME")
+        ->group("Reading");
+    app.add_option("--tunnel-height", typed.tunnel_height, "Leave out tunnels through cells of at most this height (trilinear)")
+        ->type_name("H|P%")
         ->group("Reading");
 }
 
@@ -184,6 +187,12 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     }
     arguments.interpolant = parse_choice<Interpolant>("--interpolant", typed.interpolant,
                                                       {{"faces", Interpolant::faces}, {"trilinear", Interpolant::trilinear}});
+    if (given("--tunnel-height")) {
+        arguments.tunnel_height_in_percent = typed.tunnel_height.ends_with('%');
+        arguments.tunnel_height = parse_height("--tunnel-height", typed.tunnel_height);
+        if (arguments.interpolant != Interpolant::trilinear)
+            usage("--tunnel-height means nothing without --interpolant trilinear", "add --interpolant trilinear");
+    }
     arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
                                                 {{"all", ShellChoice::all}, {"outer", ShellChoice::outer}, {"inner", ShellChoice::inner}});
     arguments.style =

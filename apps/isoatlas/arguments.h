@@ -22,6 +22,8 @@ struct Arguments {
 
     // Running and talking
     Interpolant interpolant = Interpolant::faces;
+    double tunnel_height = 0;  ///< in reported units, or in percent of the range
+    bool tunnel_height_in_percent = false;
     int threads = 0;
     bool json = false, quiet = false, no_color = false;
     int verbose = 0;

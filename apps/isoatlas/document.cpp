@@ -51,9 +51,10 @@ Json document(const std::string& name, const VolumeInfo& info) {
     return json;
 }
 
-Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, Boundary boundary) {
+Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, double tunnel_height, Boundary boundary) {
     Json json = document(name, info);
     json["interpolant"] = name_of(interpolant);
+    if (interpolant == Interpolant::trilinear) json["tunnel_height"] = tunnel_height * std::abs(info.calibration.slope);
     json["boundary"] = boundary == Boundary::closed ? "closed" : "open";
     return json;
 }

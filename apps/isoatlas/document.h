@@ -16,9 +16,11 @@ using Json = nlohmann::ordered_json;
 
 /// {"schema": "isoatlas/NAME/1", "version": ...}
 [[nodiscard]] Json document(const std::string& name);
-/// The same with "volume", "units" and, for results of an analysis, "interpolant" and "boundary".
+/// The same with "volume", "units" and, for results of an analysis, "interpolant" (and its "tunnel_height", given in stored values) and
+/// "boundary".
 [[nodiscard]] Json document(const std::string& name, const VolumeInfo& info);
-[[nodiscard]] Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, Boundary boundary = Boundary::closed);
+[[nodiscard]] Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, double tunnel_height,
+                            Boundary boundary = Boundary::closed);
 
 void print(Terminal& terminal, const Json& json);
 /// Prints `head` with one more member: name: [item(0), ..., item(count - 1)].

@@ -26,7 +26,8 @@ const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
 
 /// The best isovalue of the objects asked for. With --best and no --object, the first line of the table is the object.
 double best_tau(const Arguments& arguments, const Volume& volume, ExtractOptions& options, const Context& context) {
-    const Analysis analysis = analyse(volume, {.interpolant = arguments.interpolant}, context);
+    const Analysis analysis =
+        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
     ObjectTable table = rank_objects(volume, analysis, {}, context);
     if (options.objects.empty()) {
         if (table.entries.empty()) no_such_entry(arguments, "nothing in this volume rises above the noise");
@@ -98,7 +99,7 @@ Counts count(const Surface& surface) {
 
 Json to_json(const Arguments& arguments, const Volume& volume, const Surface& surface, const Counts& counts,
              const std::vector<std::string>& warnings) {
-    Json json = document("extract", volume.info, arguments.interpolant, arguments.boundary);
+    Json json = document("extract", volume.info, arguments.interpolant, tunnel_height_of(arguments, volume), arguments.boundary);
     json["tau"] = surface.reported_tau;
     json["style"] = arguments.style == SurfaceStyle::compact ? "compact" : "full";
     json["output"] = arguments.output;
@@ -131,6 +132,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     check_ids(arguments, volume);
     const Context context = session.context();
     ExtractOptions options{.interpolant = arguments.interpolant,
+                           .tunnel_height = tunnel_height_of(arguments, volume),
                            .boundary = arguments.boundary,
                            .style = arguments.style,
                            .objects = arguments.objects,

@@ -26,14 +26,17 @@ struct Labels {
 }
 
 Labels label_objects(const Arguments& arguments, const Volume& volume, const Context& context) {
-    const Cut at = cut(volume, tau_of(arguments, volume), {.interpolant = arguments.interpolant, .label = true}, context);
+    const Cut at =
+        cut(volume, tau_of(arguments, volume),
+            {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume), .label = true}, context);
     Labels labels{std::vector<std::uint32_t>(at.label.size()), static_cast<std::int64_t>(at.objects.size())};
     for (std::size_t i = 0; i < at.label.size(); ++i) labels.of_voxel[i] = static_cast<std::uint32_t>(at.label[i] + 1);
     return labels;
 }
 
 Labels label_zones(const Arguments& arguments, const Volume& volume, const Context& context) {
-    const Analysis analysis = analyse(volume, {.interpolant = arguments.interpolant}, context);
+    const Analysis analysis =
+        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
     if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
     const std::int64_t voxels = volume.info.extent.voxels();
     Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)), analysis.event_count()};
@@ -64,7 +67,7 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
         write_labels(arguments.output, volume.info, labels.of_voxel);
     }
     if (arguments.json) {
-        Json json = document("label", volume.info, arguments.interpolant);
+        Json json = document("label", volume.info, arguments.interpolant, tunnel_height_of(arguments, volume));
         json["output"] = arguments.output;
         json["labels_are"] = arguments.zones ? "zones" : "objects";
         json["tau"] = arguments.tau ? Json(*arguments.tau) : Json(nullptr);

@@ -80,7 +80,7 @@ Json entry_json(const ObjectEntry& entry, const Volume& volume, const Scale& sca
 
 void print_table_json(Terminal& terminal, const Volume& volume, const Analysis& analysis, const ObjectTable& table) {
     const Scale scale(volume.info);
-    Json head = document("objects", volume.info, analysis.interpolant());
+    Json head = document("objects", volume.info, analysis.interpolant(), analysis.tunnel_height());
     head["tau"] = nullptr;
     head["branches"] = table.branches;
     head["noise"] = table.noise * volume.info.calibration.slope;
@@ -129,7 +129,8 @@ int list_best(const Arguments& arguments, Terminal& terminal) {
     Session session(arguments, terminal);
     const Volume volume = session.load();
     const Context context = session.context();
-    const Analysis analysis = analyse(volume, {.interpolant = arguments.interpolant}, context);
+    const Analysis analysis =
+        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
     const ObjectTable table = rank_objects(volume, analysis, {.top = top, .gate = !arguments.all}, context);
     if (arguments.json) {
@@ -159,7 +160,7 @@ Json object_json(const CutObject& object, const Cut& cut) {
 }
 
 void print_cut_json(Terminal& terminal, const Volume& volume, const Cut& cut, std::int64_t shown, double tau) {
-    Json head = document("objects", volume.info, cut.interpolant);
+    Json head = document("objects", volume.info, cut.interpolant, cut.tunnel_height);
     head["tau"] = tau;
     head["object_count"] = cut.objects.size();
     head["contour_count"] = cut.contours.size();
@@ -199,7 +200,8 @@ void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume
 int list_at(const Arguments& arguments, Terminal& terminal) {
     Session session(arguments, terminal);
     const Volume volume = session.load();
-    const Cut at = cut(volume, tau_of(arguments, volume), {.interpolant = arguments.interpolant}, session.context());
+    const Cut at = cut(volume, tau_of(arguments, volume),
+                       {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, session.context());
     const auto all = static_cast<std::int64_t>(at.objects.size());
     const std::int64_t shown = arguments.top > 0 ? std::min(all, arguments.top) : all;
     if (arguments.json) {

@@ -128,6 +128,13 @@ std::string cost_text(const VolumeInfo& info, int threads) {
                        range(seconds_text(cost.seconds_smooth), seconds_text(cost.seconds_noise)));
 }
 
+double tunnel_height_of(const Arguments& arguments, const Volume& volume) {
+    if (arguments.tunnel_height == 0) return 0;
+    if (!arguments.tunnel_height_in_percent) return arguments.tunnel_height / std::abs(volume.info.calibration.slope);
+    const ValueRange range = range_of(volume);
+    return arguments.tunnel_height / 100 * (range.high - range.low);
+}
+
 double tau_of(const Arguments& arguments, const Volume& volume) {
     const Scale scale(volume.info);
     const double tau = scale.stored(*arguments.tau);

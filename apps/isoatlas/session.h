@@ -43,6 +43,8 @@ struct Cost {
 [[nodiscard]] std::string cost_text(const VolumeInfo& info, int threads);
 
 /// The stored isovalue of --tau. Throws Error{not_found} with the range when no sample of the volume has it between them.
+/// --tunnel-height in stored values.
+[[nodiscard]] double tunnel_height_of(const Arguments& arguments, const Volume& volume);
 [[nodiscard]] double tau_of(const Arguments& arguments, const Volume& volume);
 
 /// Fails early, before the long work: unknown extension, missing or unwritable folder, output equal to the input.

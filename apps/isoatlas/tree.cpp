@@ -149,7 +149,7 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
                        << detail_name(arguments.detail) << '\n';
         return;
     }
-    Json json = document("tree-file", volume.info, analysis.interpolant());
+    Json json = document("tree-file", volume.info, analysis.interpolant(), analysis.tunnel_height());
     json["output"] = arguments.output;
     json["detail"] = detail_name(arguments.detail);
     json["events"] = analysis.event_count();
@@ -165,7 +165,8 @@ int run_tree(const Arguments& arguments, Terminal& terminal) {
     if (!arguments.output.empty()) check_output(arguments, {".json", ".graphml", ".csv", ".vtu"});
     Session session(arguments, terminal);
     const Volume volume = session.load();
-    const Analysis analysis = analyse(volume, {.interpolant = arguments.interpolant}, session.context());
+    const Analysis analysis =
+        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, session.context());
     stop_if_interrupted();
     if (!arguments.output.empty()) {
         write_file(terminal, arguments, volume, analysis);

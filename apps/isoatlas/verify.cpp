@@ -67,8 +67,11 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
     } else {
         Session session(arguments, terminal);
         const Volume volume = session.load();
-        checks = verify_volume(volume, {.levels = arguments.levels, .interpolant = arguments.interpolant}, session.context());
-        head = document("verify", volume.info, arguments.interpolant);
+        checks = verify_volume(
+            volume,
+            {.levels = arguments.levels, .interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)},
+            session.context());
+        head = document("verify", volume.info, arguments.interpolant, tunnel_height_of(arguments, volume));
         head["what"] = "volume";
         head["levels"] = arguments.levels;
     }

@@ -76,6 +76,15 @@ ValueType parse_type(const std::string& word) {
     bad_choice("--type", word, {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"});
 }
 
+double parse_height(const std::string& option, const std::string& word) {
+    const bool percent = word.ends_with('%');
+    double height = 0;
+    const bool is_number = read(percent ? word.substr(0, word.size() - 1) : word, height) && std::isfinite(height);
+    if (!is_number || height < 0 || (percent && height > 100))
+        bad_word(option, word, "a number of at least 0, or a percentage such as 0.5%");
+    return height;
+}
+
 MissingPolicy parse_missing(const std::string& word) {
     MissingPolicy policy;
     if (word == "below") {

@@ -16,6 +16,8 @@ namespace isoatlas::cli {
 [[nodiscard]] std::vector<std::int64_t> parse_dims(const std::string& word);
 
 /// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
+/// A number of at least 0, with or without % behind it (then 0..100).
+[[nodiscard]] double parse_height(const std::string& option, const std::string& word);
 [[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& word, double rest);
 
 /// uint8, u8, uchar, ..., float, double.

@@ -84,7 +84,8 @@ struct GenusCount {
 
 struct AnalysisOptions {
     Interpolant interpolant = Interpolant::faces;
-    bool zones = true;  ///< label every voxel with its zone (needed for voxel counts); false: trees only
+    double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
+    bool zones = true;         ///< label every voxel with its zone (needed for voxel counts); false: trees only
 };
 
 class Analysis {
@@ -97,6 +98,7 @@ public:
 
     [[nodiscard]] const Extent& extent() const;
     [[nodiscard]] Interpolant interpolant() const;
+    [[nodiscard]] double tunnel_height() const;  ///< of AnalysisOptions
 
     /// Critical elements in descending order of the total order; id = position in this order.
     [[nodiscard]] std::int64_t element_count() const;

@@ -39,6 +39,7 @@ struct CutObject {
 struct Cut {
     double tau;
     Interpolant interpolant;
+    double tunnel_height;  ///< of CutOptions
     std::vector<CutObject> objects;
     std::vector<CutContour> contours;  ///< grouped by object, in the order of objects
     std::int64_t active_cells;         ///< cells the surface passes through (padding cells included)
@@ -48,7 +49,8 @@ struct Cut {
 
 struct CutOptions {
     Interpolant interpolant = Interpolant::faces;
-    bool label = false;  ///< fill Cut::label (4 bytes a voxel)
+    double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
+    bool label = false;        ///< fill Cut::label (4 bytes a voxel)
 };
 
 /// tau is a stored value. Any finite tau: above the maximum there are no objects, at or below the minimum there is one.

@@ -38,6 +38,7 @@ enum class ShellChoice : std::uint8_t { all, outer, inner };
 
 struct ExtractOptions {
     Interpolant interpolant = Interpolant::faces;
+    double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
     Boundary boundary = Boundary::closed;
     SurfaceStyle style = SurfaceStyle::compact;
     std::vector<std::int64_t> objects;   ///< voxel indices: the objects at tau that contain them; empty: all

@@ -22,6 +22,7 @@ struct CheckResult {
 struct VerifyOptions {
     int levels = 8;  ///< isovalues to compare at
     Interpolant interpolant = Interpolant::faces;
+    double tunnel_height = 0;  ///< of AnalysisOptions
 };
 
 /// Tree invariants, Euler sums, zones partition the voxels; and at some isovalues spread over the range (data values and values

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
@@ -142,7 +145,15 @@ double side_sign(const std::array<double, 8>& v, int f) {
     return (c - b) * (c - d) * da + (a - d) * (c - d) * db + (a - d) * (a - b) * dc + (c - b) * (a - b) * dd;
 }
 
-CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types) {
+double tunnel_height_of(Interpolant interpolant, double tunnel_height) {
+    if (!(tunnel_height >= 0)) {
+        throw Error(ErrorKind::usage, {.what = "the tunnel height is not a number of at least 0",
+                                       .next = "give the height of the lowest tunnel to leave out"});
+    }
+    return interpolant == Interpolant::trilinear ? tunnel_height : std::numeric_limits<double>::infinity();
+}
+
+CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height) {
     unsigned openings = 0, closings = 0;
     int exponent = 0;
     const std::array<double, 8> value = scaled(cell.value, exponent);
@@ -164,8 +175,9 @@ CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types) {
                               upright.rank[8 + bodies.closing->face] > upright.rank[8 + bodies.opening->face];
         if (!in_order) bodies.opening.reset();
     }
-    for (const std::optional<BodyPoint>& body : {bodies.opening, bodies.closing}) {
-        if (body) bodies.exceptional |= 1U << body->face;
+    for (std::optional<BodyPoint>* body : {&bodies.opening, &bodies.closing}) {
+        if (*body && std::abs((*body)->value - cell.face_value[(*body)->face]) <= tunnel_height) body->reset();
+        if (*body) bodies.exceptional |= 1U << (*body)->face;
     }
     return bodies;
 }

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "critical/faces.h"
+#include "isoatlas/analysis.h"
 
 namespace isoatlas {
 
@@ -34,7 +35,11 @@ struct CellBodies {
     unsigned exceptional = 0;          ///< bit f: the type of f in this cell is not the default one
 };
 
-/// default_types: of default_face_types. Cost: O(1); a few flops a face unless a sign disagrees.
-CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types);
+/// default_types: of default_face_types. Body points that lie at most tunnel_height from their face are left out: any subset of them
+/// makes a consistent topology (trilinear.md section 3). Cost: O(1); a few flops a face unless a sign disagrees.
+CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height = 0);
+
+/// The tunnel height that stands for an interpolant: faces only means no tunnel however high. Throws Error{usage} unless it is 0 or more.
+double tunnel_height_of(Interpolant interpolant, double tunnel_height);
 
 }  // namespace isoatlas

@@ -121,7 +121,7 @@ Criticals<IdType> GridDomain<T, IdType>::critical(const Context& context) const 
         stop_if_cancelled(context);
         const Slab slab = slab_at(i, height, extent.size[2]);
         const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
-        scans[i] = scan_slab(grid_, slab, std::span<std::uint8_t>(links).subspan(first, count), interior_);
+        scans[i] = scan_slab(grid_, slab, std::span<std::uint8_t>(links).subspan(first, count), tunnel_height_);
     });
 
     std::vector<std::int64_t> first_maximum(slabs), first_minimum(slabs);

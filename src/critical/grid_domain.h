@@ -38,7 +38,8 @@ public:
     using Id = IdType;
     using Sample = T;
 
-    GridDomain(GridView<T> grid, bool interior) : grid_(grid), above_{GridSteps(grid.extent)}, interior_(interior) {}
+    /// tunnel_height: of tunnel_height_of (critical/bodies.h).
+    GridDomain(GridView<T> grid, double tunnel_height) : grid_(grid), above_{GridSteps(grid.extent)}, tunnel_height_(tunnel_height) {}
 
     /// Scans, resolves basins, sorts. Cost: O(voxels + c log c); memory 9 bytes a voxel and 64 a critical element while it runs.
     [[nodiscard]] Criticals<Id> critical(const Context& context) const;
@@ -50,7 +51,7 @@ public:
 private:
     GridView<T> grid_;
     Above above_;
-    bool interior_;  ///< trilinear cells, not faces only
+    double tunnel_height_;
 };
 
 /// Slices per slab: what the context asks for, or enough slabs to keep every thread busy.

@@ -53,7 +53,7 @@ std::optional<OpenTunnel> TunnelFinder<T>::find(std::int64_t cell, int pattern, 
     CellElements elements{values(cell), {}, 0, 0, {}};
     for (int k = 0; k < 8; ++k) elements.voxel[k] = steps_.cell_corner(cell, k);
     find_ambiguous_faces(elements);
-    const CellBodies bodies = bodies_of_cell(elements, default_face_types(elements));
+    const CellBodies bodies = bodies_of_cell(elements, default_face_types(elements), tunnel_height_);
     const auto opened = [&](const BodyPoint& body, bool joins_highs) {
         const std::array<std::uint8_t, 8> region = cell_regions(pattern, joined);
         return OpenTunnel{joins_highs, region_of(region, body.region_a), region_of(region, body.region_b), region_of(region, body.ring),

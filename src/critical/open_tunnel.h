@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "field/grid.h"
@@ -22,7 +23,10 @@ bool may_hold_tunnel(int pattern, int joined);
 template <class T>
 class TunnelFinder {
 public:
-    TunnelFinder(const GridView<T>& grid, double tau) : grid_(grid), steps_(grid.extent), tau_(tau) {}
+    /// tunnel_height: of tunnel_height_of (critical/bodies.h); infinite: there are none.
+    TunnelFinder(const GridView<T>& grid, double tau, double tunnel_height)
+        : grid_(grid), steps_(grid.extent), tau_(tau), tunnel_height_(tunnel_height) {}
+    [[nodiscard]] bool finds_any() const { return grid_.is_3d() && std::isfinite(tunnel_height_); }
 
     /// cell: the voxel of corner 0; all corners must be voxels. pattern, joined: the cell at tau.
     [[nodiscard]] std::optional<OpenTunnel> operator()(std::int64_t cell, int pattern, int joined) const {
@@ -37,7 +41,7 @@ private:
 
     GridView<T> grid_;
     GridSteps steps_;
-    double tau_;
+    double tau_, tunnel_height_;
 };
 
 }  // namespace isoatlas

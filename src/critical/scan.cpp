@@ -1,6 +1,7 @@
 #include "critical/scan.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "critical/bodies.h"
@@ -24,8 +25,8 @@ std::array<std::int64_t, 8> corner_offsets(const GridSteps& steps) {
 template <class T>
 class LayerTypes {
 public:
-    LayerTypes(const GridView<T>& grid, bool interior)
-        : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), interior_(interior), any_(grid.extent.size[0] + 8) {}
+    LayerTypes(const GridView<T>& grid, double tunnel_height)
+        : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), tunnel_height_(tunnel_height), any_(grid.extent.size[0] + 8) {}
 
     /// bodies: where body points go; null: they belong to another slab.
     void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next, SlabScan* bodies) {
@@ -76,7 +77,7 @@ private:
             cell.face_value[f] = disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], highs);
         }
         unsigned types = default_face_types(cell, table_);
-        if (interior_) types ^= add_bodies(cell, types);
+        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types);
         high[i] += static_cast<std::uint8_t>(types & 0b010101);
         high_next[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
         high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);
@@ -85,7 +86,7 @@ private:
 
     /// Returns the faces whose type is not the default one.
     unsigned add_bodies(const CellElements& cell, unsigned types) {
-        const CellBodies found = bodies_of_cell(cell, types);
+        const CellBodies found = bodies_of_cell(cell, types, tunnel_height_);
         if (found.exceptional == 0 || bodies_ == nullptr) return found.exceptional;
         for (const CodeKind kind : {CodeKind::body_open, CodeKind::body_close}) {
             const std::optional<BodyPoint>& body = kind == CodeKind::body_open ? found.opening : found.closing;
@@ -97,7 +98,7 @@ private:
     const GridView<T>& grid_;
     GridSteps steps_;
     std::array<std::int64_t, 8> offset_;
-    bool interior_;
+    double tunnel_height_;
     const CellTable& table_ = cell_table();
     Bytes any_;
     SlabScan* bodies_ = nullptr;
@@ -159,10 +160,10 @@ private:
 }  // namespace
 
 template <class T>
-SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, bool interior) {
+SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, double tunnel_height) {
     const std::int64_t slice = grid.extent.slice(), slices = grid.extent.size[2];
     Bytes faces(slice), faces_next(slice), high(slice), high_next(slice);
-    LayerTypes<T> layer(grid, interior && grid.is_3d());
+    LayerTypes<T> layer(grid, tunnel_height);
     const Emitter<T> emit(grid);
     SlabScan out;
     // The layer below the slab decides one side of the xy faces of the first slice.
@@ -185,13 +186,13 @@ SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> l
     return out;
 }
 
-template SlabScan scan_slab(const GridView<std::uint8_t>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<std::int8_t>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<std::uint16_t>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<std::int16_t>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<std::uint32_t>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<std::int32_t>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<float>&, Slab, std::span<std::uint8_t>, bool);
-template SlabScan scan_slab(const GridView<double>&, Slab, std::span<std::uint8_t>, bool);
+template SlabScan scan_slab(const GridView<std::uint8_t>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<std::int8_t>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<std::uint16_t>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<std::int16_t>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<std::uint32_t>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<std::int32_t>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<float>&, Slab, std::span<std::uint8_t>, double);
+template SlabScan scan_slab(const GridView<double>&, Slab, std::span<std::uint8_t>, double);
 
 }  // namespace isoatlas

@@ -28,9 +28,9 @@ struct SlabScan {
 
 /// links: one byte per voxel of the slab (critical/links.h). Reads the slices [z_begin - 1, z_end] that exist.
 /// Cost: O(voxels + ambiguous faces) time, O(slice + critical elements) memory.
-/// interior: the trilinear interpolant (trilinear.md), body points included; else faces only.
+/// tunnel_height: of tunnel_height_of (critical/bodies.h); infinite: faces only.
 template <class T>
-SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, bool interior);
+SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, double tunnel_height);
 
 /// Change of the Euler characteristic of the High set when an element passes: l0 - h0 in 3D; in 2D a saddle (2,2) gives -1.
 constexpr int delta_chi(ElementCode code, int rank) {

@@ -1,6 +1,7 @@
 // From active cells to triangles: counting first, then writing in place.
 #pragma once
 
+#include "critical/bodies.h"
 #include "field/grid.h"
 #include "mesh/cell_triangles.h"
 #include "mesh/layout.h"
@@ -16,12 +17,11 @@ public:
     CellWriter(const GridView<T>& grid, double tau, const MeshDomain& domain, const PhysicalMap& map, const ExtractOptions& options,
                bool flip)
         : joiner_(grid, tau),
-          tunnels_(grid, tau),
+          tunnels_(grid, tau, tunnel_height_of(options.interpolant, options.tunnel_height)),
           extent_(grid.extent),
           domain_(domain),
           map_(map),
           style_(options.style),
-          interior_(options.interpolant == Interpolant::trilinear),
           triangles_(cell_triangles(options.style)),
           flip_(flip) {}
 
@@ -51,7 +51,6 @@ private:
     const MeshDomain& domain_;
     const PhysicalMap& map_;
     SurfaceStyle style_;
-    bool interior_;
     const std::vector<CellTriangles>& triangles_;
     bool flip_;
 };

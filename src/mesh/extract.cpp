@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "critical/bodies.h"
 #include "isoatlas/surface.h"
 #include "mesh/cells.h"
 #include "mesh/hits.h"
@@ -128,7 +129,8 @@ Surface extract(const Volume& volume, double tau, const ExtractOptions& options,
     const HighBits high = classify(volume, tau, context);
     const bool selects = !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
     std::optional<Components> components;
-    if (selects || options.ids) components = find_components(volume, tau, options.interpolant, high, context);
+    if (selects || options.ids)
+        components = find_components(volume, tau, tunnel_height_of(options.interpolant, options.tunnel_height), high, context);
     const std::vector<std::uint8_t> chosen = selects ? chosen_contours(volume, tau, *components, options) : std::vector<std::uint8_t>{};
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;

@@ -1,4 +1,6 @@
 // The tree as JSON, written while it is read: docs/schema/tree-*.schema.json.
+#include <cmath>
+
 #include "output/generator.h"
 #include "output/tree_formats.h"
 
@@ -131,7 +133,11 @@ void put_contours(JsonStream& json, const TreeView& tree) {
 void write_json(const TreeView& tree, const JsonStream::Sink& sink) {
     JsonStream json(sink);
     json.begin_object().line().key("schema").value("isoatlas/tree/1").key("version").value(kVersion);
-    json.line().key("interpolant").value(isoatlas::name_of(tree.analysis.interpolant())).key("boundary").value("closed");
+    json.line().key("interpolant").value(isoatlas::name_of(tree.analysis.interpolant()));
+    if (tree.analysis.interpolant() == Interpolant::trilinear) {
+        json.key("tunnel_height").value(tree.analysis.tunnel_height() * std::abs(tree.volume.info.calibration.slope));
+    }
+    json.key("boundary").value("closed");
     put_volume(json, tree.volume.info);
     put_counts(json, tree.analysis);
     json.line().key("detail").value(name_of(tree.options.detail));

@@ -102,9 +102,9 @@ void find_extremes(const GridView<T>& grid, const Context& context, Components& 
 
 }  // namespace
 
-Components find_components(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high, const Context& context) {
+Components find_components(const Volume& volume, double tau, double tunnel_height, const HighBits& high, const Context& context) {
     Components components{find_runs(high, context), {}, {}, {}, {}, {}};
-    RunSets sets = unite_runs(volume, tau, interpolant, high, components.runs, context);
+    RunSets sets = unite_runs(volume, tau, tunnel_height, high, components.runs, context);
     number_components(sets, components);
     components.highest.assign(static_cast<std::size_t>(components.objects()), -1);
     components.lowest.assign(static_cast<std::size_t>(components.lows()), -1);

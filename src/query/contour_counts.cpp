@@ -84,10 +84,10 @@ void count_square_row(const HighBits& high, const Components& components, std::i
 }
 
 template <class T>
-void count_3d(const GridView<T>& grid, double tau, Interpolant interpolant, const HighBits& high, const Components& components,
+void count_3d(const GridView<T>& grid, double tau, double tunnel_height, const HighBits& high, const Components& components,
               const Context& context, ContourCounts& counts) {
     const FaceJoiner<T> joiner(grid, tau);
-    const TunnelFinder<T> tunnels(grid, tau);
+    const TunnelFinder<T> tunnels(grid, tau, tunnel_height);
     const auto is_inner = [](std::int64_t row, std::int64_t size) { return row >= 0 && row + 1 < size; };
     std::atomic<std::int64_t> active{0};
     for_each_slab(context, {"contours", 2, 3}, {grid.extent.size[2] + 1, grid.extent.slice()}, [&](const Slab& slab) {
@@ -96,8 +96,7 @@ void count_3d(const GridView<T>& grid, double tau, Interpolant interpolant, cons
         for (std::int64_t z = slab.z_begin - 1; z < slab.z_end - 1; ++z) {
             for (std::int64_t y = -1; y < grid.extent.size[1]; ++y) {
                 cells += count_active_cells(cell_row(high, y, z), high.words(), CellWindow::all(grid.extent.size[0]));
-                const bool has_tunnels =
-                    interpolant == Interpolant::trilinear && is_inner(y, grid.extent.size[1]) && is_inner(z, grid.extent.size[2]);
+                const bool has_tunnels = tunnels.finds_any() && is_inner(y, grid.extent.size[1]) && is_inner(z, grid.extent.size[2]);
                 count_cell_row(joiner, has_tunnels ? &tunnels : nullptr, high, components, y, z, tally);
             }
         }
@@ -112,7 +111,7 @@ void count_3d(const GridView<T>& grid, double tau, Interpolant interpolant, cons
 
 }  // namespace
 
-ContourCounts count_contours(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high, const Components& components,
+ContourCounts count_contours(const Volume& volume, double tau, double tunnel_height, const HighBits& high, const Components& components,
                              const Context& context) {
     const Extent& extent = volume.info.extent;
     const auto contours = static_cast<std::size_t>(components.contours());
@@ -134,7 +133,7 @@ ContourCounts count_contours(const Volume& volume, double tau, Interpolant inter
     }
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
-        count_3d(GridView<T>{samples.data(), extent}, tau, interpolant, high, components, context, counts);
+        count_3d(GridView<T>{samples.data(), extent}, tau, tunnel_height, high, components, context, counts);
     });
     return counts;
 }

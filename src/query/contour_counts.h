@@ -15,7 +15,7 @@ struct ContourCounts {
 
 /// Counts over all active cells, padding cells included. A tunnel turns two loops of a contour into one annulus: two faces less. Throws
 /// Error{internal} when a loop does not separate the object and the low component of a contour. Cost: O(volume / 64) plus O(active cells).
-[[nodiscard]] ContourCounts count_contours(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high,
+[[nodiscard]] ContourCounts count_contours(const Volume& volume, double tau, double tunnel_height, const HighBits& high,
                                            const Components& components, const Context& context);
 
 }  // namespace isoatlas

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "critical/bodies.h"
 #include "query/components.h"
 #include "query/contour_counts.h"
 #include "query/slab_work.h"
@@ -99,9 +100,10 @@ void label_voxels(const Components& components, const std::vector<std::int64_t>&
 }  // namespace
 
 Cut cut(const Volume& volume, double tau, const CutOptions& options, const Context& context) {
+    const double tunnel_height = tunnel_height_of(options.interpolant, options.tunnel_height);
     const HighBits high = classify(volume, tau, context);
-    const Components components = find_components(volume, tau, options.interpolant, high, context);
-    const ContourCounts counts = count_contours(volume, tau, options.interpolant, high, components, context);
+    const Components components = find_components(volume, tau, tunnel_height, high, context);
+    const ContourCounts counts = count_contours(volume, tau, tunnel_height, high, components, context);
 
     std::vector<CutObject> objects(static_cast<std::size_t>(components.objects()));
     measure_objects(volume, components, objects);
@@ -111,7 +113,7 @@ Cut cut(const Volume& volume, double tau, const CutOptions& options, const Conte
         return objects[a].voxels != objects[b].voxels ? objects[a].voxels > objects[b].voxels : objects[a].id < objects[b].id;
     });
 
-    Cut result{tau, options.interpolant, {}, {}, counts.active_cells, {}};
+    Cut result{tau, options.interpolant, options.tunnel_height, {}, {}, counts.active_cells, {}};
     for (const std::int64_t object : order) result.objects.push_back(objects[object]);
     group_contours(components, counts, order, result);
     if (options.label) label_voxels(components, order, context, result.label);

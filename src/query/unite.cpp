@@ -12,14 +12,8 @@ namespace {
 template <class T>
 class RunJoiner {
 public:
-    RunJoiner(const GridView<T>& grid, double tau, Interpolant interpolant, const HighBits& high, const Runs& runs, RunSets& sets)
-        : extent_(grid.extent),
-          interior_(interpolant == Interpolant::trilinear && grid.is_3d()),
-          joined_(grid, tau),
-          tunnel_(grid, tau),
-          high_(high),
-          runs_(runs),
-          sets_(sets) {}
+    RunJoiner(const GridView<T>& grid, double tau, double tunnel_height, const HighBits& high, const Runs& runs, RunSets& sets)
+        : extent_(grid.extent), joined_(grid, tau), tunnels_(grid, tau, tunnel_height), high_(high), runs_(runs), sets_(sets) {}
 
     /// All connections inside slice z.
     void join_inside(std::int64_t z) {
@@ -30,7 +24,7 @@ public:
         for (std::int64_t y = 0; y < extent_.size[1]; ++y) {
             join_rows(y, z, y, z + 1, 1);
             if (y + 1 < extent_.size[1]) join_faces_across(y, z);
-            if (y + 1 < extent_.size[1] && interior_) join_tunnels(y, z);
+            if (y + 1 < extent_.size[1] && tunnels_.finds_any()) join_tunnels(y, z);
         }
     }
 
@@ -82,7 +76,7 @@ private:
         for_active_cells(cell_row(high_, y, z), high_.words(), CellWindow::real(extent_.size[0]), [&](std::int64_t p, int pattern) {
             const int split = cases.split_faces[pattern];
             const int joined = split == 0 ? 0 : joined_.joined_mask(base + p, pattern, split);
-            const std::optional<OpenTunnel> tunnel = tunnel_(base + p, pattern, joined);
+            const std::optional<OpenTunnel> tunnel = tunnels_(base + p, pattern, joined);
             if (!tunnel) return;
             const auto run_at = [&](unsigned corners) {
                 const int k = std::countr_zero(corners);
@@ -93,9 +87,8 @@ private:
     }
 
     const Extent& extent_;
-    bool interior_;
     FaceJoiner<T> joined_;
-    TunnelFinder<T> tunnel_;
+    TunnelFinder<T> tunnels_;
     const HighBits& high_;
     const Runs& runs_;
     RunSets& sets_;
@@ -103,13 +96,12 @@ private:
 
 }  // namespace
 
-RunSets unite_runs(const Volume& volume, double tau, Interpolant interpolant, const HighBits& high, const Runs& runs,
-                   const Context& context) {
+RunSets unite_runs(const Volume& volume, double tau, double tunnel_height, const HighBits& high, const Runs& runs, const Context& context) {
     RunSets sets(static_cast<std::size_t>(runs.count()));
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
         const GridView<T> grid{samples.data(), volume.info.extent};
-        RunJoiner<T> joiner(grid, tau, interpolant, high, runs, sets);
+        RunJoiner<T> joiner(grid, tau, tunnel_height, high, runs, sets);
         const Slices slices{grid.extent.size[2], grid.extent.slice()};
         // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.
         for_each_slab(context, {"objects", 1, 3}, slices, [&](const Slab& slab) {

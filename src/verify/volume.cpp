@@ -16,6 +16,7 @@ struct SurfaceChecks {
 void check_surface(const Volume& volume, const Cut& cut, SurfaceChecks& checks, const Context& context) {
     ExtractOptions options;
     options.interpolant = cut.interpolant;
+    options.tunnel_height = cut.tunnel_height;
     options.normals = false;
     const Surface surface = extract(volume, cut.tau, options, context);
     if (volume.info.extent.rank == 2) {
@@ -38,7 +39,7 @@ void check_surface(const Volume& volume, const Cut& cut, SurfaceChecks& checks, 
 }  // namespace
 
 std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions& options, const Context& context) {
-    const Analysis analysis = analyse(volume, {.interpolant = options.interpolant}, context);
+    const Analysis analysis = analyse(volume, {.interpolant = options.interpolant, .tunnel_height = options.tunnel_height}, context);
     std::vector<CheckResult> results{join_tree_is_valid(analysis), zones_partition_voxels(analysis, volume), euler_sums_hold(analysis),
                                      contour_tree_is_a_tree(analysis), levels_match_events(analysis)};
 
@@ -51,7 +52,7 @@ std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions
     std::int64_t objects = 0, contours = 0;
     for (std::size_t i = 0; i < isovalues.size(); ++i) {
         context.report("compare", 0, 1, static_cast<double>(i) / static_cast<double>(isovalues.size()));
-        const Cut at = cut(volume, isovalues[i], {.interpolant = analysis.interpolant()}, silent);
+        const Cut at = cut(volume, isovalues[i], {.interpolant = options.interpolant, .tunnel_height = options.tunnel_height}, silent);
         objects += static_cast<std::int64_t>(at.objects.size());
         contours += static_cast<std::int64_t>(at.contours.size());
         compare_tree_and_cut(analysis, tree, i, at, tree_equals_cut);

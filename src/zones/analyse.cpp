@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "critical/bodies.h"
 #include "critical/grid_domain.h"
 #include "tree/contour_tree.h"
 #include "tree/criticality_tree.h"
@@ -81,7 +82,7 @@ template <class T, class Id>
 std::unique_ptr<IndexedArrays<Id>> run(const GridView<T>& grid, const AnalysisOptions& options, const Context& context) {
     auto result = std::make_unique<IndexedArrays<Id>>();
     AnalysisArrays<Id>& arrays = result->arrays;
-    Criticals<Id> criticals = GridDomain<T, Id>(grid, options.interpolant == Interpolant::trilinear).critical(context);
+    Criticals<Id> criticals = GridDomain<T, Id>(grid, tunnel_height_of(options.interpolant, options.tunnel_height)).critical(context);
     BigVector<Id> maxima = options.zones ? elements_of_maxima(criticals.set) : BigVector<Id>();
     if (!options.zones) release(criticals.basin);
     context.report("trees", 3, kPhases, 0);
@@ -100,6 +101,7 @@ Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Con
     auto data = std::make_unique<Analysis::Data>();
     data->extent = volume.info.extent;
     data->interpolant = options.interpolant;
+    data->tunnel_height = options.tunnel_height;
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const GridView<T> grid{samples.data(), volume.info.extent};

@@ -45,6 +45,7 @@ Analysis::~Analysis() = default;
 
 const Extent& Analysis::extent() const { return data_->extent; }
 Interpolant Analysis::interpolant() const { return data_->interpolant; }
+double Analysis::tunnel_height() const { return data_->tunnel_height; }
 
 std::int64_t Analysis::element_count() const {
     return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.arrays.value.size()); });

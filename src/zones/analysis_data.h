@@ -59,6 +59,7 @@ struct IndexedArrays {
 struct Analysis::Data {
     Extent extent;
     Interpolant interpolant = Interpolant::faces;
+    double tunnel_height = 0;
     std::variant<std::unique_ptr<IndexedArrays<std::uint32_t>>, std::unique_ptr<IndexedArrays<std::uint64_t>>> arrays;
 
     template <class Function>

@@ -210,6 +210,24 @@ class Results(CliTest):
                 self.assertIn(check, names)
         self.assertRegex(self.run_ok("verify", "figure.nrrd").stdout, r"(?m)^holds  tree_equals_cut ")
 
+    def test_trilinear(self):
+        elements = {}
+        for name, more in {"faces": [], "trilinear": [], "low": ["--tunnel-height", "1%"], "none": ["--tunnel-height", "100%"]}.items():
+            interpolant = "faces" if name == "faces" else "trilinear"
+            tree = self.run_json("tree", "noise.nrrd", "--detail", "elements", "--interpolant", interpolant, *more)
+            self.assertEqual(tree["interpolant"], interpolant)
+            self.assertEqual("tunnel_height" in tree, interpolant == "trilinear")
+            elements[name] = [tuple(e["position"]) for e in tree["elements"]]
+            bodies = [p for p in elements[name] if all(x % 1 == 0.5 for x in p)]
+            self.assertEqual(len(bodies) > 0, name in ("trilinear", "low"))
+        self.assertGreater(len(elements["trilinear"]), len(elements["low"]))
+        self.assertEqual(elements["none"], elements["faces"])
+        verified = self.run_json("verify", "noise.nrrd", "--interpolant", "trilinear")
+        self.assertTrue(verified["holds"], verified)
+        told = self.run_json("extract", "noise.nrrd", "--tau", "0.5", "--interpolant", "trilinear", "-o", "tunnels.ply")
+        self.assertEqual(told["interpolant"], "trilinear")
+        self.run_ok("verify", "tunnels.ply")
+
     def test_verify_finds_a_hole(self):
         self.run_ok("extract", "chain.nrrd", "--tau", "0.5", "-o", "whole.obj")
         lines = (self.folder / "whole.obj").read_text().splitlines()

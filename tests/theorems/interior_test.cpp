@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <tuple>
@@ -40,6 +42,24 @@ RC_GTEST_PROP(Interior, TreeCutAndMeshAgree, ()) {
     const Grid grid = *arbitrary_grid(6, 100);
     const std::string broken = broken_guarantee(to_volume(grid, isoatlas::ValueType::f64), 12);
     if (!broken.empty()) RC_FAIL(broken);
+}
+
+// Any subset of the body points makes a consistent topology; an infinite height is that of the faces.
+TEST(Interior, TunnelHeightLeavesTunnelsOut) {
+    const Volume noise = isoatlas::make_phantom("noise", {.size = 12});
+    Index before = std::numeric_limits<Index>::max();
+    for (const double height : {0.0, 0.001, 0.01, 0.05, std::numeric_limits<double>::infinity()}) {
+        const isoatlas::VerifyOptions options{.levels = 10, .interpolant = Interpolant::trilinear, .tunnel_height = height};
+        for (const isoatlas::CheckResult& check : isoatlas::verify_volume(noise, options, one_thread()))
+            EXPECT_TRUE(check.holds) << height << ": " << check.name << ": " << check.detail;
+        const Analysis analysis = isoatlas::analyse(noise, {.interpolant = Interpolant::trilinear, .tunnel_height = height}, one_thread());
+        EXPECT_LT(analysis.element_count(), before) << height;
+        EXPECT_EQ(analysis.tunnel_height(), height);
+        before = analysis.element_count();
+    }
+    EXPECT_EQ(before, isoatlas::analyse(noise, {.interpolant = Interpolant::faces}, one_thread()).element_count());
+    EXPECT_THROW((void)isoatlas::analyse(noise, {.interpolant = Interpolant::trilinear, .tunnel_height = -1}), isoatlas::Error);
+    EXPECT_THROW((void)isoatlas::cut(noise, 0.5, {.tunnel_height = std::nan("")}), isoatlas::Error);
 }
 
 TEST(Interior, TreeCutAndMeshAgreeInNoise) {
