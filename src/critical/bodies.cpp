@@ -115,11 +115,8 @@ std::optional<BodyPoint> place(const RankedCell& cell, const BodySaddle& saddle,
     return BodyPoint{value, saddle.position, f, std::countr_zero(tunnel.a), std::countr_zero(tunnel.b), lows[0]};
 }
 
-/// B1 of a cell: faces whose Highs are joined in truth but not by default. Untied faces first, then the highest.
-std::optional<BodyPoint> opening_point(const RankedCell& cell, unsigned faces) {
-    if (faces == 0) return std::nullopt;
-    const std::optional<BodySaddle> saddle = body_saddle(cell.value);
-    if (!saddle) return std::nullopt;
+/// B1 of a cell with a saddle. faces: those whose Highs are joined in truth but not by default. Untied faces first, then the highest.
+std::optional<BodyPoint> opening_point(const RankedCell& cell, const BodySaddle& saddle, unsigned faces) {
     std::array<int, 6> order{};
     int count = 0;
     for (unsigned rest = faces; rest != 0; rest &= rest - 1) order[count++] = std::countr_zero(rest);
@@ -128,10 +125,14 @@ std::optional<BodyPoint> opening_point(const RankedCell& cell, unsigned faces) {
         return cell.rank[8 + f] > cell.rank[8 + g];
     });
     for (int i = 0; i < count; ++i) {
-        if (!(saddle->value > cell.face_value[order[i]])) continue;
-        return place(cell, *saddle, order[i]);
+        if (saddle.value > cell.face_value[order[i]]) return place(cell, saddle, order[i]);
     }
     return std::nullopt;
+}
+
+std::array<double, 8> negated(std::array<double, 8> value) {
+    for (double& v : value) v = -v;
+    return value;
 }
 
 }  // namespace
@@ -165,10 +166,12 @@ CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, doub
         if (joined && sign < 0) closings |= 1U << f;
     }
     CellBodies bodies;
-    if ((openings | closings) == 0) return bodies;
+    const std::optional<BodySaddle> low = openings != 0 ? body_saddle(cell.value) : std::nullopt;
+    const std::optional<BodySaddle> high = closings != 0 ? body_saddle(negated(cell.value)) : std::nullopt;
+    if (!low && !high) return bodies;
     const RankedCell upright = ranked(cell, default_types);
-    bodies.opening = opening_point(upright, openings);
-    bodies.closing = opening_point(upside_down(upright), closings);
+    if (low) bodies.opening = opening_point(upright, *low, openings);
+    if (high) bodies.closing = opening_point(upside_down(upright), *high, closings);
     if (bodies.closing) bodies.closing->value = -bodies.closing->value;
     if (bodies.opening && bodies.closing) {
         const bool in_order = bodies.closing->value >= bodies.opening->value &&

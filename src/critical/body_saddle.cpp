@@ -83,36 +83,39 @@ Turn canonical_turn(const std::array<double, 8>& value) {
     return *best;
 }
 
-/// In a cell that is turned already.
-std::optional<BodySaddle> saddle_of_turned(const std::array<double, 8>& value) {
+/// The saddle of the cell as it lies, at most `slack` outside.
+std::optional<std::array<double, 3>> saddle_position(const std::array<double, 8>& value, double slack) {
     const auto [k0, k1, k2, k3, k4, k5, k6, k7] = coefficients(value);
     const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
     const double q2 = -(a * b * c);
     if (!(q2 > 0)) return std::nullopt;
     const double q = std::sqrt(q2);
-    const BodySaddle saddle{0,
-                            {coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
-                             coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
-                             coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)}};
-    for (const double x : saddle.position) {
-        if (!(x > 0 && x < 1)) return std::nullopt;
+    const std::array<double, 3> position{coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
+                                         coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
+                                         coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)};
+    for (const double x : position) {
+        if (!(x > -slack && x < 1 + slack)) return std::nullopt;
     }
-    return BodySaddle{interpolate(value, saddle.position), saddle.position};
+    return position;
 }
 
 }  // namespace
 
-// Rounding must not depend on how the cell lies: mirrored volumes have the same body values, bit by bit.
+// Rounding must not depend on how the cell lies: mirrored volumes have the same body values, bit by bit. So a saddle that may lie inside is
+// computed once more in the turned cell.
 std::optional<BodySaddle> body_saddle(const std::array<double, 8>& value) {
-    const Turn turn = canonical_turn(value);
+    constexpr double kSlack = 1e-6;
     int exponent = 0;
-    std::optional<BodySaddle> saddle = saddle_of_turned(scaled(turn.of(value), exponent));
-    if (!saddle) return saddle;
-    saddle->value = std::ldexp(saddle->value, exponent);
-    const std::array<double, 3> position = saddle->position;
+    const std::array<double, 8> at_hand = scaled(value, exponent);
+    if (!saddle_position(at_hand, kSlack)) return std::nullopt;
+    const Turn turn = canonical_turn(at_hand);
+    const std::array<double, 8> turned = turn.of(at_hand);
+    const std::optional<std::array<double, 3>> position = saddle_position(turned, 0);
+    if (!position) return std::nullopt;
+    BodySaddle saddle{std::ldexp(interpolate(turned, *position), exponent), {}};
     for (int a = 0; a < 3; ++a) {
         const int axis = turn.order[a];
-        saddle->position[axis] = turn.origin >> axis & 1 ? 1 - position[a] : position[a];
+        saddle.position[axis] = turn.origin >> axis & 1 ? 1 - (*position)[a] : (*position)[a];
     }
     return saddle;
 }

@@ -22,9 +22,10 @@ public:
             for (const Id zone : zones) ++own_[zone];
             return;
         }
-        for (std::size_t i = 0; i < zones.size(); ++i) {
+        for (std::size_t first = 0, i = 1; first < zones.size(); first = i++) {  // runs of one zone
+            while (i < zones.size() && zones[i] == zones[first]) ++i;
             if (i + kAhead < zones.size()) __builtin_prefetch(shared_.data() + zones[i + kAhead], 1);
-            add(zones[i], 1);
+            add(zones[first], static_cast<Id>(i - first));
         }
     }
     void finish() {

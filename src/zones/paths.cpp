@@ -119,6 +119,12 @@ Id HeavyPaths<Id, Value>::bucket_of(const Path& path, Value x) const {
 }
 
 template <class Id, class Value>
+Id HeavyPaths<Id, Value>::end_of_bucket(const Path& path, Value x) const {
+    const Id bucket = bucket_of(path, x);
+    return is_long(path) && bucket < path.first + buckets(path) ? bucket_[bucket + 1] + 1 : path.end;
+}
+
+template <class Id, class Value>
 void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch,
                                   std::span<Id> zone) const {
     std::size_t climbing = x.size();
@@ -156,7 +162,7 @@ void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, 
         stop += steps;
         for (int k = 0; on && k < 8 && stop->value < x[i]; ++k) ++stop;
         if (on && stop->value < x[i]) {  // a crowded bucket
-            const Stop* end = stops_.data() + paths_[path[i]].end;
+            const Stop* end = stops_.data() + end_of_bucket(paths_[path[i]], x[i]);
             stop = std::lower_bound(stop, end, x[i], [](const Stop& s, Value value) { return s.value < value; });
         }
         zone[i] = stop->event;

@@ -64,6 +64,8 @@ private:
     [[nodiscard]] static bool is_long(const Path& path) { return path.end - path.first >= kBucketed; }
     [[nodiscard]] static Id buckets(const Path& path) { return path.end - path.first - 1; }
     [[nodiscard]] Id bucket_of(const Path& path, Value x) const;
+    /// Behind the position of the lowest event with a value of x or more.
+    [[nodiscard]] Id end_of_bucket(const Path& path, Value x) const;
 
     BigVector<Path> paths_;  ///< per maximum; maxima of one event have equal ones
     BigVector<Stop> stops_;  ///< by position
