@@ -102,9 +102,8 @@ struct Tunnel {
 std::optional<BodyPoint> place(const RankedCell& cell, const BodySaddle& saddle, int f) {
     const std::array<int, 2> highs = cell.highs(f), lows = cell.lows(f);
     const int above = cell.rank[8 + f] + 1;
-    Tunnel tunnel{0xff, 0xff};
     const std::array<std::uint8_t, 8> region = cell_regions(cell.pattern(above), cell.joined(above));
-    tunnel = {region_of(region, highs[0]), region_of(region, highs[1])};
+    Tunnel tunnel{region_of(region, highs[0]), region_of(region, highs[1])};
     if (!tunnel.follow(cell, above, lows[0])) return std::nullopt;
     double value = saddle.value;
     for (int r = above; r < cell.count && cell.value_of(cell.at[r]) < value; ++r) {

@@ -34,6 +34,9 @@ public:
 /// Throws Error{input} when the file cannot be opened or has no such range.
 [[nodiscard]] std::unique_ptr<ByteSource> open_file_source(const std::string& path, std::int64_t offset = 0, std::int64_t length = -1);
 
+/// The bytes of a source from `offset` on: position 0 is that byte. Seek before the first read.
+[[nodiscard]] std::unique_ptr<ByteSource> skip_bytes(std::unique_ptr<ByteSource> source, std::int64_t offset);
+
 /// The bytes that a gzip (also of several members) or zlib stream in [offset, offset + length) of a file holds.
 /// size_bound() is 1032 times the compressed size: deflate cannot do better (a 2-bit pair stands for at most 258 bytes).
 [[nodiscard]] std::unique_ptr<ByteSource> open_inflate_source(const std::string& path, std::int64_t offset = 0, std::int64_t length = -1);

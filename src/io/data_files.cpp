@@ -37,22 +37,6 @@ Directive find_directive(std::string_view text) {
     return {};
 }
 
-/// A source from position `begin` of another on.
-class SkippedSource final : public ByteSource {
-public:
-    SkippedSource(std::unique_ptr<ByteSource> inner, std::int64_t begin) : inner_(std::move(inner)), begin_(begin) {}
-    void read(std::span<std::byte> out) override { inner_->read(out); }
-    void seek(std::int64_t offset) override { inner_->seek(begin_ + offset); }
-    bool at_end() override { return inner_->at_end(); }
-    bool random_access() const override { return inner_->random_access(); }
-    std::int64_t size_bound() const override { return std::max<std::int64_t>(0, inner_->size_bound() - begin_); }
-    const std::string& file() const override { return inner_->file(); }
-
-private:
-    std::unique_ptr<ByteSource> inner_;
-    std::int64_t begin_;
-};
-
 /// Offset behind `lines` ends of line from `offset` on.
 std::int64_t skip_lines(const std::string& path, std::int64_t offset, std::int64_t lines) {
     if (lines == 0) return offset;
@@ -84,7 +68,7 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
     if (plan.encoding == Encoding::text) return open_text_source(open_file_source(path, offset), plan.type);
     std::unique_ptr<ByteSource> inflated = open_inflate_source(path, offset);
     if (plan.inflated_skip == 0) return inflated;
-    return std::make_unique<SkippedSource>(std::move(inflated), plan.inflated_skip);
+    return skip_bytes(std::move(inflated), plan.inflated_skip);
 }
 
 [[noreturn]] void bad_part(const std::string& path, std::int64_t holds, std::int64_t wanted) {

@@ -18,22 +18,6 @@ namespace {
 
 constexpr double kLargestOffset = 9.0e15;  ///< below 2^53: exact
 
-/// A source whose position 0 is a later position of another one.
-class LaterSource final : public ByteSource {
-public:
-    LaterSource(std::unique_ptr<ByteSource> source, std::int64_t offset) : source_(std::move(source)), offset_(offset) {}
-    void read(std::span<std::byte> out) override { source_->read(out); }
-    void seek(std::int64_t offset) override { source_->seek(offset_ + offset); }
-    bool at_end() override { return source_->at_end(); }
-    bool random_access() const override { return source_->random_access(); }
-    std::int64_t size_bound() const override { return std::max<std::int64_t>(source_->size_bound() - offset_, 0); }
-    const std::string& file() const override { return source_->file(); }
-
-private:
-    std::unique_ptr<ByteSource> source_;
-    std::int64_t offset_;
-};
-
 [[noreturn]] void bad_header(const std::string& path, const std::string& field, const std::string& what, const std::string& expected) {
     throw Error(ErrorKind::input, {.file = path,
                                    .where = "header, " + field,
@@ -179,7 +163,7 @@ NiftiHeader read_header(const std::string& path) {
 
 std::unique_ptr<ByteSource> open_samples(const std::string& path, std::int64_t offset) {
     if (!is_gzip(path)) return open_file_source(path, offset);
-    return std::make_unique<LaterSource>(open_inflate_source(path), offset);
+    return skip_bytes(open_inflate_source(path), offset);
 }
 
 /// The header beside an .img file, when there is one.
