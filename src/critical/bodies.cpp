@@ -22,7 +22,7 @@ struct RankedCell {
     std::array<int, kElements> rank;  ///< of an element; faces that are not ambiguous have none
     std::array<int, kElements> at;    ///< element of a rank
     int count;
-    unsigned ambiguous, bd_high, highs_joined;  ///< highs_joined: the default types
+    unsigned ambiguous, bd_high;
 
     [[nodiscard]] double value_of(int element) const { return element < 8 ? value[element] : face_value[element - 8]; }
     [[nodiscard]] int pattern(int cut) const {
@@ -52,8 +52,8 @@ struct RankedCell {
     }
 };
 
-RankedCell ranked(const CellElements& cell, unsigned default_types) {
-    RankedCell result{cell.value, cell.face_value, {}, {}, 0, cell.ambiguous, cell.bd_high, default_types};
+RankedCell ranked(const CellElements& cell) {
+    RankedCell result{cell.value, cell.face_value, {}, {}, 0, cell.ambiguous, cell.bd_high};
     for (int k = 0; k < 8; ++k) result.at[result.count++] = k;
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) result.at[result.count++] = 8 + std::countr_zero(rest);
     std::sort(result.at.begin(), result.at.begin() + result.count, [&](int p, int q) { return element_below(cell, p, q); });
@@ -70,7 +70,6 @@ RankedCell upside_down(const RankedCell& cell) {
         result.rank[result.at[r]] = r;
     }
     result.bd_high ^= cell.ambiguous;
-    result.highs_joined ^= cell.ambiguous;
     return result;
 }
 
@@ -168,7 +167,7 @@ CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, doub
     const std::optional<BodySaddle> low = openings != 0 ? body_saddle(cell.value) : std::nullopt;
     const std::optional<BodySaddle> high = closings != 0 ? body_saddle(negated(cell.value)) : std::nullopt;
     if (!low && !high) return bodies;
-    const RankedCell upright = ranked(cell, default_types);
+    const RankedCell upright = ranked(cell);
     if (low) bodies.opening = opening_point(upright, *low, openings);
     if (high) bodies.closing = opening_point(upside_down(upright), *high, closings);
     if (bodies.closing) bodies.closing->value = -bodies.closing->value;
