@@ -20,9 +20,10 @@ struct SlabScan {
     std::vector<BigVector<KeyedElement>> chunks;                 ///< critical elements owned by the slab; all but the last are full
     std::int64_t maxima = 0, minima = 0;                         ///< how many of them have no upper / no lower link
 
+    /// -0.0 becomes 0.0: which of two equal elements comes first must not show in what is reported.
     void add(const KeyedElement& element) {
         if (chunks.empty() || chunks.back().size() == kChunk) chunks.emplace_back();
-        chunks.back().push_back(element);
+        chunks.back().push_back({element.value + 0.0, element.code});
     }
 };
 

@@ -1,4 +1,6 @@
 // The engine equals the brute-force oracle on random small volumes, piece by piece.
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -81,6 +83,20 @@ RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
     for (int trial = 0; trial < 4; ++trial) {
         const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
         RC_ASSERT(canonical_text(isoatlas::analyse(to_volume(turned(grid, order, mirror)), {}, context)) == expected);
+    }
+}
+
+TEST(Engine, NegativeZeroIsZero) {
+    for (const isoatlas::Interpolant interpolant : {isoatlas::Interpolant::faces, isoatlas::Interpolant::trilinear}) {
+        const Grid grid{3, {3, 3, 2}, {-0.0, 0.0, -1, 1, -0.0, 1, 0.0, -1, -0.0, 1, -0.0, 0.0, -0.0, 1, -1, -0.0, 1, 0.0}};
+        const isoatlas::Analysis analysis = isoatlas::analyse(to_volume(grid), {.interpolant = interpolant});
+        int zeros = 0;
+        for (Index i = 0; i < analysis.element_count(); ++i) {
+            const double value = analysis.element(i).value;
+            zeros += value == 0;
+            EXPECT_FALSE(value == 0 && std::signbit(value));
+        }
+        EXPECT_GT(zeros, 0);
     }
 }
 
