@@ -26,7 +26,7 @@ std::tuple<double, double, double> key(const Element& e) { return {e.value, e.ti
 Element make_vertex(const Grid& grid, Index v) {
     const std::array<Index, 3> p = grid.voxel(v);
     Element e;
-    e.value = grid.value[v];
+    e.value = grid.value[v] + 0.0;  // -0 is reported as 0
     e.tie = {static_cast<double>(v), 0};
     e.position = {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
     return e;
@@ -53,7 +53,7 @@ bool make_face(const Grid& grid, const std::vector<Element>& vertex, Index a, in
     double s = (va * vc - vb * vd) / (((va + vc) - vb) - vd);
     if (!(s >= lo)) s = lo;
     if (s > hi) s = hi;
-    e.value = s;
+    e.value = s + 0.0;
     e.tie = {s > lo ? -1.0 : static_cast<double>(highest_low) + 0.5, static_cast<double>(3 * a + orientation)};
     e.position = vertex[a].position;
     e.position[axis1] += 0.5;
