@@ -70,7 +70,7 @@ std::string compare_elements(const Result& expected, const isoatlas::Analysis& a
         const isoatlas::Element a = actual.element(i);
         Difference d(at("element", i));
         d.check("value", e.value, a.value).check("position", join(e.position), join(a.position));
-        d.check("h0", e.h0, a.h0).check("l0", e.l0, a.l0).check("is a face point", e.is_face, a.kind == isoatlas::ElementKind::face);
+        d.check("h0", e.h0, a.h0).check("l0", e.l0, a.l0).check("kind", static_cast<int>(e.type), static_cast<int>(a.kind));
         if (!d.text().empty()) return d.text();
     }
     return {};

@@ -15,7 +15,14 @@ std::vector<std::vector<Index>> neighbours_of(const Elements& elements) {
         }
     }
     for (Index e = grid.voxels(); e < elements.count(); ++e) {
-        for (const Index corner : elements.all[e].corner) {
+        const Element& element = elements.all[e];
+        if (element.type == Type::body) {  // edges of the graph of the Highs; a body point is critical, so nothing floods into it
+            for (const Index corner : element.joins_highs ? element.tunnel : std::vector<Index>{element.ring[0]}) {
+                if (elements.rank_of[corner] > elements.rank_of[e]) neighbours[e].push_back(corner);
+            }
+            continue;
+        }
+        for (const Index corner : element.corner) {
             neighbours[e].push_back(corner);
             neighbours[corner].push_back(e);
         }

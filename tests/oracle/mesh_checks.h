@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "isoatlas/surface.h"
+#include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace oracle {
@@ -28,14 +29,30 @@ struct Grid {
     int directions() const { return 2 * rank; }
 };
 
-/// A vertex or the point of an ambiguous face. Elements 0..voxels-1 are the vertices.
+enum class Type { vertex, face, body };
+
+/// A vertex, the point of an ambiguous face, or a body point. Elements 0..voxels-1 are the vertices.
 struct Element {
     double value = 0;
     std::array<double, 2> tie{};  ///< second and third part of the key
     std::array<double, 3> position{};
-    bool is_face = false;
+    Type type = Type::vertex;
     std::array<Index, 4> corner{};       ///< face: a b c d, around
     std::array<Index, 2> high{}, low{};  ///< face: the diagonals
+    Index face = -1;                     ///< body: its F
+    bool joins_highs = false;            ///< body: B1; else B2
+    Index cell = -1;                     ///< body: the voxel of corner 0 of its cell
+    std::vector<Index> tunnel;           ///< body: corners of the two regions that its tunnel joins, as they are beside F
+    std::array<Index, 2> ring{};         ///< body: the corners of F that lie around the tunnel
+};
+
+/// A body point of trilinear.md. The oracle is told where they are (tests/unit/critical/bodies_test.cpp checks that alone) and finds out
+/// what they do.
+struct Body {
+    Index cell;        ///< voxel of corner 0
+    int face;          ///< its F: 2 * orientation (xy, xz, yz) + side
+    bool joins_highs;  ///< B1 above F; else B2 below F
+    double value;
 };
 
 /// All elements and their total order. rank_of: 0 = lowest. face_at[3 * corner a + orientation] = element or -1.
@@ -45,10 +62,20 @@ struct Elements {
     std::vector<Index> by_rank;  ///< element of each rank
     std::vector<Index> rank_of;  ///< rank of each element
     std::vector<Index> face_at;
-    explicit Elements(Grid g);
+    explicit Elements(Grid g, const std::vector<Body>& bodies = {});
     Index count() const { return static_cast<Index>(all.size()); }
     /// The cut of an isovalue: the lowest rank whose value is at least tau.
     Index cut_at(double tau) const;
+    bool is_high(Index element, Index cut) const { return element >= 0 && rank_of[element] >= cut; }  // -1, the outside, is Low
+    /// Is the tunnel of a body point open at a cut? Between the point and its F.
+    bool is_open(Index body, Index cut) const;
+    /// Corners of one cell (by the voxel of corner 0) in one piece with a corner of it, as far as the border of the cell joins them.
+    std::vector<Index> region(Index cell, Index corner, Index cut) const;
+    /// Edges (High voxel, Low voxel) of the cell of a body point between what its tunnel joins and the region around it.
+    std::vector<std::pair<Index, Index>> edges_at_tunnel(Index body, Index cut) const;
+
+private:
+    void sort();
 };
 
 struct Contour {
@@ -87,7 +114,7 @@ struct CriticalElement {
     double value;
     std::array<double, 3> position;
     int h0, l0, delta_chi;
-    bool is_face;
+    Type type;
 };
 
 /// Contour while it lives: ids are positions in Result::critical; lower == critical.size(): the outside.

@@ -23,8 +23,9 @@ struct Builder {
     const Grid& grid;
     const Index cut;
     Snapshot result{};
+    Index open_tunnels = 0;
 
-    bool is_high(Index element) const { return element >= 0 && elements.rank_of[element] >= cut; }  // -1, the outside, is Low
+    bool is_high(Index element) const { return elements.is_high(element, cut); }
 
     // --- objects and low components: connected components of the graph of theory.md section 2 -------------------------------------
     void flood() {
@@ -41,7 +42,14 @@ struct Builder {
             }
         }
         for (Index e = grid.voxels(); e < elements.count(); ++e) {
-            for (const Index corner : elements.all[e].corner) link(e, corner);
+            const Element& element = elements.all[e];
+            if (element.type == Type::face) {
+                for (const Index corner : element.corner) link(e, corner);
+            } else if (is_high(e) == element.joins_highs) {  // the class it joins
+                for (const Index corner : element.tunnel) link(e, corner);
+            } else {
+                link(e, element.ring[0]);
+            }
         }
         number(sets, outside);
     }
@@ -137,16 +145,42 @@ struct Builder {
             }
         }
         for (const Segment& s : every) sets.join(s.first, s.second);
+        const std::vector<Index> tunnels = join_at_tunnels(sets);
         collect(sets, every, cell_loops);
+        for (const Index h : tunnels) result.contours[result.contour_of_hit[h]].loops -= 2;
+        describe_objects();
     }
 
-    /// Loops of one cell: components of its hits under the segments of its six faces (2D: a cell is one face).
-    void add_loops(const Point& base, std::vector<Segment>& loops) {
-        std::vector<Segment> own;
-        if (grid.rank == 2) {
-            if (!segments(base, 0).empty()) ++result.active_cells;
-            return;
+    /// An open tunnel joins two loops of its cell: an annulus instead of two disks. One hit of each tunnel.
+    std::vector<Index> join_at_tunnels(Sets& sets) {
+        std::vector<Index> tunnels;
+        for (Index e = grid.voxels(); e < elements.count(); ++e) {
+            if (elements.all[e].type != Type::body || !elements.is_open(e, cut)) continue;
+            std::vector<Index> hits;
+            for (const auto& [high, low] : elements.edges_at_tunnel(e, cut)) hits.push_back(hit(grid.voxel(high), grid.voxel(low)));
+            if (count_loops(elements.all[e].cell, hits) != 2) {  // cannot be: an annulus has two ends
+                result.contours.push_back({-1, -1, 0, 0, 0, false, 0});
+                continue;
+            }
+            for (const Index h : hits) sets.join(h, hits.front());
+            tunnels.push_back(hits.front());
         }
+        open_tunnels = static_cast<Index>(tunnels.size());
+        return tunnels;
+    }
+
+    /// Through how many loops of a cell do these hits run?
+    Index count_loops(Index cell, const std::vector<Index>& hits) const {
+        Sets sets(6 * grid.voxels());
+        for (const Segment& s : segments_of_cell(grid.voxel(cell))) sets.join(s.first, s.second);
+        std::vector<Index> loops;
+        for (const Index h : hits) loops.push_back(sets.find(h));
+        std::sort(loops.begin(), loops.end());
+        return std::unique(loops.begin(), loops.end()) - loops.begin();
+    }
+
+    std::vector<Segment> segments_of_cell(const Point& base) const {
+        std::vector<Segment> own;
         for (int orientation = 0; orientation < 3; ++orientation) {
             for (int side = 0; side < 2; ++side) {
                 Point a = base;
@@ -154,6 +188,16 @@ struct Builder {
                 for (const Segment& s : segments(a, orientation)) own.push_back(s);
             }
         }
+        return own;
+    }
+
+    /// Loops of one cell: components of its hits under the segments of its six faces (2D: a cell is one face).
+    void add_loops(const Point& base, std::vector<Segment>& loops) {
+        if (grid.rank == 2) {
+            if (!segments(base, 0).empty()) ++result.active_cells;
+            return;
+        }
+        std::vector<Segment> own = segments_of_cell(base);
         if (!own.empty()) ++result.active_cells;
         while (!own.empty()) {  // walk along a loop until it closes
             loops.push_back(own.back());
@@ -196,7 +240,6 @@ struct Builder {
         }
         for (const Segment& s : every) ++result.contours[result.contour_of_hit[s.first]].segments;
         for (const Segment& s : loops) ++result.contours[result.contour_of_hit[s.first]].loops;
-        describe_objects();
     }
 
     void describe_objects() {
@@ -225,6 +268,7 @@ struct Builder {
         for (Index v = 0; v < grid.voxels(); ++v) {
             for (int axes = 0; axes < 1 << grid.rank; ++axes) count_cell(v, axes);
         }
+        result.chi_by_cells -= open_tunnels;  // a tunnel of Highs is a handle; one of Lows drills a hole
     }
 
     void count_cell(Index base, int axes) {
@@ -274,7 +318,7 @@ struct Builder {
 }  // namespace
 
 Snapshot snapshot(const Elements& elements, Index cut) {
-    Builder builder{elements, elements.grid, cut};
+    Builder builder{elements, elements.grid, cut, {}, 0};
     builder.flood();
     builder.contours();
     builder.count_chi();

@@ -77,19 +77,28 @@ private:
         result_.consistent = result_.consistent && good && chi == s.chi_by_cells;
     }
 
-    /// Hits next to an element: all hits on edges at a vertex, or on the edges of a face.
-    std::set<Index> touched(const Snapshot& s, Index e) const {
+    /// Hits next to an element: all hits on edges at a vertex, on the edges of a face, or at both ends of the tunnel of a body point.
+    std::set<Index> touched(const Snapshot& s, Index e, Index cut) const {
         std::set<Index> contours;
         const Element& element = elements_.all[e];
         const auto add = [&](Index v, int d) {
             const Index contour = s.contour_of_hit[6 * v + d];
             if (contour >= 0) contours.insert(contour);
         };
-        for (const Index v : element.is_face ? std::vector<Index>(element.corner.begin(), element.corner.end()) : std::vector<Index>{e}) {
+        if (element.type == Type::body) {
+            for (const auto& [high, low] : elements_.edges_at_tunnel(e, cut)) {
+                for (int d = 0; d < grid_.directions(); ++d) {
+                    if (grid_.neighbour(high, d) == low) add(high, d);
+                }
+            }
+            return contours;
+        }
+        const bool is_face = element.type == Type::face;
+        for (const Index v : is_face ? std::vector<Index>(element.corner.begin(), element.corner.end()) : std::vector<Index>{e}) {
             for (int d = 0; d < grid_.directions(); ++d) {
                 const Index w = grid_.neighbour(v, d);
-                const bool on_face = element.is_face && std::find(element.corner.begin(), element.corner.end(), w) != element.corner.end();
-                if (element.is_face && !on_face) continue;
+                const bool on_face = is_face && std::find(element.corner.begin(), element.corner.end(), w) != element.corner.end();
+                if (is_face && !on_face) continue;
                 add(v, d);
                 if (w >= 0) add(w, d ^ 1);
             }
@@ -100,7 +109,7 @@ private:
     /// Does the element begin an object (no High neighbour above) or end a low component (no Low neighbour below)?
     bool is_alone(const Snapshot& s, Index e, bool as_high) const {
         const Element& element = elements_.all[e];
-        if (element.is_face) return false;
+        if (element.type != Type::vertex) return false;
         for (Index other = 0; other < elements_.count(); ++other) {
             if (other == e) continue;
             if (as_high && s.object_of[other] >= 0 && s.object_of[other] == s.object_of[e]) return false;
@@ -133,7 +142,7 @@ private:
         result_.consistent = result_.consistent && good;
         if (h0 == 1 && l0 == 1) return false;
         const Element& element = elements_.all[e];
-        result_.critical.push_back({e, element.value, element.position, h0, l0, static_cast<int>(delta), element.is_face});
+        result_.critical.push_back({e, element.value, element.position, h0, l0, static_cast<int>(delta), element.type});
         return true;
     }
 
@@ -143,7 +152,7 @@ private:
         check(next);
         const bool critical = classify(e, now_, next);
         const auto id = static_cast<Index>(result_.critical.size()) - 1;
-        const std::set<Index> before = touched(now_, e), after = touched(next, e);
+        const std::set<Index> before = touched(now_, e, rank + 1), after = touched(next, e, rank);
         std::vector<Index> upper(next.contours.size(), -1), group(next.contours.size(), -1);
         for (std::size_t hit = 0; hit < next.contour_of_hit.size(); ++hit) {  // a contour that is not touched keeps all its hits
             const Index old = now_.contour_of_hit[hit], fresh = next.contour_of_hit[hit];

@@ -15,6 +15,7 @@
 
 #include <rapidcheck.h>
 
+#include "isoatlas/analysis.h"
 #include "oracle/oracle.h"
 
 namespace oracle {
@@ -98,6 +99,10 @@ inline rc::Gen<Grid> arbitrary_grid(Index longest = 7, Index most = 100) {
                                 return make_grid(rank, size, static_cast<Texture>(std::get<1>(choice)), std::get<2>(choice));
                             });
     });
+}
+
+inline rc::Gen<isoatlas::Interpolant> arbitrary_interpolant() {
+    return rc::gen::element(isoatlas::Interpolant::trilinear, isoatlas::Interpolant::faces);
 }
 
 /// Distinct values: the raw numbers made unique by their position.

@@ -11,21 +11,23 @@ namespace {
 
 RC_GTEST_PROP(Cut, EqualsTheOracle, ()) {
     const Grid grid = *arbitrary_grid();
-    const Elements elements(grid);
+    const isoatlas::CutOptions options{.interpolant = *arbitrary_interpolant(), .label = true};
+    const Elements elements = elements_of(grid, options.interpolant);
     const double tau = arbitrary_tau(elements);
     const isoatlas::Volume volume = to_volume(grid, arbitrary_type(grid));
-    const std::string difference = compare_cut(elements, tau, isoatlas::cut(volume, tau, {.label = true}, arbitrary_context()));
+    const std::string difference = compare_cut(elements, tau, isoatlas::cut(volume, tau, options, arbitrary_context()));
     RC_ASSERT(difference == "");
 }
 
 RC_GTEST_PROP(Cut, EqualsTheOracleAtEveryValue, ()) {
     const Grid grid = *arbitrary_grid(4, 24);
-    const Elements elements(grid);
+    const isoatlas::CutOptions options{.interpolant = *arbitrary_interpolant(), .label = true};
+    const Elements elements = elements_of(grid, options.interpolant);
     const isoatlas::Volume volume = to_volume(grid, arbitrary_type(grid));
     isoatlas::Context context;
     context.threads = 1;
     for (const double tau : interesting_values(elements)) {
-        const std::string difference = compare_cut(elements, tau, isoatlas::cut(volume, tau, {.label = true}, context));
+        const std::string difference = compare_cut(elements, tau, isoatlas::cut(volume, tau, options, context));
         RC_ASSERT(difference == "");
     }
 }
@@ -38,9 +40,10 @@ RC_GTEST_PROP(Cut, EqualsTheOracleOnLongRows, ()) {
     const int rank = *rc::gen::inRange(2, 4);
     const Texture texture = *rc::gen::element(Texture::ties2, Texture::ties4, Texture::smooth, Texture::checkerboard_ties);
     const Grid grid = make_grid(rank, {n, rank == 3 ? 2 : 6, 3}, texture, raw);
-    const Elements elements(grid);
+    const isoatlas::CutOptions options{.interpolant = *arbitrary_interpolant(), .label = true};
+    const Elements elements = elements_of(grid, options.interpolant);
     const double tau = arbitrary_tau(elements);
-    const std::string difference = compare_cut(elements, tau, isoatlas::cut(to_volume(grid), tau, {.label = true}, arbitrary_context()));
+    const std::string difference = compare_cut(elements, tau, isoatlas::cut(to_volume(grid), tau, options, arbitrary_context()));
     RC_ASSERT(difference == "");
 }
 

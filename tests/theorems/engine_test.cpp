@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/flooding.h"
 #include "oracle/volumes.h"
@@ -15,8 +16,11 @@ struct Both {
     Elements elements;
     Result expected;
     isoatlas::Analysis actual;
-    explicit Both(const Grid& grid, const isoatlas::Context& context = {})
-        : elements(grid), expected(analyse(elements)), actual(isoatlas::analyse(to_volume(grid), {}, context)) {
+    explicit Both(const Grid& grid, const isoatlas::Context& context = {}) : Both(grid, *arbitrary_interpolant(), context) {}
+    Both(const Grid& grid, isoatlas::Interpolant interpolant, const isoatlas::Context& context)
+        : elements(elements_of(grid, interpolant)),
+          expected(analyse(elements)),
+          actual(isoatlas::analyse(to_volume(grid), {.interpolant = interpolant}, context)) {
         RC_ASSERT(expected.consistent);
     }
 };
@@ -79,10 +83,11 @@ RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
     const Grid grid = as_integers(*arbitrary_grid(7, 120));
     isoatlas::Context context;
     context.threads = 1;
-    const std::string expected = canonical_text(isoatlas::analyse(to_volume(grid), {}, context));
+    const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant()};
+    const std::string expected = canonical_text(isoatlas::analyse(to_volume(grid), options, context));
     for (int trial = 0; trial < 4; ++trial) {
         const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
-        RC_ASSERT(canonical_text(isoatlas::analyse(to_volume(turned(grid, order, mirror)), {}, context)) == expected);
+        RC_ASSERT(canonical_text(isoatlas::analyse(to_volume(turned(grid, order, mirror)), options, context)) == expected);
     }
 }
 
@@ -102,10 +107,9 @@ TEST(Engine, NegativeZeroIsZero) {
 
 RC_GTEST_PROP(Engine, WithoutZonesTheTreesAreTheSame, ()) {
     const Grid grid = *arbitrary_grid();
-    isoatlas::AnalysisOptions options;
-    options.zones = false;
+    const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant(), .zones = false};
     const isoatlas::Analysis bare = isoatlas::analyse(to_volume(grid), options);
-    const Result expected = analyse(Elements(grid));
+    const Result expected = analyse(elements_of(grid, options.interpolant));
     EXPECT_SAME(compare_elements(expected, bare));
     EXPECT_SAME(compare_levels(expected, bare));
     RC_ASSERT(bare.event_count() == static_cast<Index>(expected.events.size()));

@@ -18,11 +18,24 @@ using isoatlas::SurfaceStyle;
 
 struct Case {
     Grid grid;
+    isoatlas::Interpolant interpolant;
     Elements elements;
     isoatlas::Volume volume;
     double tau;
     explicit Case(Grid g)
-        : grid(std::move(g)), elements(grid), volume(to_volume(grid, arbitrary_type(grid))), tau(arbitrary_tau(elements)) {}
+        : grid(std::move(g)),
+          interpolant(*arbitrary_interpolant()),
+          elements(elements_of(grid, interpolant)),
+          volume(to_volume(grid, arbitrary_type(grid))),
+          tau(arbitrary_tau(elements)) {}
+
+    isoatlas::ExtractOptions arbitrary_style() const {
+        isoatlas::ExtractOptions options;
+        options.interpolant = interpolant;
+        options.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
+        return options;
+    }
+    isoatlas::Cut cut(bool label = false) const { return isoatlas::cut(volume, tau, {.interpolant = interpolant, .label = label}); }
 };
 
 Grid arbitrary_grid_3d() {
@@ -31,16 +44,10 @@ Grid arbitrary_grid_3d() {
     return grid;
 }
 
-isoatlas::ExtractOptions arbitrary_style() {
-    isoatlas::ExtractOptions options;
-    options.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
-    return options;
-}
-
 RC_GTEST_PROP(Mesh, IsAClosedOrientedManifold, ()) {
     Case c(arbitrary_grid_3d());
     c.volume.info.geometry = arbitrary_geometry(c.grid);
-    const Surface surface = isoatlas::extract(c.volume, c.tau, arbitrary_style(), arbitrary_context());
+    const Surface surface = isoatlas::extract(c.volume, c.tau, c.arbitrary_style(), arbitrary_context());
     const SurfaceReport report = isoatlas::inspect(surface.points, surface.triangles);
     RC_ASSERT(report.is_closed());
     RC_ASSERT(report.is_manifold());
@@ -55,8 +62,8 @@ RC_GTEST_PROP(Mesh, IsAClosedOrientedManifold, ()) {
 // Components, Euler numbers and ids of the mesh are those of the cut.
 RC_GTEST_PROP(Mesh, PiecesAreTheContoursOfTheCut, ()) {
     const Case c(arbitrary_grid_3d());
-    const Surface surface = isoatlas::extract(c.volume, c.tau, arbitrary_style(), arbitrary_context());
-    const isoatlas::Cut cut = isoatlas::cut(c.volume, c.tau);
+    const Surface surface = isoatlas::extract(c.volume, c.tau, c.arbitrary_style(), arbitrary_context());
+    const isoatlas::Cut cut = c.cut();
     std::map<Index, Index> points, triangles;
     for (const Index contour : surface.contour) ++points[contour];
     for (const auto& t : surface.triangles) {
@@ -78,9 +85,9 @@ RC_GTEST_PROP(Mesh, PiecesAreTheContoursOfTheCut, ()) {
 RC_GTEST_PROP(Mesh, OuterContoursEncloseCavitiesAreHollow, ()) {
     Case c(arbitrary_grid_3d());
     c.volume.info.geometry = arbitrary_geometry(c.grid);
-    const Surface surface = isoatlas::extract(c.volume, c.tau, arbitrary_style());
+    const Surface surface = isoatlas::extract(c.volume, c.tau, c.arbitrary_style());
     std::map<Index, double> volume = signed_volumes(surface);
-    for (const isoatlas::CutContour& contour : isoatlas::cut(c.volume, c.tau).contours) {
+    for (const isoatlas::CutContour& contour : c.cut().contours) {
         RC_ASSERT((contour.shell == Shell::outer ? volume[contour.id] : -volume[contour.id]) > 0);
     }
 }
@@ -115,7 +122,7 @@ Index chi_on_the_border(const Case& c) {
 
 RC_GTEST_PROP(Mesh, OpenSurfacesEndAtTheBorderOfTheVolume, ()) {
     const Case c(arbitrary_grid_3d());
-    isoatlas::ExtractOptions options = arbitrary_style();
+    isoatlas::ExtractOptions options = c.arbitrary_style();
     options.boundary = Boundary::open;
     const Surface surface = isoatlas::extract(c.volume, c.tau, options, arbitrary_context());
     RC_ASSERT(!surface.closed);
@@ -141,7 +148,7 @@ RC_GTEST_PROP(Mesh, OpenSurfacesEndAtTheBorderOfTheVolume, ()) {
     }
     RC_ASSERT(boundary == report.boundary_edges);
     Index chi_high = 0;
-    for (const isoatlas::CutObject& object : isoatlas::cut(c.volume, c.tau).objects) chi_high += object.chi;
+    for (const isoatlas::CutObject& object : c.cut().objects) chi_high += object.chi;
     const Index chi = std::accumulate(report.component_chi.begin(), report.component_chi.end(), Index{0});
     RC_ASSERT(chi == 2 * chi_high - chi_on_the_border(c));
 }
@@ -158,10 +165,10 @@ std::vector<std::array<isoatlas::Vec3, 3>> triangles_of(const Surface& surface, 
 
 RC_GTEST_PROP(Mesh, SelectionsAreSubsets, ()) {
     const Case c(arbitrary_grid_3d());
-    isoatlas::ExtractOptions options = arbitrary_style();
+    isoatlas::ExtractOptions options = c.arbitrary_style();
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
     const Surface whole = isoatlas::extract(c.volume, c.tau, options);
-    const isoatlas::Cut cut = isoatlas::cut(c.volume, c.tau, {.label = true});
+    const isoatlas::Cut cut = c.cut(true);
     RC_PRE(!cut.objects.empty());
     std::map<Index, Shell> shell_of;
     for (const isoatlas::CutContour& contour : cut.contours) shell_of[contour.id] = contour.shell;
@@ -198,7 +205,7 @@ RC_GTEST_PROP(Mesh, SelectionsAreSubsets, ()) {
 RC_GTEST_PROP(Mesh, SameBytesForAnyThreadsAndSlabs, ()) {
     Case c(*arbitrary_grid(7, 200));
     c.volume.info.geometry = arbitrary_geometry(c.grid);
-    isoatlas::ExtractOptions options = arbitrary_style();
+    isoatlas::ExtractOptions options = c.arbitrary_style();
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
     isoatlas::Context one_thread;
     one_thread.threads = 1;
@@ -221,7 +228,9 @@ RC_GTEST_PROP(Mesh, NoTwoTrianglesCross, ()) {
         const int size_of_value = *rc::gen::inRange(0, 100);
         grid.value.push_back(sign * (spread ? std::pow(1.15, size_of_value - 50) : 1 + size_of_value / 20.0));
     }
-    isoatlas::ExtractOptions options = arbitrary_style();
+    isoatlas::ExtractOptions options;
+    options.interpolant = *arbitrary_interpolant();
+    options.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
     RC_ASSERT(count_crossings(isoatlas::extract(to_volume(grid), 0, options)) == 0);
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/flooding.h"
 #include "oracle/volumes.h"
@@ -9,11 +10,11 @@
 namespace oracle {
 namespace {
 
-Result analyse_grid(const Grid& grid) { return analyse(Elements(grid)); }
+Elements arbitrary_elements(const Grid& grid) { return elements_of(grid, *arbitrary_interpolant()); }
 
 // T1: #contours = #objects + #lows - 1, each contour touches one object and one low component, pairs are distinct;
 // T2: every element does to chi what its type says; chi from contours equals chi counted cell by cell. At every cut of the order.
-RC_GTEST_PROP(Oracle, T1AndT2HoldAtEveryCut, ()) { RC_ASSERT(analyse_grid(*arbitrary_grid()).consistent); }
+RC_GTEST_PROP(Oracle, T1AndT2HoldAtEveryCut, ()) { RC_ASSERT(analyse(arbitrary_elements(*arbitrary_grid())).consistent); }
 
 /// The octahedral rule of section 3.
 std::pair<int, int> type_by_neighbours(const Elements& elements, Index v) {
@@ -33,7 +34,7 @@ std::pair<int, int> type_by_neighbours(const Elements& elements, Index v) {
 }
 
 RC_GTEST_PROP(Oracle, VerticesFollowTheOctahedralRule, ()) {
-    const Elements elements(*arbitrary_grid());
+    const Elements elements = arbitrary_elements(*arbitrary_grid());
     const Result result = analyse(elements);
     std::vector<std::pair<int, int>> found(static_cast<std::size_t>(elements.count()), {1, 1});
     for (const CriticalElement& c : result.critical) found[c.element] = {c.h0, c.l0};
@@ -47,13 +48,14 @@ RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) {
     const Grid grid = as_integers(*arbitrary_grid(5, 60));
     const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
     const Grid other = turned(grid, order, mirror);
-    RC_ASSERT(canonical_text(analyse_grid(grid)) == canonical_text(analyse_grid(other)));
+    const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
+    RC_ASSERT(canonical_text(analyse(elements_of(grid, interpolant))) == canonical_text(analyse(elements_of(other, interpolant))));
 }
 
 // Two vertices are in one object at a cut exactly when their labels climb to the same node: the dissertation's flooding gives the join
 // tree.
 RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) {
-    const Elements elements(*arbitrary_grid(6, 60));
+    const Elements elements = arbitrary_elements(*arbitrary_grid(6, 60));
     const Result result = analyse(elements);
     const Flooding flooding = flood(elements, result.critical);
     for (Index cut = 0; cut < elements.count(); ++cut) {
@@ -76,7 +78,7 @@ RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) {
 }
 
 RC_GTEST_PROP(Flooding, WithoutTiesItsTreeIsTheEventTree, ()) {
-    const Elements elements(without_ties(*arbitrary_grid(6, 80)));
+    const Elements elements = arbitrary_elements(without_ties(*arbitrary_grid(6, 80)));
     if (has_ties(elements)) return;  // two face points may share a value
     const Result result = analyse(elements);
     const Flooding flooding = flood(elements, result.critical);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 
@@ -13,7 +14,8 @@ namespace {
 struct Subject {
     Elements elements;
     isoatlas::Analysis analysis;
-    explicit Subject(const Grid& grid) : elements(grid), analysis(isoatlas::analyse(to_volume(grid))) {}
+    explicit Subject(const Grid& grid, isoatlas::Interpolant interpolant = *arbitrary_interpolant())
+        : elements(elements_of(grid, interpolant)), analysis(isoatlas::analyse(to_volume(grid), {.interpolant = interpolant})) {}
 
     template <class Function>
     void at_every_value(Function&& function) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 
@@ -13,11 +14,12 @@ namespace {
 // Objects at tau are the events whose zone contains tau.
 RC_GTEST_PROP(TreeAndCut, AgreeOnEveryObject, ()) {
     const Grid grid = *arbitrary_grid(7, 343);
-    const Elements elements(grid);
+    const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
+    const Elements elements = elements_of(grid, interpolant);
     const isoatlas::Volume volume = to_volume(grid);
-    const isoatlas::Analysis analysis = isoatlas::analyse(volume);
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant});
     const double tau = *rc::gen::elementOf(interesting_values(elements));
-    const isoatlas::Cut cut = isoatlas::cut(volume, tau);
+    const isoatlas::Cut cut = isoatlas::cut(volume, tau, {.interpolant = interpolant});
     std::size_t objects = 0;
     for (Index i = 0; i < analysis.event_count(); ++i) {
         const isoatlas::Event event = analysis.event(i);
