@@ -101,8 +101,8 @@ RC_GTEST_PROP(AnyBodies, CutsEqualTheOracle, ()) {
     const Elements elements = elements_of(grid, Interpolant::trilinear);
     const isoatlas::Volume volume = to_volume(grid);
     for (const double tau : interesting_values(elements)) {
-        const std::string difference = compare_cut(
-            elements, tau, isoatlas::cut(volume, tau, {.interpolant = Interpolant::trilinear, .label = true}, one_thread()));
+        const std::string difference =
+            compare_cut(elements, tau, isoatlas::cut(volume, tau, {.interpolant = Interpolant::trilinear, .label = true}, one_thread()));
         RC_ASSERT(difference == "");
     }
 }
