@@ -2,10 +2,14 @@
 
     python3 docs/theory/figures/make.py path/to/isoatlas
 
-The program is asked for the triangles of annulus.svg; without it that figure is left as it is.
+The program is asked for the triangles of annulus.svg and the curves of mirrors.svg; without it these figures are left as they are.
 """
+import bisect
+import csv
+import itertools
 import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -576,6 +580,157 @@ def annulus(program):
     picture.write()
 
 
+# --- mirrored copies --------------------------------------------------------------------------------------------------------------------------------
+
+SIDE = 32
+
+
+def shifted(values, step):
+    """The volume seen from a neighbour; it goes on at its other side."""
+    return [values[(x + step[0]) % SIDE + SIDE * ((y + step[1]) % SIDE + SIDE * ((z + step[2]) % SIDE))]
+            for z in range(SIDE) for y in range(SIDE) for x in range(SIDE)]
+
+
+def summed(values, steps):
+    return [sum(samples) for samples in zip(*(shifted(values, step) for step in steps))]
+
+
+def turned(values, order, mirror):
+    """A copy with its axes in another order, then mirrored along the axes with a 1 in the mask."""
+    stride = [SIDE ** axis for axis in order]
+    along = [[stride[i] * (SIDE - 1 - k if mirror >> i & 1 else k) for k in range(SIDE)] for i in range(3)]
+    return [values[x + y + z] for z in along[2] for y in along[1] for x in along[0]]
+
+
+def objects_of_tetrahedra(values, isovalues):
+    """Numbers of objects when each cell is cut into six tetrahedra around its diagonal (1,1,1): each voxel has 14 neighbours."""
+    width = SIDE + 2
+    ahead = [x + width * (y + width * z) for x in (0, 1) for y in (0, 1) for z in (0, 1) if x or y or z]
+    around = ahead + [-step for step in ahead]
+    place = [x + width * (y + width * z) for z in range(1, SIDE + 1) for y in range(1, SIDE + 1) for x in range(1, SIDE + 1)]
+    falling = sorted(range(len(values)), key=lambda i: -values[i])
+    root, counts, count, done = {}, [], 0, 0
+    for tau in reversed(isovalues):
+        while done < len(falling) and values[falling[done]] >= tau:
+            here = place[falling[done]]
+            root[here] = here
+            met = set()
+            for step in around:
+                there = here + step
+                if there not in root:
+                    continue
+                while root[there] != there:
+                    root[there] = root[root[there]]
+                    there = root[there]
+                met.add(there)
+            for there in met:
+                root[there] = here
+            count += 1 - len(met)
+            done += 1
+        counts.append(count)
+    return counts[::-1]
+
+
+def changes_of(program, values):
+    """The lives (tau_low, tau_high] of all objects, and everything that does not name a place: levels and events, sorted."""
+    named = ("id", "event", "parent", "children", "x", "y", "z")
+    lives, changes = [], []
+    with tempfile.TemporaryDirectory(prefix="isoatlas-figure-") as folder:
+        volume, table = pathlib.Path(folder, "volume.nrrd"), pathlib.Path(folder, "tree.csv")
+        volume.write_text(f"NRRD0004\ntype: ushort\ndimension: 3\nsizes: {SIDE} {SIDE} {SIDE}\nencoding: ascii\n\n" + " ".join(map(str, values)) + "\n")
+        for detail in ("levels", "events"):
+            subprocess.run([program, "tree", volume, "--detail", detail, "--interpolant", "trilinear", "-q", "-o", table], check=True,
+                           stdout=subprocess.DEVNULL)
+            with table.open(newline="") as lines:
+                rows = list(csv.DictReader(lines))
+            changes.append(sorted(tuple(words for name, words in row.items() if name not in named) for row in rows))
+            if detail == "events":
+                lives = [(float(row["tau_low"] or "-inf"), float(row["tau_high"])) for row in rows]
+    return lives, changes
+
+
+def objects_alive(lives, isovalues):
+    appear, vanish = sorted(high for _, high in lives), sorted(low for low, _ in lives)
+    return [bisect.bisect_left(vanish, tau) - bisect.bisect_left(appear, tau) for tau in isovalues]
+
+
+def objects_of_all_copies(program, values, isovalues):
+    """Numbers of objects; all 48 mirrored and turned copies must have the same levels and events."""
+    lives, expected = changes_of(program, values)
+    for order in itertools.permutations(range(3)):
+        for mirror in range(8):
+            if changes_of(program, turned(values, order, mirror))[1] != expected:
+                raise SystemExit(f"mirrors.svg: the copy with axes {order}, mirrored {mirror:03b}, has other levels or events")
+    return objects_alive(lives, isovalues)
+
+
+MIRRORS = ((0, LOW), (1, OTHER), (2, GREEN), (4, "#b23b54"))  # mirrored along no axis, x, y, z: the four diagonals of a cell
+
+
+def draw_slice(picture, values, left, top, size):
+    """The middle slice in eight tints, y upwards."""
+    middle_slice = values[SIDE * SIDE * (SIDE // 2):][:SIDE * SIDE]
+    low, high = min(middle_slice), max(middle_slice)
+    runs = {}
+    for y in range(SIDE):
+        row, start = middle_slice[SIDE * y:][:SIDE], 0
+        for tint, same in itertools.groupby(min(7, 8 * (value - low) // (high - low)) for value in row):
+            length = len(list(same))
+            runs.setdefault(tint, []).append((start, SIDE - 1 - y, length))
+            start += length
+    for tint, boxes in sorted(runs.items()):
+        data = "".join(f"M{number(left + x * size)} {number(top + y * size)}h{number(length * size)}v{number(size)}h{number(-length * size)}z"
+                       for x, y, length in boxes)
+        colour = blend("#dfe9f3", "#fae8d6", tint / 3) if tint < 4 else blend("#fae8d6", "#c9611a", (tint - 3) / 4)
+        picture.parts.append(f'<path d="{data}" fill="{colour}" shape-rendering="crispEdges"/>')
+    picture.path([(left, top), (left + SIDE * size, top), (left + SIDE * size, top + SIDE * size), (left, top + SIDE * size)], PALE, 1, close=True)
+
+
+def mirrors(program):
+    source = random.Random(1)
+    noise = [int(256 * source.random()) for _ in range(SIDE ** 3)]
+    smooth = summed(noise, list(itertools.product((-1, 0, 1), repeat=3)))
+    fibres = summed(smooth, [(t, -t, 0) for t in range(-4, 5)])
+    picture = Picture("mirrors.svg", 960, 372)
+
+    project, depth = camera(-68, 27, (108, 186), 118)
+    draw_cube(picture, project, depth, True)
+    for mirror, tint in MIRRORS:
+        picture.line(project(corner(mirror)), project(corner(7 - mirror)), tint, 2.2)
+    draw_cube(picture, project, depth, False)
+    for k in range(8):
+        picture.dot(project(corner(k)), 5.5, GREY)
+    picture.text((108, 28), "four diagonals", 15, bold=True)
+
+    width, base, upper, first, last = 300, 300, 66, 20, 100
+    for left, title, values, top, step in ((262, "smoothed noise", smooth, 350, 100), (628, "fibres", fibres, 200, 50)):
+        low, high = min(values), max(values)
+        percents = [first + (last - first) * i / 160 for i in range(161)]
+        isovalues = [low + (high - low) * percent / 100 for percent in percents]
+        copies = [objects_of_tetrahedra(turned(values, (0, 1, 2), mirror), isovalues) for mirror, _ in MIRRORS]
+        exact = objects_of_all_copies(program, values, isovalues)
+        largest = max(max(counts) / min(counts) - 1 for counts in zip(*copies) if min(counts) >= 50)
+
+        def at(percent, count, left=left, top=top):
+            return (left + width * (percent - first) / (last - first), base - (base - upper) * count / top)
+
+        for count in range(0, top + 1, step):
+            picture.line(at(first, count), at(last, count), "#e3e6ea" if count else GREY, 1 if count else 1.2)
+            picture.text((left - 8, at(0, count)[1] + 4.5), str(count), 12, "end", GREY)
+        for percent in range(first, last + 1, 20):
+            picture.line(at(percent, 0), (at(percent, 0)[0], base + 4), GREY, 1.2)
+            picture.text((at(percent, 0)[0], base + 19), f"{percent} %", 12, fill=GREY)
+        draw_slice(picture, values, left + 8, upper + 6, 3)
+        picture.path([at(*point) for point in zip(percents, exact)], HIGH, 3.2)
+        for (_, tint), counts in zip(MIRRORS, copies):
+            picture.path([at(*point) for point in zip(percents, counts)], tint, 1.3)
+        picture.text((left + width / 2, 28), title, 15, bold=True)
+        picture.text((left + width / 2, 50), f"tetrahedra: copies differ by up to {100 * largest:.0f} %", 12.5)
+        picture.text((left + width / 2, base + 38), "number of objects at isovalues in per cent of the range", 12.5, fill="#5b626c")
+    picture.legend(362, ((HIGH, "isoatlas: all 48 copies"), (None, "thin lines: cells cut into tetrahedra around the diagonal of that colour")))
+    picture.write()
+
+
 # --- the example with 14 nodes ----------------------------------------------------------------------------------------------------------------------
 
 KIND = {"max": HIGH, "merge": GREEN, "+": OTHER, "-": OTHER, "split": "#b23b54", "both": "#b23b54", "min": LOW}
@@ -643,6 +798,7 @@ def main(*arguments):
     example_trees()
     if arguments:
         annulus(arguments[0])
+        mirrors(arguments[0])
 
 
 if __name__ == "__main__":
