@@ -21,7 +21,7 @@ namespace {
 
 /// Options as typed; converted after the parse so that every message is ours.
 struct Typed {
-    std::string dims, type, endian, spacing, origin, missing, interpolant = "faces", tunnel_height, shell = "all", style = "compact",
+    std::string dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all", style = "compact",
                                                               boundary = "closed", detail = "events";
     double no_data = 0;
     double tau = 0;
@@ -66,7 +66,8 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
 }
 
 void add_interpolant(CLI::App& app, Typed& typed) {
-    app.add_option("--interpolant", typed.interpolant, "How samples are connected inside cells: faces, trilinear")
+    app.add_option("--interpolant", typed.interpolant,
+                   "How samples are connected inside cells: trilinear (default) or faces, the face rule alone")
         ->type_name("NAME")
         ->group("Reading");
     app.add_option("--tunnel-height", typed.tunnel_height, "Leave out tunnels through cells of at most this height (trilinear)")
@@ -191,7 +192,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
         arguments.tunnel_height_in_percent = typed.tunnel_height.ends_with('%');
         arguments.tunnel_height = parse_height("--tunnel-height", typed.tunnel_height);
         if (arguments.interpolant != Interpolant::trilinear)
-            usage("--tunnel-height means nothing without --interpolant trilinear", "add --interpolant trilinear");
+            usage("--tunnel-height means nothing with --interpolant faces", "leave out --interpolant faces: trilinear is the default");
     }
     arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
                                                 {{"all", ShellChoice::all}, {"outer", ShellChoice::outer}, {"inner", ShellChoice::inner}});

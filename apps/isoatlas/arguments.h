@@ -21,7 +21,7 @@ struct Arguments {
     bool voxel_units = false;  ///< lengths in voxels, whatever the file says
 
     // Running and talking
-    Interpolant interpolant = Interpolant::faces;
+    Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< in reported units, or in percent of the range
     bool tunnel_height_in_percent = false;
     int threads = 0;

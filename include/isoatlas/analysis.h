@@ -83,7 +83,7 @@ struct GenusCount {
 };
 
 struct AnalysisOptions {
-    Interpolant interpolant = Interpolant::faces;
+    Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
     bool zones = true;         ///< label every voxel with its zone (needed for voxel counts); false: trees only
 };

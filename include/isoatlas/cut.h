@@ -48,7 +48,7 @@ struct Cut {
 };
 
 struct CutOptions {
-    Interpolant interpolant = Interpolant::faces;
+    Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
     bool label = false;        ///< fill Cut::label (4 bytes a voxel)
 };

@@ -37,7 +37,7 @@ enum class SurfaceStyle : std::uint8_t { compact, full };
 enum class ShellChoice : std::uint8_t { all, outer, inner };
 
 struct ExtractOptions {
-    Interpolant interpolant = Interpolant::faces;
+    Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
     Boundary boundary = Boundary::closed;
     SurfaceStyle style = SurfaceStyle::compact;

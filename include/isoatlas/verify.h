@@ -21,7 +21,7 @@ struct CheckResult {
 
 struct VerifyOptions {
     int levels = 8;  ///< isovalues to compare at
-    Interpolant interpolant = Interpolant::faces;
+    Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
 };
 
