@@ -21,6 +21,9 @@ void write_labels(const std::string& path, const VolumeInfo& info, std::span<con
 /// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .nii.
 void write_volume(const std::string& path, const Volume& volume);
 
+/// For people: "faces", "trilinear", "trilinear, tunnel height 0.25" (seven digits; calibrated; unless it is 0).
+[[nodiscard]] std::string describe(Interpolant interpolant, double tunnel_height);
+
 enum class TreeDetail : std::uint8_t { events, levels, elements, contours };
 
 struct TreeOutput {

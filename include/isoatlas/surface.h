@@ -27,7 +27,10 @@ struct Surface {
     double reported_tau = 0;                            ///< calibrated value
     std::string space = "unknown";                      ///< of the points
     std::string unit;
-    bool closed = true;  ///< false: open at the border of the volume (Boundary::open)
+    bool closed = true;                                ///< false: open at the border of the volume (Boundary::open)
+    Interpolant interpolant = Interpolant::trilinear;  ///< that extract() used; write_surface() says it in the file
+    double tunnel_height = 0;                          ///< of ExtractOptions: difference of stored values; trilinear only
+    double reported_tunnel_height = 0;                 ///< calibrated
 };
 
 /// closed: samples outside the volume are -infinity, caps close every surface. open: the caps are left off.

@@ -66,6 +66,8 @@ struct Calibration {
     [[nodiscard]] bool is_identity() const { return slope == 1 && intercept == 0; }
     [[nodiscard]] double reported(double stored) const { return is_identity() ? stored : slope * stored + intercept; }
     [[nodiscard]] double stored(double reported) const { return is_identity() ? reported : (reported - intercept) / slope; }
+    /// Of the difference of two stored values, such as the height of a tunnel.
+    [[nodiscard]] double reported_difference(double stored) const { return (slope < 0 ? -slope : slope) * stored; }
     bool operator==(const Calibration&) const = default;
 };
 

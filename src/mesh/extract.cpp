@@ -125,6 +125,9 @@ Surface extract(const Volume& volume, double tau, const ExtractOptions& options,
     surface.space = volume.info.geometry.space;
     surface.unit = volume.info.geometry.unit;
     surface.closed = options.boundary == Boundary::closed;
+    surface.interpolant = options.interpolant;
+    surface.tunnel_height = options.tunnel_height;
+    surface.reported_tunnel_height = volume.info.calibration.reported_difference(options.tunnel_height);
 
     const HighBits high = classify(volume, tau, context);
     const bool selects = !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;

@@ -38,6 +38,9 @@ void add_polygon(Mesh& mesh, const std::vector<std::int64_t>& corners);
 /// Adds the triangles of a strip; every second one runs the other way.
 void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners);
 
+/// Where a surface comes from, a line each: generator, tau, space, unit, interpolant, tunnel height.
+[[nodiscard]] std::string comment_lines(const Surface& surface, const std::string& comment_mark);
+
 /// Triangles (or segments) in runs of one object: `order` lists them grouped by the object of their first point, objects in ascending
 /// order, the surface's order kept inside. Without ids there is one group, and has_ids is false.
 struct ObjectGroups {

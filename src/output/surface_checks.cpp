@@ -1,8 +1,9 @@
-// What every writer and parser of meshes relies on: consistent arrays, indices in range, groups of one object.
+// What every writer and parser of meshes relies on: consistent arrays, indices in range, groups of one object, comments.
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
+#include "output/connectivity.h"
 #include "output/mesh_formats.h"
 
 namespace isoatlas::output {
@@ -75,6 +76,16 @@ void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners) {
         const std::size_t odd = i % 2;
         mesh.triangles.push_back({corners[i - 2 + odd], corners[i - 1 - odd], corners[i]});
     }
+}
+
+std::string comment_lines(const Surface& surface, const std::string& comment_mark) {
+    KeyValues pairs{{"generator", kGenerator}, {"tau", number_text(surface.reported_tau)}, {"space", one_line(surface.space)}};
+    if (!surface.unit.empty()) pairs.emplace_back("unit", one_line(surface.unit));
+    std::string text;
+    for (const KeyValues& list : {pairs, key_values(connectivity_of(surface))}) {
+        for (const auto& [key, value] : list) text += comment_mark + " " + key + " " + value + "\n";
+    }
+    return text;
 }
 
 ObjectGroups group_by_object(const Surface& surface) {

@@ -10,6 +10,7 @@
 
 #include "isoatlas/output.h"
 #include "output/atomic_file.h"
+#include "output/connectivity.h"
 #include "output/json_stream.h"
 
 namespace isoatlas::output {
@@ -23,6 +24,9 @@ struct TreeView {
 
     TreeView(const Volume& the_volume, const Analysis& the_analysis, const TreeOutput& the_options);
     [[nodiscard]] double reported(double stored) const { return volume.info.calibration.reported(stored); }
+    [[nodiscard]] Connectivity connectivity() const {
+        return {analysis.interpolant(), volume.info.calibration.reported_difference(analysis.tunnel_height())};
+    }
     [[nodiscard]] std::int64_t item_count() const;  ///< of the chosen detail
     [[nodiscard]] bool is_outside(std::int64_t element) const { return element == analysis.element_count(); }
 };

@@ -27,7 +27,8 @@ constexpr std::array kContourKeys{Key{"value", "double", "node"}, Key{"x", "doub
                                   Key{"id", "long", "edge"},      Key{"tau_high", "double", "edge"}, Key{"tau_low", "double", "edge"},
                                   Key{"genus", "long", "edge"}};
 constexpr std::array kGraphKeys{Key{"schema", "string", "graph"}, Key{"generator", "string", "graph"},
-                                Key{"interpolant", "string", "graph"}, Key{"boundary", "string", "graph"}};
+                                Key{"interpolant", "string", "graph"}, Key{"tunnel_height", "double", "graph"},
+                                Key{"boundary", "string", "graph"}};
 
 template <class Keys>
 void put_keys(ByteWriter& out, const Keys& keys) {
@@ -139,7 +140,9 @@ void write_tree_graphml(AtomicFile& file, const TreeView& tree) {
     out.text(std::string("<graph id=\"") + (events ? "criticality_tree" : "contour_tree") + "\" edgedefault=\"directed\">\n");
     put_text(out, "schema", "isoatlas/tree/1");
     put_text(out, "generator", kGenerator);
-    put_text(out, "interpolant", isoatlas::name_of(tree.analysis.interpolant()));
+    const Connectivity connectivity = tree.connectivity();
+    put_text(out, "interpolant", connectivity.name());
+    if (connectivity.has_tunnels()) put(out, "tunnel_height", connectivity.tunnel_height);
     put_text(out, "boundary", "closed");
     out.text("\n");
     events ? put_events(out, tree) : put_contours(out, tree);

@@ -133,10 +133,7 @@ void put_contours(JsonStream& json, const TreeView& tree) {
 void write_json(const TreeView& tree, const JsonStream::Sink& sink) {
     JsonStream json(sink);
     json.begin_object().line().key("schema").value("isoatlas/tree/1").key("version").value(kVersion);
-    json.line().key("interpolant").value(isoatlas::name_of(tree.analysis.interpolant()));
-    if (tree.analysis.interpolant() == Interpolant::trilinear) {
-        json.key("tunnel_height").value(tree.analysis.tunnel_height() * std::abs(tree.volume.info.calibration.slope));
-    }
+    put_members(json.line(), tree.connectivity());
     json.key("boundary").value("closed");
     put_volume(json, tree.volume.info);
     put_counts(json, tree.analysis);

@@ -83,6 +83,7 @@ public:
         out.text(vtk_file_begin("UnstructuredGrid") + "<UnstructuredGrid>\n<FieldData>\n" +
                  vtk_string("Space", tree_.volume.info.geometry.space));
         if (!tree_.volume.info.geometry.unit.empty()) out.text(vtk_string("Unit", tree_.volume.info.geometry.unit));
+        out.text(vtk_elements(arrays_, tree_.connectivity()));
         out.text("</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(points_) + "\" NumberOfCells=\"" + std::to_string(cells()) +
                  "\">\n");
         out.text("<PointData Scalars=\"CriticalType\">\n");

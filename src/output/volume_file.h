@@ -5,6 +5,8 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "isoatlas/volume.h"
 
@@ -15,6 +17,9 @@ using Put = std::function<void(std::span<const std::byte>)>;
 using SampleFeed = std::function<void(const Put&)>;
 
 enum class Packing : bool { raw, gzip };
+
+/// Names and values for the header of a file, on one line each.
+using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
 // Each writes info.extent samples of info.type with the geometry, calibration and description of `info`, as far as the format has them.
 // Rectilinear grids become regular ones with the mean spacing; what a format cannot say is said in its comment or description.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "output/byte_writer.h"
+#include "output/connectivity.h"
 #include "output/generator.h"
 #include "output/json_stream.h"
 #include "output/mesh_formats.h"
@@ -77,6 +78,7 @@ void put_origin(JsonStream& json, const Surface& surface) {
     json.key("tau").value(surface.reported_tau).key("space").value(surface.space);
     json.key("unit");
     surface.unit.empty() ? json.null() : json.value(surface.unit);
+    put_members(json, connectivity_of(surface));
 }
 
 std::string part_name(const Scene& scene, const Part& part) {

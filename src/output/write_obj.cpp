@@ -1,6 +1,5 @@
 // OBJ (Wavefront): text, one `o object_<id>` for each object. Numbers are the shortest that read back as the same value.
 #include "output/byte_writer.h"
-#include "output/generator.h"
 #include "output/mesh_formats.h"
 #include "output/precision.h"
 
@@ -49,9 +48,7 @@ void put_cell(ByteWriter& out, const std::array<std::int64_t, N>& cell, bool nor
 void write_obj(AtomicFile& file, const Surface& surface, Warnings& warnings) {
     if (has_inner_contours(surface)) warnings.push_back("OBJ keeps object ids, but not contour ids; .ply and .vtp keep both");
     ByteWriter out(file);
-    out.text("# generator " + std::string(kGenerator) + "\n# tau " + number_text(surface.reported_tau) + "\n# space " +
-             one_line(surface.space) + "\n");
-    if (!surface.unit.empty()) out.text("# unit " + one_line(surface.unit) + "\n");
+    out.text(comment_lines(surface, "#"));
     put_points(out, surface);
     const ObjectGroups groups = group_by_object(surface);
     for (const ObjectGroups::Group& group : groups.groups) {

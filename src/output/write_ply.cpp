@@ -2,7 +2,6 @@
 #include <limits>
 
 #include "output/byte_writer.h"
-#include "output/generator.h"
 #include "output/mesh_formats.h"
 #include "output/precision.h"
 
@@ -36,9 +35,7 @@ PlyTypes choose_types(const Surface& surface, const std::string& file) {
 std::string header(const Surface& surface, const PlyTypes& types) {
     const std::string real = types.position == Real::f64 ? "double" : "float";
     const std::string index = types.int_index ? "int" : "uint";
-    std::string text = "ply\nformat binary_little_endian 1.0\ncomment generator " + std::string(kGenerator) + "\ncomment tau " +
-                       number_text(surface.reported_tau) + "\ncomment space " + one_line(surface.space) + "\n";
-    if (!surface.unit.empty()) text += "comment unit " + one_line(surface.unit) + "\n";
+    std::string text = "ply\nformat binary_little_endian 1.0\n" + comment_lines(surface, "comment");
     text += "element vertex " + std::to_string(surface.points.size()) + "\n";
     for (const char* axis : {"x", "y", "z"}) text += "property " + real + " " + axis + "\n";
     if (!surface.normals.empty()) text += "property float nx\nproperty float ny\nproperty float nz\n";

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "output/byte_writer.h"
+#include "output/connectivity.h"
 #include "output/generator.h"
 #include "output/mesh_formats.h"
 #include "output/precision.h"
@@ -22,10 +23,18 @@ std::array<float, 3> facet_normal(const Point& a, const Point& b, const Point& c
     return to_float({n[0] / length, n[1] / length, n[2] / length});
 }
 
-/// 80 bytes; must not start with "solid" (that announces the text form).
+std::string header_words(const Surface& surface, std::string (*number)(double)) {
+    const Connectivity connectivity = connectivity_of(surface);
+    std::string text = std::string(kGenerator) + " tau " + number(surface.reported_tau) + " " + connectivity.name();
+    if (connectivity.has_tunnels()) text += " tunnel_height " + number(connectivity.tunnel_height);
+    text += " space " + one_line(surface.space);
+    return surface.unit.empty() ? text : text + " unit " + one_line(surface.unit);
+}
+
+/// 80 bytes; must not start with "solid" (that announces the text form). Short numbers come before its end: none is ever cut.
 std::string header(const Surface& surface) {
-    std::string text = std::string(kGenerator) + " tau " + number_text(surface.reported_tau) + " space " + one_line(surface.space);
-    if (!surface.unit.empty()) text += " unit " + one_line(surface.unit);
+    std::string text = header_words(surface, number_text);
+    if (text.size() > 80) text = header_words(surface, short_text);
     text.resize(80, '\0');
     return text;
 }

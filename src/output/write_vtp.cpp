@@ -1,4 +1,5 @@
-// VTP: VTK polygonal data. Keeps everything: 64-bit ids, float64 where needed, tau, space and unit as field data.
+// VTP: VTK polygonal data. Keeps everything: 64-bit ids, float64 where needed, tau, space, unit and interpolant as field data.
+#include "output/connectivity.h"
 #include "output/mesh_formats.h"
 #include "output/precision.h"
 #include "output/vtk_writer.h"
@@ -58,7 +59,7 @@ std::string field_data(AppendedArrays& arrays, const Surface& surface) {
     std::string text = "<FieldData>\n" + arrays.add<double>("Tau", 1, 1, [tau](ByteWriter& out) { out.put(tau); }, true);
     text += vtk_string("Space", surface.space);
     if (!surface.unit.empty()) text += vtk_string("Unit", surface.unit);
-    return text + "</FieldData>\n";
+    return text + vtk_elements(arrays, connectivity_of(surface)) + "</FieldData>\n";
 }
 
 }  // namespace

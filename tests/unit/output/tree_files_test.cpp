@@ -67,7 +67,8 @@ TEST_F(TreeFiles, csv_has_a_row_for_each_item) {
     EXPECT_EQ(csv_rows(write("elements.csv", TreeDetail::elements)).size(), static_cast<std::size_t>(analysis_->element_count()) + 1);
     const auto contours = csv_rows(write("contours.csv", TreeDetail::contours));
     EXPECT_EQ(contours.size(), static_cast<std::size_t>(analysis_->contour_arc_count()) + 1);
-    EXPECT_EQ(contours[0], (std::vector<std::string>{"id", "upper", "lower", "tau_high", "tau_low", "genus"}));
+    EXPECT_EQ(contours[0],
+              (std::vector<std::string>{"id", "upper", "lower", "tau_high", "tau_low", "genus", "interpolant", "tunnel_height"}));
     EXPECT_EQ(std::count_if(contours.begin(), contours.end(), [](const auto& row) { return row[2].empty(); }), 1);
 }
 
