@@ -54,7 +54,7 @@ Json document(const std::string& name, const VolumeInfo& info) {
 Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, double tunnel_height, Boundary boundary) {
     Json json = document(name, info);
     json["interpolant"] = name_of(interpolant);
-    if (interpolant == Interpolant::trilinear) json["tunnel_height"] = tunnel_height * std::abs(info.calibration.slope);
+    if (interpolant == Interpolant::trilinear) json["tunnel_height"] = info.calibration.reported_difference(tunnel_height);
     json["boundary"] = boundary == Boundary::closed ? "closed" : "open";
     return json;
 }

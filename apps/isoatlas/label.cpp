@@ -17,6 +17,7 @@ namespace {
 struct Labels {
     std::vector<std::uint32_t> of_voxel;
     std::int64_t count = 0;  ///< the largest label
+    LabelOrigin origin;
 };
 
 [[noreturn]] void too_many(const Arguments& arguments, std::int64_t count) {
@@ -29,7 +30,9 @@ Labels label_objects(const Arguments& arguments, const Volume& volume, const Con
     const Cut at =
         cut(volume, tau_of(arguments, volume),
             {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume), .label = true}, context);
-    Labels labels{std::vector<std::uint32_t>(at.label.size()), static_cast<std::int64_t>(at.objects.size())};
+    Labels labels{std::vector<std::uint32_t>(at.label.size()),
+                  static_cast<std::int64_t>(at.objects.size()),
+                  {.interpolant = at.interpolant, .tunnel_height = at.tunnel_height, .tau = at.tau}};
     for (std::size_t i = 0; i < at.label.size(); ++i) labels.of_voxel[i] = static_cast<std::uint32_t>(at.label[i] + 1);
     return labels;
 }
@@ -39,7 +42,9 @@ Labels label_zones(const Arguments& arguments, const Volume& volume, const Conte
         analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
     if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
     const std::int64_t voxels = volume.info.extent.voxels();
-    Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)), analysis.event_count()};
+    Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)),
+                  analysis.event_count(),
+                  {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
     for (std::int64_t i = 0; i < voxels; ++i)
         labels.of_voxel[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(analysis.zone(i) + 1);
     return labels;
@@ -64,10 +69,10 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
         arguments.zones ? label_zones(arguments, volume, session.context()) : label_objects(arguments, volume, session.context());
     {
         const WritingGuard guard(arguments.output);
-        write_labels(arguments.output, volume.info, labels.of_voxel);
+        write_labels(arguments.output, volume.info, labels.of_voxel, labels.origin);
     }
     if (arguments.json) {
-        Json json = document("label", volume.info, arguments.interpolant, tunnel_height_of(arguments, volume));
+        Json json = document("label", volume.info, labels.origin.interpolant, labels.origin.tunnel_height);
         json["output"] = arguments.output;
         json["labels_are"] = arguments.zones ? "zones" : "objects";
         json["tau"] = arguments.tau ? Json(*arguments.tau) : Json(nullptr);
@@ -76,7 +81,8 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
         return 0;
     }
     terminal.out() << arguments.output << ": " << counted(labels.count, arguments.zones ? "zone" : "object")
-                   << (arguments.zones ? " (label = event id + 1)\n" : " (label 1 is the largest, 0 is background)\n");
+                   << (arguments.zones ? " (label = event id + 1), " : " (label 1 is the largest, 0 is background), ")
+                   << interpolant_text(volume.info, labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
     if (arguments.tau) {
         terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),
                                   reading_options(arguments), *arguments.tau));

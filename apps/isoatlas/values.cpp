@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <isoatlas/output.h>
+
 namespace isoatlas::cli {
 namespace {
 
@@ -75,6 +77,10 @@ std::string seconds_text(double seconds) {
 std::string counted(std::int64_t count, const std::string& noun, const std::string& plural) {
     const std::string& many = plural.empty() ? noun + "s" : plural;
     return count_text(count) + " " + (count == 1 ? noun : many);
+}
+
+std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, double tunnel_height) {
+    return "interpolant " + describe(interpolant, info.calibration.reported_difference(tunnel_height));
 }
 
 std::string plain_measure_unit(const VolumeInfo& info) {

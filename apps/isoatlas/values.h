@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include <isoatlas/volume.h>
+#include <isoatlas/analysis.h>
 
 namespace isoatlas::cli {
 
@@ -38,6 +38,9 @@ private:
 [[nodiscard]] std::string seconds_text(double seconds);
 /// "1 object", "2 objects"; irregular plurals are given
 [[nodiscard]] std::string counted(std::int64_t count, const std::string& noun, const std::string& plural = "");
+
+/// "interpolant trilinear, tunnel height 0.25"; the height is given in stored values
+[[nodiscard]] std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, double tunnel_height);
 
 /// The unit of volumes (areas in 2D) that suits numbers up to `largest`: of mm3, cm3, dm3, ... Factor: multiply by it.
 struct MeasureUnit {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,16 @@ namespace isoatlas {
 /// .nrrd (gzip), .nii, .nii.gz, .tif. The smallest of uint8/uint16/uint32 that holds the largest label is used (NIfTI, TIFF too).
 /// Written to a temporary name and renamed. Throws Error: usage (unknown extension), resource.
 void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels);
+
+/// Of which analysis labels are, for the header of their file.
+struct LabelOrigin {
+    Interpolant interpolant;
+    double tunnel_height = 0;   ///< of CutOptions or AnalysisOptions: difference of stored values
+    std::optional<double> tau;  ///< stored value: objects at tau; none: zones
+};
+/// The same, and the file says the origin of its labels: as key/value pairs in .nrrd, as lines of ImageJ's description in .tif,
+/// "isoatlas objects at tau 0.5, trilinear" (seven digits) in NIfTI. `info` is that of the volume: it calibrates the values.
+void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const LabelOrigin& origin);
 
 /// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .nii.
 void write_volume(const std::string& path, const Volume& volume);

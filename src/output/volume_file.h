@@ -24,11 +24,11 @@ using KeyValues = std::vector<std::pair<std::string, std::string>>;
 // Each writes info.extent samples of info.type with the geometry, calibration and description of `info`, as far as the format has them.
 // Rectilinear grids become regular ones with the mean spacing; what a format cannot say is said in its comment or description.
 // Throws Error{resource}; nothing appears under `path` then.
-void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing);
+void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs = {});
 /// Space RAS (LPS and LAS are turned), lengths in m, mm or um. NIfTI-2 when sizes (above 32767) or numbers do not fit in NIfTI-1.
 void write_nifti(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing);
 /// One page a slice, deflate, voxel size for ImageJ; BigTIFF when the samples exceed 3.9 GB. Keeps neither origin nor directions.
-void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
+void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs = {});
 void write_metaimage(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
 /// NumPy: shape (z, y, x). Keeps no geometry.
 void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);

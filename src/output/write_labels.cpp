@@ -5,12 +5,15 @@
 
 #include "io/text.h"
 #include "isoatlas/output.h"
+#include "output/connectivity.h"
 #include "output/volume_file.h"
 
 namespace isoatlas {
 
 namespace {
 
+using output::Connectivity;
+using output::KeyValues;
 using output::Packing;
 using output::Put;
 using output::SampleFeed;
@@ -41,9 +44,26 @@ SampleFeed feed_of(std::span<const std::uint32_t> labels, ValueType type) {
     return [labels](const Put& put) { put(std::as_bytes(labels)); };
 }
 
-}  // namespace
+/// What the header says about the labels: a sentence and pairs.
+struct Meaning {
+    std::string sentence = "labels";
+    KeyValues pairs;
+};
 
-void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels) {
+Meaning meaning_of(const VolumeInfo& info, const LabelOrigin& origin) {
+    const Connectivity connectivity{origin.interpolant, info.calibration.reported_difference(origin.tunnel_height)};
+    const std::string end = ", " + describe(connectivity.interpolant, connectivity.tunnel_height);
+    Meaning meaning{"isoatlas zones" + end, {{"labels_are", "zones"}}};
+    if (origin.tau) {
+        const double tau = info.calibration.reported(*origin.tau);
+        meaning = {"isoatlas objects at tau " + output::short_text(tau) + end,
+                   {{"labels_are", "objects"}, {"tau", output::number_text(tau)}}};
+    }
+    for (const auto& pair : output::key_values(connectivity)) meaning.pairs.push_back(pair);
+    return meaning;
+}
+
+void write(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const Meaning& meaning) {
     if (static_cast<std::int64_t>(labels.size()) != info.extent.voxels()) {
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "the number of labels does not match the extent",
@@ -52,18 +72,26 @@ void write_labels(const std::string& path, const VolumeInfo& info, std::span<con
     VolumeInfo header;
     header.extent = info.extent;
     header.geometry = info.geometry;
-    header.description = "labels";
+    header.description = meaning.sentence;
     header.type = label_type(labels);
     const SampleFeed feed = feed_of(labels, header.type);
     const auto ends = [&](const char* end) { return io::ends_with_ignoring_case(path, end); };
-    if (ends(".nrrd")) return output::write_nrrd(path, header, feed, Packing::gzip);
+    if (ends(".nrrd")) return output::write_nrrd(path, header, feed, Packing::gzip, meaning.pairs);
     if (ends(".nii")) return output::write_nifti(path, header, feed, Packing::raw);
     if (ends(".nii.gz")) return output::write_nifti(path, header, feed, Packing::gzip);
-    if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, header, feed);
+    if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, header, feed, meaning.pairs);
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write labels",
                                    .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",
                                    .next = "change the extension of the output file"});
+}
+
+}  // namespace
+
+void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels) { write(path, info, labels, {}); }
+
+void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const LabelOrigin& origin) {
+    write(path, info, labels, meaning_of(info, origin));
 }
 
 }  // namespace isoatlas

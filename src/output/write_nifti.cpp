@@ -64,6 +64,22 @@ struct Contents {
     std::string description;
 };
 
+constexpr std::size_t kDescription = 79;  ///< and a zero
+
+/// At most `room` characters; if it must, it ends at a comma: a number cut short would be another number.
+std::string shortened(const std::string& text, std::size_t room) {
+    if (text.size() <= room) return text;
+    return text.substr(0, std::min(room, text.rfind(", ", room)));
+}
+
+std::string description_of(const VolumeInfo& info) {
+    const std::string text = one_line(info.description);
+    if (!is_rectilinear(info.geometry)) return shortened(text, kDescription);
+    if (text.empty()) return "rectilinear coordinates replaced by their mean spacing";
+    const std::string note = "; was rectilinear";
+    return shortened(text, kDescription - note.size()) + note;
+}
+
 bool is_default(const Geometry& geometry) { return geometry.direction == Geometry{}.direction && geometry.origin == Geometry{}.origin; }
 
 Contents contents_of(const VolumeInfo& info) {
@@ -87,8 +103,7 @@ Contents contents_of(const VolumeInfo& info) {
         contents.slope = info.calibration.slope;
         contents.intercept = info.calibration.intercept;
     }
-    contents.description =
-        is_rectilinear(info.geometry) ? "rectilinear coordinates replaced by their mean spacing" : one_line(info.description);
+    contents.description = description_of(info);
     return contents;
 }
 
@@ -111,7 +126,7 @@ Fields header_1(const Contents& contents, ValueType type) {
     fields.set(112, static_cast<float>(contents.slope));
     fields.set(116, static_cast<float>(contents.intercept));
     fields.set(123, static_cast<char>(contents.unit));
-    fields.text(148, 79, contents.description);
+    fields.text(148, kDescription, contents.description);
     fields.set(254, static_cast<std::int16_t>(contents.sform_code));
     set_rows<float>(fields, 280, contents);
     fields.text(344, 4, "n+1");
@@ -129,7 +144,7 @@ Fields header_2(const Contents& contents, ValueType type) {
     fields.set(168, static_cast<std::int64_t>(kHeader2 + kExtension));
     fields.set(176, contents.slope);
     fields.set(184, contents.intercept);
-    fields.text(240, 79, contents.description);
+    fields.text(240, kDescription, contents.description);
     fields.set(348, static_cast<std::int32_t>(contents.sform_code));
     set_rows<double>(fields, 400, contents);
     fields.set(500, static_cast<std::int32_t>(contents.unit));

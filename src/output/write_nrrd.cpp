@@ -53,7 +53,7 @@ std::string geometry_lines(const VolumeInfo& info) {
     return text + "\n";
 }
 
-std::string header_text(const VolumeInfo& info, Packing packing) {
+std::string header_text(const VolumeInfo& info, Packing packing, const KeyValues& pairs) {
     std::string text = std::string("NRRD0005\n# written by ") + kGenerator + "\n";
     if (is_rectilinear(info.geometry)) text += "# the grid was rectilinear: its coordinates are replaced by their mean spacing\n";
     if (!info.description.empty()) text += "content: " + one_line(info.description) + "\n";
@@ -67,14 +67,15 @@ std::string header_text(const VolumeInfo& info, Packing packing) {
         text += "calibration_slope:=" + number_text(info.calibration.slope) + "\n";
         text += "calibration_intercept:=" + number_text(info.calibration.intercept) + "\n";
     }
+    for (const auto& [key, value] : pairs) text += key + ":=" + value + "\n";
     return text + "\n";
 }
 
 }  // namespace
 
-void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing) {
+void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs) {
     AtomicFile file(path);
-    file.write(header_text(info, packing));
+    file.write(header_text(info, packing, pairs));
     if (packing == Packing::gzip) {
         GzipStream stream(file);
         samples([&](std::span<const std::byte> bytes) { stream.write(bytes); });

@@ -33,7 +33,7 @@ std::size_t bytes_of_type(FieldType type) {
 }
 
 /// What ImageJ reads. Without "images=": with it, ImageJ takes the pages for uncompressed and contiguous.
-std::string description_of(const VolumeInfo& info, const Geometry& geometry) {
+std::string description_of(const VolumeInfo& info, const Geometry& geometry, const KeyValues& pairs) {
     std::string text = "ImageJ=1.53t\n";
     if (info.extent.rank == 3) text += "slices=" + std::to_string(info.extent.size[2]) + "\n";
     const std::string unit = one_line(geometry.unit);
@@ -44,6 +44,7 @@ std::string description_of(const VolumeInfo& info, const Geometry& geometry) {
     }
     if (is_rectilinear(info.geometry)) text += "lost=rectilinear coordinates, replaced by their mean spacing\n";
     if (geometry.origin != Vec3{} || geometry.direction != Geometry{}.direction) text += "lost=origin and axis directions\n";
+    for (const auto& [key, value] : pairs) text += key + "=" + value + "\n";
     return text;
 }
 
@@ -134,8 +135,8 @@ private:
 
 class TiffWriter {
 public:
-    TiffWriter(const std::string& path, const VolumeInfo& info)
-        : file_(path), info_(info), geometry_(regular_geometry(info)), description_(description_of(info, geometry_)) {
+    TiffWriter(const std::string& path, const VolumeInfo& info, const KeyValues& pairs)
+        : file_(path), info_(info), geometry_(regular_geometry(info)), description_(description_of(info, geometry_, pairs)) {
         const std::int64_t row = info.extent.size[0] * static_cast<std::int64_t>(size_of(info.type));
         big_ = info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) > kBigTiffFrom;
         rows_ = std::clamp<std::int64_t>(kStripBytes / row, 1, info.extent.size[1]);
@@ -242,13 +243,13 @@ private:
 
 }  // namespace
 
-void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
+void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs) {
     if (std::max(info.extent.size[0], info.extent.size[1]) > std::int64_t{0xffffffff}) {
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "an axis has more than 2^32 samples, TIFF cannot say that",
                                        .next = "choose another format, e.g. .nrrd"});
     }
-    TiffWriter writer(path, info);
+    TiffWriter writer(path, info, pairs);
     samples([&](std::span<const std::byte> bytes) { writer.put(bytes); });
     writer.commit();
 }
