@@ -99,7 +99,7 @@ Counts count(const Surface& surface) {
 
 Json to_json(const Arguments& arguments, const Volume& volume, const Surface& surface, const Counts& counts,
              const std::vector<std::string>& warnings) {
-    Json json = document("extract", volume.info, arguments.interpolant, tunnel_height_of(arguments, volume), arguments.boundary);
+    Json json = document("extract", volume.info, surface.interpolant, surface.tunnel_height, arguments.boundary);
     json["tau"] = surface.reported_tau;
     json["style"] = arguments.style == SurfaceStyle::compact ? "compact" : "full";
     json["output"] = arguments.output;
@@ -114,12 +114,13 @@ Json to_json(const Arguments& arguments, const Volume& volume, const Surface& su
     return json;
 }
 
-void print_text(const Arguments& arguments, Terminal& terminal, const Surface& surface, const Counts& counts, const Scale& scale) {
+void print_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const Surface& surface, const Counts& counts) {
     terminal.out() << arguments.output << ": "
                    << (counts.segments > 0 ? counted(counts.segments, "segment") : counted(counts.triangles, "triangle")) << ", "
                    << counted(counts.objects, "object") << ", " << counted(counts.contours, "contour") << ", "
-                   << (counts.closed ? "closed" : "open at the border of the volume") << ", isovalue " << scale.text(surface.tau)
-                   << (surface.unit.empty() ? "" : ", in " + surface.unit) << '\n';
+                   << (counts.closed ? "closed" : "open at the border of the volume") << ", isovalue " << Scale(info).text(surface.tau)
+                   << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
+                   << interpolant_text(info, surface.interpolant, surface.tunnel_height) << '\n';
     if (counts.triangles > 0 && counts.closed) terminal.next("isoatlas verify " + shell_word(arguments.output));
 }
 
@@ -155,7 +156,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     if (arguments.json) {
         print(terminal, to_json(arguments, volume, surface, counts, warnings));
     } else {
-        print_text(arguments, terminal, surface, counts, Scale(volume.info));
+        print_text(arguments, terminal, volume.info, surface, counts);
     }
     return 0;
 }

@@ -93,11 +93,12 @@ std::string best_tau_text(const ObjectEntry& entry, const Analysis& analysis, co
     return scale.text_within(entry.best_tau, zone.tau_low, zone.tau_high);
 }
 
-void tell_table(Terminal& terminal, const ObjectTable& table, double slope) {
+void tell_table(Terminal& terminal, const VolumeInfo& info, const Analysis& analysis, const ObjectTable& table) {
     const auto lines = static_cast<std::int64_t>(table.entries.size());
-    const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * slope) : "";
-    terminal.say(fmt::format("{} in all; {} to look at, some objects at several isovalues{}", counted(table.branches, "maximum", "maxima"),
-                             counted(lines, "line"), noise));
+    const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * info.calibration.slope) : "";
+    terminal.say(fmt::format("{} in all; {} to look at, some objects at several isovalues{}; {}",
+                             counted(table.branches, "maximum", "maxima"), counted(lines, "line"), noise,
+                             interpolant_text(info, analysis.interpolant(), analysis.tunnel_height())));
 }
 
 void print_table_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis,
@@ -116,7 +117,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, const Volu
         row.push_back(entry.note);
         text.add(row);
     }
-    tell_table(terminal, table, volume.info.calibration.slope);
+    tell_table(terminal, volume.info, analysis, table);
     text.print(terminal);
     if (table.entries.empty()) {
         terminal.say("nothing rises above the noise; --all lists everything");
@@ -190,8 +191,9 @@ void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume
         text.add(row);
     }
     const auto all = static_cast<std::int64_t>(cut.objects.size());
-    terminal.say(fmt::format("{} with {} at {}", counted(all, "object"), counted(static_cast<std::int64_t>(cut.contours.size()), "contour"),
-                             *arguments.tau));
+    terminal.say(fmt::format("{} with {} at {}; {}", counted(all, "object"),
+                             counted(static_cast<std::int64_t>(cut.contours.size()), "contour"), *arguments.tau,
+                             interpolant_text(volume.info, cut.interpolant, cut.tunnel_height)));
     text.print(terminal);
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
     terminal.next(extract_command(arguments, cut.objects[0].id, fmt::format("{}", *arguments.tau)));

@@ -26,7 +26,11 @@ std::string genera_text(const std::vector<std::int64_t>& genera) {
 
 std::string position_text(const std::array<double, 3>& p) { return fmt::format("{:g},{:g},{:g}", p[0], p[1], p[2]); }
 
-void print_counts(Terminal& terminal, const Analysis& analysis) {
+std::string interpolant_of(const Volume& volume, const Analysis& analysis) {
+    return interpolant_text(volume.info, analysis.interpolant(), analysis.tunnel_height());
+}
+
+void print_counts(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     std::map<Criticality, std::int64_t> kinds;
     for (std::int64_t id = 0; id < analysis.event_count(); ++id) ++kinds[analysis.event(id).kind];
     Table table({{"kind", true}, {"events"}});
@@ -35,7 +39,7 @@ void print_counts(Terminal& terminal, const Analysis& analysis) {
     terminal.out() << '\n'
                    << counted(analysis.event_count(), "event") << " from " << counted(analysis.level_count(), "level") << ", "
                    << counted(analysis.contour_arc_count(), "contour") << " (arcs), "
-                   << counted(analysis.element_count(), "critical element") << "\n\n";
+                   << counted(analysis.element_count(), "critical element") << "; " << interpolant_of(volume, analysis) << "\n\n";
 }
 
 /// The largest zones, each indented below its nearest ancestor that is shown too.
@@ -117,7 +121,7 @@ void print_contours(Terminal& terminal, const Volume& volume, const Analysis& an
 }
 
 void print_summary(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
-    print_counts(terminal, analysis);
+    print_counts(terminal, volume, analysis);
     switch (arguments.detail) {
         case TreeDetail::events: print_largest_zones(terminal, volume, analysis); break;
         case TreeDetail::levels: print_levels(terminal, volume, analysis); break;
@@ -146,7 +150,7 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
     }
     if (!arguments.json) {
         terminal.out() << arguments.output << ": " << counted(analysis.event_count(), "event") << ", detail "
-                       << detail_name(arguments.detail) << '\n';
+                       << detail_name(arguments.detail) << ", " << interpolant_of(volume, analysis) << '\n';
         return;
     }
     Json json = document("tree-file", volume.info, analysis.interpolant(), analysis.tunnel_height());

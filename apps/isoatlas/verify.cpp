@@ -33,8 +33,8 @@ void print_json(Terminal& terminal, Json head, const std::vector<CheckResult>& c
     print(terminal, head);
 }
 
-/// One line per guarantee and a last one for all; with --quiet only what fails and the last one.
-void print_text(Terminal& terminal, const Arguments& arguments, const std::vector<CheckResult>& checks) {
+/// One line per guarantee and a last one for all, ended by `of_what`; with --quiet only what fails and the last one.
+void print_text(Terminal& terminal, const Arguments& arguments, const std::vector<CheckResult>& checks, const std::string& of_what) {
     const auto all = static_cast<std::int64_t>(checks.size());
     std::int64_t failed = 0;
     for (const CheckResult& check : checks) {
@@ -45,7 +45,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const std::vecto
     terminal.out() << arguments.file << ": "
                    << (failed == 0 ? "all " + counted(all, "guarantee") + " hold"
                                    : fmt::format("{} of {} FAIL", failed, counted(all, "guarantee")))
-                   << '\n';
+                   << of_what << '\n';
 }
 
 std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
@@ -61,24 +61,25 @@ std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
 int run_verify(const Arguments& arguments, Terminal& terminal) {
     Json head = document("verify");
     std::vector<CheckResult> checks;
+    std::string of_what;
     if (is_mesh(arguments.file)) {
         head["what"] = "mesh";
         checks = check_mesh(arguments, head);
     } else {
         Session session(arguments, terminal);
         const Volume volume = session.load();
-        checks = verify_volume(
-            volume,
-            {.levels = arguments.levels, .interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)},
-            session.context());
-        head = document("verify", volume.info, arguments.interpolant, tunnel_height_of(arguments, volume));
+        const double height = tunnel_height_of(arguments, volume);
+        checks = verify_volume(volume, {.levels = arguments.levels, .interpolant = arguments.interpolant, .tunnel_height = height},
+                               session.context());
+        of_what = ", " + interpolant_text(volume.info, arguments.interpolant, height);
+        head = document("verify", volume.info, arguments.interpolant, height);
         head["what"] = "volume";
         head["levels"] = arguments.levels;
     }
     if (arguments.json) {
         print_json(terminal, std::move(head), checks);
     } else {
-        print_text(terminal, arguments, checks);
+        print_text(terminal, arguments, checks, of_what);
     }
     if (exit_code(checks) != 0) terminal.warn(arguments.file + ": a guarantee does not hold");
     return exit_code(checks);

@@ -228,6 +228,28 @@ class Results(CliTest):
         self.assertEqual(told["interpolant"], "trilinear")
         self.run_ok("verify", "tunnels.ply")
 
+    def test_every_document_file_and_text_says_the_interpolant(self):
+        tau = ["--tau", "0.5"]
+        runs = [["objects", "noise.nrrd"], ["objects", "noise.nrrd", *tau], ["tree", "noise.nrrd"], ["verify", "noise.nrrd", "--levels", "2"]]
+        runs += [["extract", "noise.nrrd", *tau, "-o", "i" + extension] for extension in MESHES]
+        runs += [["tree", "noise.nrrd", "-o", "i" + extension] for extension in (".json", ".graphml", ".csv", ".vtu")]
+        runs += [["label", "noise.nrrd", what, *value, "-o", "i" + extension] for extension in (".nrrd", ".nii", ".tif")
+                 for what, *value in (tau, ["--zones"])]
+        for name, more in (("faces", []), ("trilinear", []), ("trilinear", ["--tunnel-height", "0.25"])):
+            codes = " ".join(str(ord(letter)) for letter in name)   # how VTK writes a text
+            for run in runs:
+                arguments = [*run, "--interpolant", name, *more]
+                document = self.run_json(*arguments)
+                self.assertEqual(document["interpolant"], name, arguments)
+                self.assertEqual(document.get("tunnel_height"), None if name == "faces" else 0.25 if more else 0, arguments)
+                done = self.run_ok(*arguments)
+                self.assertRegex(done.stdout + done.stderr, f"interpolant {name}" + (", tunnel height 0.25" if more else "") + "\n")
+                if "-o" in run:
+                    head = (self.folder / run[-1]).read_bytes().decode("latin-1")
+                    self.assertIn(codes if run[-1] in ("i.vtp", "i.vtu") else name, head, arguments)
+                    if more:
+                        self.assertRegex(head, "(tunnel.height\\W*|TunnelHeight|,trilinear,)" + ("" if codes in head else "0.25"), arguments)
+
     def test_verify_finds_a_hole(self):
         self.run_ok("extract", "chain.nrrd", "--tau", "0.5", "-o", "whole.obj")
         lines = (self.folder / "whole.obj").read_text().splitlines()
