@@ -141,7 +141,9 @@ double side_sign(const std::array<double, 8>& v, int f) {
     const double a = v[corner[0]], b = v[corner[1]], c = v[corner[2]], d = v[corner[3]];
     const double da = v[corner[0] ^ across] - a, db = v[corner[1] ^ across] - b;
     const double dc = v[corner[2] ^ across] - c, dd = v[corner[3] ^ across] - d;
-    return (c - b) * (c - d) * da + (a - d) * (c - d) * db + (a - d) * (a - b) * dc + (c - b) * (a - b) * dd;
+    const double at_a = (c - b) * (c - d) * da, at_c = (a - d) * (a - b) * dc;
+    const double at_b = (a - d) * (c - d) * db, at_d = (c - b) * (a - b) * dd;
+    return (at_a + at_c) + (at_b + at_d);  // the same bits for a turned or mirrored face
 }
 
 double tunnel_height_of(Interpolant interpolant, double tunnel_height) {

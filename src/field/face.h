@@ -17,7 +17,8 @@ constexpr Diagonal high_diagonal(T a, T b, T c, T d) {
 }
 
 /// Value of the face point: the saddle of the bilinear interpolant, clamped between the highest Low and the lowest High.
-/// Always in this corner order and without contraction: the same bits everywhere. Exact in order and equality for 8 and 16 bit samples.
+/// Without contraction, and written so that turning or mirroring the face changes no bit. Exact in order and equality for 8 and 16 bit
+/// samples.
 template <class T>
 constexpr double disambiguation_value(T corner_a, T corner_b, T corner_c, T corner_d, Diagonal highs) {
     const double a = static_cast<double>(corner_a), b = static_cast<double>(corner_b);
@@ -26,7 +27,7 @@ constexpr double disambiguation_value(T corner_a, T corner_b, T corner_c, T corn
     const double lows_1 = ac ? b : a, lows_2 = ac ? d : c, highs_1 = ac ? a : b, highs_2 = ac ? c : d;
     const double low = lows_1 > lows_2 ? lows_1 : lows_2;
     const double high = highs_1 < highs_2 ? highs_1 : highs_2;
-    double s = (a * c - b * d) / (((a + c) - b) - d);
+    double s = (a * c - b * d) / ((a + c) - (b + d));
     if (!(s >= low)) s = low;
     if (s > high) s = high;
     return s;

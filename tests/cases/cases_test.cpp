@@ -3,19 +3,27 @@
 
 #include <algorithm>
 
+#include "oracle/bodies.h"
 #include "oracle/case_file.h"
 #include "oracle/compare.h"
 
 namespace oracle {
 namespace {
 
+using isoatlas::Interpolant;
+
 class Cases : public testing::TestWithParam<NamedCase> {};
 
 struct Answers {
+    Interpolant interpolant;
     Elements elements;
     isoatlas::Volume volume;
     isoatlas::Analysis analysis;
-    explicit Answers(const Grid& grid) : elements(grid), volume(to_volume(grid)), analysis(isoatlas::analyse(volume)) {}
+    Answers(const Grid& grid, Interpolant i)
+        : interpolant(i),
+          elements(elements_of(grid, i)),
+          volume(to_volume(grid)),
+          analysis(isoatlas::analyse(volume, {.interpolant = i})) {}
 };
 
 std::string kind_word(isoatlas::Criticality kind) {
@@ -49,7 +57,7 @@ bool has_event(const isoatlas::Analysis& analysis, const Expectation& e) {
 }
 
 void check_cut(const Answers& answers, const Expectation& e) {
-    const isoatlas::Cut cut = isoatlas::cut(answers.volume, e.value);
+    const isoatlas::Cut cut = isoatlas::cut(answers.volume, e.value, {.interpolant = answers.interpolant});
     Index chi = 0;
     for (const isoatlas::CutObject& object : cut.objects) chi += object.chi;
     std::vector<Index> genera, tree_genera;
@@ -67,24 +75,31 @@ void check_cut(const Answers& answers, const Expectation& e) {
     EXPECT_EQ(compare_cut(answers.elements, e.value, cut), "");
 }
 
+void check_expectation(const Answers& answers, const Expectation& e) {
+    if (e.what == "at") {
+        check_cut(answers, e);
+    } else if (e.what == "level") {
+        EXPECT_TRUE(has_level(answers.analysis, e)) << canonical_text(answers.analysis);
+    } else if (e.what == "event") {
+        EXPECT_TRUE(has_event(answers.analysis, e)) << canonical_text(answers.analysis);
+    } else {
+        EXPECT_EQ(count(answers.analysis, e.what), static_cast<Index>(e.value)) << e.what;
+    }
+}
+
 TEST_P(Cases, HaveTheirNumbers) {
     const NamedCase& c = GetParam();
-    const Answers answers(c.grid);
-    for (const Expectation& e : c.expectations) {
-        SCOPED_TRACE(c.file + ":" + std::to_string(e.line));
-        if (e.what == "at") {
-            check_cut(answers, e);
-        } else if (e.what == "level") {
-            EXPECT_TRUE(has_level(answers.analysis, e)) << canonical_text(answers.analysis);
-        } else if (e.what == "event") {
-            EXPECT_TRUE(has_event(answers.analysis, e)) << canonical_text(answers.analysis);
-        } else {
-            EXPECT_EQ(count(answers.analysis, e.what), static_cast<Index>(e.value)) << e.what;
+    for (const Interpolant interpolant : {Interpolant::faces, Interpolant::trilinear}) {
+        const Answers answers(c.grid, interpolant);
+        for (const Expectation& e : c.expectations) {
+            if (e.interpolant && *e.interpolant != interpolant) continue;
+            SCOPED_TRACE(c.file + ":" + std::to_string(e.line) + ", " + isoatlas::name_of(interpolant));
+            check_expectation(answers, e);
         }
+        const Result expected = analyse(answers.elements);
+        EXPECT_TRUE(expected.consistent);
+        EXPECT_EQ(compare(expected, answers.analysis), "");
     }
-    const Result expected = analyse(answers.elements);
-    EXPECT_TRUE(expected.consistent);
-    EXPECT_EQ(compare(expected, answers.analysis), "");
 }
 
 std::string test_name(const testing::TestParamInfo<NamedCase>& info) {

@@ -27,7 +27,7 @@ class Errors(CliTest):
         self.run_error(2, "extract", "v.nrrd", "--tau", "0.5", "--boundary", "ajar", "-o", "x.ply", says="ajar")
         self.run_error(2, "info", "v.nrrd", "--interpolant", "faces")
         self.run_error(2, "objects", "v.nrrd", "--interpolant", "linear", says="linear")
-        self.run_error(2, "objects", "v.nrrd", "--tunnel-height", "1", next_says="trilinear")
+        self.run_error(2, "objects", "v.nrrd", "--interpolant", "faces", "--tunnel-height", "1", next_says="trilinear")
         for height in ("-1", "nan", "101%", "high"):
             self.run_error(2, "objects", "v.nrrd", "--interpolant", "trilinear", "--tunnel-height=" + height, says=height)
         self.run_error(2, "objects", "v.nrrd", "--missing", "above", says="above")

@@ -64,7 +64,7 @@ class Results(CliTest):
 
     def test_objects_at_tau_have_the_known_topology(self):
         at = self.run_json("objects", "shells.nrrd", "--tau", "0.5")
-        self.assertEqual((at["schema"], at["interpolant"], at["boundary"]), ("isoatlas/objects/1", "faces", "closed"))
+        self.assertEqual((at["schema"], at["interpolant"], at["boundary"]), ("isoatlas/objects/1", "trilinear", "closed"))
         self.assertEqual([(o["chi"], o["b1"], o["b2"]) for o in at["objects"]], [(2, 0, 1)] * 2)
         for o in at["objects"]:
             self.assertEqual([(c["genus"], c["shell"]) for c in o["contours"]], [(0, "outer"), (0, "inner")])

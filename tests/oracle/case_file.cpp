@@ -65,9 +65,13 @@ private:
         if (word != expected) fail("'" + expected + "' expected, not '" + word + "'");
     }
 
-    void directive(NamedCase& c, const std::string& word, std::istringstream& words) {
+    void directive(NamedCase& c, std::string word, std::istringstream& words) {
         const std::set<std::string> counts{"elements", "levels", "events", "maxima"};
         Expectation e;
+        if (word == "faces" || word == "trilinear") {
+            e.interpolant = word == "faces" ? isoatlas::Interpolant::faces : isoatlas::Interpolant::trilinear;
+            words >> word;
+        }
         e.what = word;
         e.line = line_;
         if (word == "dims") {

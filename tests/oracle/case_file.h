@@ -8,23 +8,27 @@
 //   level V in G ... out G ...     this level exists (genera sorted)
 //   event V KIND DCHI              this event exists; KIND as in the tree output, "genus change" is written genus
 //   at TAU objects N chi C genera G ...   what a cut finds: C summed over the objects, genera of all contours (2D: 0s), sorted
+//   faces ... | trilinear ...      the line is true for this interpolant only
 //   # ...                          a comment
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "isoatlas/analysis.h"
 #include "oracle/oracle.h"
 
 namespace oracle {
 
 struct Expectation {
-    std::string what;                  ///< "elements", "level", "event", "at", ...
-    double value = 0;                  ///< count, isovalue or tau
-    std::string kind;                  ///< of an event
-    std::vector<Index> first, second;  ///< level: in, out; event: {delta_chi}; at: {objects, chi}, genera
+    std::optional<isoatlas::Interpolant> interpolant;  ///< none: holds for both
+    std::string what;                                  ///< "elements", "level", "event", "at", ...
+    double value = 0;                                  ///< count, isovalue or tau
+    std::string kind;                                  ///< of an event
+    std::vector<Index> first, second;                  ///< level: in, out; event: {delta_chi}; at: {objects, chi}, genera
     int line = 0;
 };
 

@@ -50,7 +50,7 @@ bool make_face(const Grid& grid, const std::vector<Element>& vertex, Index a, in
     const Index lowest_high = above(e.high[0], e.high[1]) ? e.high[1] : e.high[0];
     const double va = grid.value[a], vb = grid.value[b], vc = grid.value[c], vd = grid.value[d];
     const double lo = grid.value[highest_low], hi = grid.value[lowest_high];
-    double s = (va * vc - vb * vd) / (((va + vc) - vb) - vd);
+    double s = (va * vc - vb * vd) / ((va + vc) - (vb + vd));
     if (!(s >= lo)) s = lo;
     if (s > hi) s = hi;
     e.value = s + 0.0;

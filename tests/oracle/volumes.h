@@ -116,12 +116,6 @@ inline Grid without_ties(Grid grid) {
     return grid;
 }
 
-/// The values as integers below 2^15: face points are then exact, so that they do not depend on the axes (theory.md section 9).
-inline Grid as_integers(Grid grid) {
-    for (double& v : grid.value) v = std::round(v * 64);
-    return grid;
-}
-
 /// Whether two elements share a value.
 inline bool has_ties(const Elements& elements) {
     for (Index r = 1; r < elements.count(); ++r) {

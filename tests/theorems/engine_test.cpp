@@ -80,7 +80,7 @@ RC_GTEST_PROP(Engine, EventTreeWithoutTiesIsTheFloodingTree, ()) {
 }
 
 RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
-    const Grid grid = as_integers(*arbitrary_grid(7, 120));
+    const Grid grid = *arbitrary_grid(7, 120);
     isoatlas::Context context;
     context.threads = 1;
     const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant()};

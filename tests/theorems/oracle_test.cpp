@@ -45,7 +45,7 @@ RC_GTEST_PROP(Oracle, VerticesFollowTheOctahedralRule, ()) {
 }
 
 RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) {
-    const Grid grid = as_integers(*arbitrary_grid(5, 60));
+    const Grid grid = *arbitrary_grid(5, 60);
     const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
     const Grid other = turned(grid, order, mirror);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
