@@ -185,6 +185,9 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.missing.action == MissingPolicy::Action::replace) text += fmt::format(" --missing {}", arguments.missing.value);
     if (arguments.missing.no_data) text += fmt::format(" --no-data {}", *arguments.missing.no_data);
     if (arguments.voxel_units) text += " --voxel";
+    if (arguments.interpolant == Interpolant::faces) text += " --interpolant faces";
+    if (arguments.tunnel_height > 0)
+        text += fmt::format(" --tunnel-height {}{}", arguments.tunnel_height, arguments.tunnel_height_in_percent ? "%" : "");
     return text;
 }
 
