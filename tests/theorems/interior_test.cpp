@@ -93,21 +93,87 @@ void check_all(std::array<Index, 3> size, int levels) {
 TEST(Interior, FourValued2x2x2) { check_all({2, 2, 2}, 4); }
 TEST(Interior, TwoValued3x2x2) { check_all({3, 2, 2}, 2); }
 
+struct Truth {
+    Index isovalues = 0, faces_differ = 0;
+    void add(const Grid& grid, const Grid& fine, double gap) {
+        const FinerComparison one = compare_with_finer(grid, fine, gap);
+        ASSERT_EQ(one.difference, "") << grid;
+        isovalues += one.isovalues, faces_differ += one.faces_differ;
+    }
+};
+
+class Function : public testing::Test {
+protected:
+    Grid uniform(Index side) {
+        return filled(side, [this] { return std::uniform_real_distribution<>(0, 1)(random_); });
+    }
+    Grid integers(Index side, int levels) {
+        return filled(side, [this, levels] { return std::uniform_int_distribution<>(0, levels - 1)(random_); });
+    }
+    /// Random samples in a layer of Lows.
+    Grid closed(Index side) {
+        Grid grid = uniform(side);
+        for (Index v = 0; v < grid.voxels(); ++v) {
+            for (const Index x : grid.voxel(v)) {
+                if (x == 0 || x == side - 1) grid.value[v] = -1;
+            }
+        }
+        return grid;
+    }
+
+private:
+    template <class Next>
+    static Grid filled(Index side, Next&& next) {
+        Grid grid{3, {side, side, side}, {}};
+        for (Index v = 0; v < grid.voxels(); ++v) grid.value.push_back(next());
+        return grid;
+    }
+    std::mt19937_64 random_{20261121};
+};
+
 // The truth: the function itself, sampled so finely that faces alone decide. Isovalues that lie well between two critical values.
-TEST(Interior, FinerSamplesOfTheFunctionHaveTheSameTopology) {
-    std::mt19937_64 random(20261121);
-    FinerComparison all;
-    for (const auto& [side, steps, volumes] : {std::tuple<Index, Index, int>{2, 24, 400}, {3, 16, 60}, {4, 16, 15}}) {
+TEST_F(Function, FinerSamplesHaveTheSameTopology) {
+    Truth truth;
+    for (const auto& [side, steps, volumes] : {std::tuple<Index, Index, int>{2, 24, 400}, {2, 64, 25}, {3, 16, 60}, {4, 16, 15}}) {
         for (int i = 0; i < volumes; ++i) {
-            Grid grid{3, {side, side, side}, {}};
-            for (Index v = 0; v < grid.voxels(); ++v) grid.value.push_back(std::uniform_real_distribution<>(0, 1)(random));
-            const FinerComparison one = compare_with_finer(grid, steps, 0.01);
-            ASSERT_EQ(one.difference, "") << grid;
-            all.isovalues += one.isovalues, all.faces_differ += one.faces_differ;
+            const Grid grid = uniform(side);
+            ASSERT_NO_FATAL_FAILURE(truth.add(grid, finer(grid, steps), 0.01));
         }
     }
-    EXPECT_GT(all.isovalues, 1500);
-    EXPECT_GT(all.faces_differ, 30);  // else the test would prove nothing
+    EXPECT_GT(truth.isovalues, 1500);
+    EXPECT_GT(truth.faces_differ, 30);  // else the test would prove nothing
+}
+
+constexpr double kNarrow = 1e-9;  // rounding moves values of the finer grid by less
+
+TEST_F(Function, CutAtItsSaddlesACellHasTheSameTopology) {
+    Truth truth;
+    for (int i = 0; i < 300000; ++i) {
+        const Grid grid = i % 2 == 0 ? uniform(2) : integers(2, 3 + i % 14);
+        ASSERT_NO_FATAL_FAILURE(truth.add(grid, cut_at_saddles(grid), kNarrow));
+    }
+    EXPECT_GT(truth.isovalues, 500000);
+    EXPECT_GT(truth.faces_differ, 25000);
+}
+
+TEST_F(Function, CutAtItsSaddlesEveryFourValuedCellHasTheSameTopology) {
+    Truth truth;
+    for (int code = 0; code < 1 << 16; ++code) {
+        Grid grid{3, {2, 2, 2}, {}};
+        for (int k = 0; k < 8; ++k) grid.value.push_back(code >> 2 * k & 3);
+        ASSERT_NO_FATAL_FAILURE(truth.add(grid, cut_at_saddles(grid), kNarrow));
+    }
+    EXPECT_GT(truth.faces_differ, 1000);
+}
+
+TEST_F(Function, CutAtItsSaddlesAVolumeHasTheSameTopology) {
+    Truth truth;
+    for (int i = 0; i < 15000; ++i) {
+        const Grid grid = i % 3 == 0 ? closed(5) : i % 3 == 1 ? uniform(4) : integers(4, 3 + i % 8);
+        ASSERT_NO_FATAL_FAILURE(truth.add(grid, cut_at_saddles(grid), kNarrow));
+    }
+    EXPECT_GT(truth.isovalues, 200000);
+    EXPECT_GT(truth.faces_differ, 50000);
 }
 
 RC_GTEST_PROP(Interior, TurnedAndMirroredVolumesHaveTheSameChanges, ()) {

@@ -7,8 +7,10 @@
 #include <bit>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "critical/body_saddle.h"
+#include "critical/open_tunnel.h"
 #include "critical/tunnels.h"
 
 namespace isoatlas {
@@ -166,6 +168,60 @@ TEST_F(Cells, NegatedCellsHaveTheOtherBodies) {
             ASSERT_EQ(bodies.opening->face, mirrored.closing->face);
         }
     }
+}
+
+/// The High corners and the joined faces of a cell at an isovalue.
+struct Configuration {
+    int pattern = 0, joined = 0;
+    Configuration(const CellElements& cell, double tau) {
+        for (int k = 0; k < 8; ++k) pattern |= (cell.value[k] >= tau) << k;
+        for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+            const int f = std::countr_zero(rest);
+            if (face_is_split(pattern, f)) joined |= (cell.face_value[f] >= tau) << f;
+        }
+    }
+};
+
+// The table of cases with a tunnel, derived anew: the configurations of random cells between a face whose sign disagrees with its default
+// type and the saddle inside. No other occurs, each of them occurs.
+TEST_F(Cells, TunnelsOccurInExactlyTheCasesOfTheTable) {
+    std::vector<int> seen(256 * 64, 0);  // bit 0: a tunnel of Highs was seen; bit 1: one of Lows
+    for (int i = 0; i < 1500000; ++i) {
+        const std::array<double, 8> value = uniform();
+        const CellElements cell = cell_of(value);
+        const unsigned types = default_face_types(cell);
+        for (const bool joins_highs : {true, false}) {
+            const std::optional<BodySaddle> saddle = body_saddle(joins_highs ? value : negated(value));
+            if (!saddle) continue;
+            for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+                const int f = std::countr_zero(rest);
+                if (((types >> f & 1) != 0) == joins_highs || (side_sign(value, f) > 0) != joins_highs) continue;
+                const double body = joins_highs ? saddle->value : -saddle->value;
+                const double t = std::uniform_real_distribution<>(0.001, 0.999)(random_);
+                const Configuration at(cell, cell.face_value[f] + t * (body - cell.face_value[f]));
+                seen[64 * at.pattern + at.joined] |= joins_highs ? 1 : 2;
+            }
+        }
+    }
+    int cases = 0, with_tunnel = 0, patterns = 0, with_both = 0;
+    for (int pattern = 1; pattern < 255; ++pattern) {
+        bool any = false;
+        for (int joined = 0; joined < 64; ++joined) {
+            bool occurs = true;
+            for (int f = 0; f < 6; ++f) occurs = occurs && ((joined >> f & 1) == 0 || face_is_split(pattern, f));
+            if (!occurs) continue;
+            ++cases;
+            ASSERT_EQ(may_hold_tunnel(pattern, joined), seen[64 * pattern + joined] != 0) << pattern << " " << joined;
+            with_tunnel += may_hold_tunnel(pattern, joined);
+            with_both += seen[64 * pattern + joined] == 3;
+            any = any || may_hold_tunnel(pattern, joined);
+        }
+        patterns += any;
+    }
+    EXPECT_EQ(cases, 654);
+    EXPECT_EQ(with_tunnel, 140);
+    EXPECT_EQ(patterns, 104);
+    EXPECT_EQ(with_both, 8);
 }
 
 TEST(Tunnels, SixShapesUpToSymmetry) {
