@@ -83,7 +83,7 @@ ordered_json record_of(const std::string& name, const Arguments& arguments, bool
     const Timing timing = measure(volume, options, answer);
     const std::int64_t voxels = volume.info.extent.voxels();
     const std::int64_t peak = peak_of(name, arguments);
-    const std::int64_t allowed = 12 * voxels + 64 * answer.elements;
+    const std::int64_t allowed = 12 * voxels + 64 * timing.trilinear_elements;
 
     ordered_json record{{"volume", name},
                         {"size", volume.info.extent.size},
@@ -95,6 +95,7 @@ ordered_json record_of(const std::string& name, const Arguments& arguments, bool
                         {"seconds", timing.seconds},
                         {"seconds_one_thread", timing.seconds_serial},
                         {"trilinear_ratio", timing.trilinear_ratio},
+                        {"trilinear_elements", timing.trilinear_elements},
                         {"peak_bytes", peak},
                         {"peak_bytes_per_voxel", static_cast<double>(peak) / static_cast<double>(voxels)},
                         {"peak_over_allowed", static_cast<double>(peak) / static_cast<double>(allowed)}};

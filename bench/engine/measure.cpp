@@ -99,6 +99,7 @@ Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& a
         timing.phases = std::move(last.phases);
         const Run interior = run(volume, options.threads, isoatlas::Interpolant::trilinear);
         if (interior.answer.maxima != answer.maxima) throw std::runtime_error("wrong answer: the interpolant changes the maxima");
+        timing.trilinear_elements = interior.answer.elements;
         trilinear.push_back(interior.seconds / last.seconds);
         const Run one = run(volume, 1);
         require_equal(answer, one.answer);

@@ -16,6 +16,7 @@ struct Timing {
     double ratio = 0;           ///< median over the pairs of analyse / sort
     double ratio_low = 0, ratio_high = 0;
     double trilinear_ratio = 0;  ///< median over the pairs of analyse with the trilinear interpolant / with faces only
+    std::int64_t trilinear_elements = 0;
     std::vector<std::pair<std::string, double>> phases;  ///< seconds by phase of the last parallel run, as the engine reports them
 };
 

@@ -11,15 +11,17 @@ using isoatlas::ValueType;
 using isoatlas::Volume;
 
 struct Field {
+    const char* phantom;
     double noise;
     std::int64_t grey_levels;
     ValueType type;
 };
 
 Field field_of(const std::string& kind) {
-    if (kind == "smooth") return {0, 0, ValueType::f32};
-    if (kind == "noisy") return {0.02, 0, ValueType::f32};
-    if (kind == "u8") return {0, 256, ValueType::u8};
+    if (kind == "smooth") return {"random-field", 0, 0, ValueType::f32};
+    if (kind == "noisy") return {"random-field", 0.02, 0, ValueType::f32};
+    if (kind == "u8") return {"random-field", 0, 256, ValueType::u8};
+    if (kind == "white") return {"noise", 0, 0, ValueType::f32};
     throw std::runtime_error("no such field: " + kind);
 }
 
@@ -42,7 +44,7 @@ Volume make_field(const std::string& kind, std::int64_t size, const Sources& sou
     Volume volume = isoatlas::make_volume({.rank = 3, .size = {size, size, size}}, field.type);
     const std::string path = sources.cache + "/" + kind + "-" + std::to_string(size) + ".raw";
     if (read_cached(path, volume)) return volume;
-    volume = isoatlas::make_phantom("random-field", {.size = size, .seed = 1, .noise = field.noise, .quantise = field.grey_levels});
+    volume = isoatlas::make_phantom(field.phantom, {.size = size, .seed = 1, .noise = field.noise, .quantise = field.grey_levels});
     write_cache(path, volume);
     return volume;
 }
@@ -58,8 +60,8 @@ Volume make(const std::string& name, const Sources& sources) {
 }
 
 std::vector<std::string> default_names(const Sources& sources) {
-    std::vector<std::string> names{"smooth-256", "noisy-256", "u8-256"};
-    for (const char* name : {"bonsai", "engine", "heptane", "frog_labels"}) {
+    std::vector<std::string> names{"smooth-256", "noisy-256", "u8-256", "white-256"};
+    for (const char* name : {"bonsai", "engine", "headsq", "seg3d_mr", "pet", "heptane", "frog_labels"}) {
         if (!sources.data.empty() && std::filesystem::exists(data_path(name, sources))) names.emplace_back(name);
     }
     return names;

@@ -14,10 +14,10 @@ struct Sources {
     std::string data;   ///< folder with NAME/NAME.nrrd; empty: no real data
 };
 
-/// Names: smooth-N, noisy-N (2 % uniform noise), u8-N (256 grey levels) for a size N, and data set names.
+/// Names: smooth-N, noisy-N (2 % uniform noise), u8-N (256 grey levels), white-N (white noise) for a size N, and data set names.
 [[nodiscard]] isoatlas::Volume make(const std::string& name, const Sources& sources);
 
-/// The names of the default run: the three fields at 256^3 and the data sets that are there.
+/// The names of the default run: the fields and the data sets that are there.
 [[nodiscard]] std::vector<std::string> default_names(const Sources& sources);
 
 }  // namespace bench

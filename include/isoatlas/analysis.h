@@ -131,7 +131,7 @@ private:
 
 /// The whole engine: classify, sort the critical elements, join and split tree, contour tree, genus, events, zones.
 /// Cost: O(voxels + c log c) time for c critical elements; memory at most 12 bytes a voxel plus 64 bytes a critical element
-/// beyond the samples. Source: theory.md sections 1-7.
+/// beyond the samples, and some 40 MB whatever the size. Source: theory.md sections 1-7, trilinear.md.
 [[nodiscard]] Analysis analyse(const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

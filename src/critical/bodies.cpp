@@ -1,4 +1,3 @@
-// Notation: a cut of the cell is the rank of its lowest High element. The class of an element: 1 High, 0 Low.
 #include "critical/bodies.h"
 
 #include <algorithm>
@@ -13,117 +12,100 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kElements = 14;  // of a cell: corners 0..7, face f is 8 + f
+/// The High corners and faces of a cell at one cut.
+struct CellCut {
+    int pattern = 0, joined = 0;
 
-/// A cell by the ranks of its elements, so that it can be turned upside down.
-struct RankedCell {
-    std::array<double, 8> value;
-    std::array<double, 6> face_value;
-    std::array<int, kElements> rank;  ///< of an element; faces that are not ambiguous have none
-    std::array<int, kElements> at;    ///< element of a rank
-    int count;
-    unsigned ambiguous, bd_high;
+    void lower(int element) { element < 8 ? pattern &= ~(1 << element) : joined &= ~(1 << (element - 8)); }
+};
 
-    [[nodiscard]] double value_of(int element) const { return element < 8 ? value[element] : face_value[element - 8]; }
-    [[nodiscard]] int pattern(int cut) const {
-        int high = 0;
-        for (int k = 0; k < 8; ++k) high |= (rank[k] >= cut) << k;
-        return high;
+/// A cell as it stands or upside down: values negated, Highs and Lows exchanged. Elements: corners 0..7, face f is 8 + f.
+class CellView {
+public:
+    CellView(const CellElements& cell, bool is_upside_down) : cell_(cell), is_upside_down_(is_upside_down) {}
+
+    [[nodiscard]] double value(int element) const { return is_upside_down_ ? -stored(element) : stored(element); }
+    [[nodiscard]] bool is_above(int element, int other) const {
+        if (stored(element) != stored(other)) return (stored(element) > stored(other)) != is_upside_down_;
+        return element_below(cell_, other, element) != is_upside_down_;
     }
-    [[nodiscard]] int joined(int cut) const {
-        int faces = 0;
-        for (unsigned rest = ambiguous; rest != 0; rest &= rest - 1) {
-            const int f = std::countr_zero(rest);
-            faces |= (rank[8 + f] >= cut) << f;
+    /// The cut just above face f.
+    [[nodiscard]] CellCut above_face(int f) const {
+        CellCut cut;
+        for (int k = 0; k < 8; ++k) cut.pattern |= is_above(k, 8 + f) << k;
+        for (unsigned rest = cell_.ambiguous & ~(1U << f); rest != 0; rest &= rest - 1) {
+            const int g = std::countr_zero(rest);
+            cut.joined |= is_above(8 + g, 8 + f) << g;
         }
-        return faces;
+        return cut;
     }
-    [[nodiscard]] std::array<int, 2> highs(int f) const {
-        const int first = bd_high >> f & 1 ? 1 : 0;
-        return {kFaceCorners[f][first], kFaceCorners[f][first + 2]};
-    }
-    [[nodiscard]] std::array<int, 2> lows(int f) const {
-        const int first = bd_high >> f & 1 ? 0 : 1;
+    [[nodiscard]] std::array<int, 2> diagonal(int f, bool high) const {
+        const int first = ((cell_.bd_high >> f & 1) != 0) != is_upside_down_ ? (high ? 1 : 0) : (high ? 0 : 1);
         return {kFaceCorners[f][first], kFaceCorners[f][first + 2]};
     }
     /// Does the point of f coincide in value with a corner of f?
     [[nodiscard]] bool is_tied(int f) const {
-        return std::any_of(kFaceCorners[f].begin(), kFaceCorners[f].end(), [&](int k) { return value[k] == face_value[f]; });
+        return std::any_of(kFaceCorners[f].begin(), kFaceCorners[f].end(), [&](int k) { return cell_.value[k] == cell_.face_value[f]; });
+    }
+
+private:
+    [[nodiscard]] double stored(int element) const { return element < 8 ? cell_.value[element] : cell_.face_value[element - 8]; }
+
+    const CellElements& cell_;
+    bool is_upside_down_;
+};
+
+/// High elements of a cut with a value below some limit, ascending.
+struct Ascending {
+    std::array<int, 14> element;
+    int count = 0;
+
+    Ascending(const CellView& cell, const CellCut& cut, double limit) {
+        for (int e = 0; e < 14; ++e) {
+            const bool is_high = e < 8 ? cut.pattern >> e & 1 : cut.joined >> (e - 8) & 1;
+            if (is_high && cell.value(e) < limit) element[count++] = e;
+        }
+        std::sort(element.begin(), element.begin() + count, [&](int p, int q) { return cell.is_above(q, p); });
     }
 };
 
-RankedCell ranked(const CellElements& cell) {
-    RankedCell result{cell.value, cell.face_value, {}, {}, 0, cell.ambiguous, cell.bd_high};
-    for (int k = 0; k < 8; ++k) result.at[result.count++] = k;
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) result.at[result.count++] = 8 + std::countr_zero(rest);
-    std::sort(result.at.begin(), result.at.begin() + result.count, [&](int p, int q) { return element_below(cell, p, q); });
-    for (int r = 0; r < result.count; ++r) result.rank[result.at[r]] = r;
-    return result;
-}
-
-RankedCell upside_down(const RankedCell& cell) {
-    RankedCell result = cell;
-    for (double& v : result.value) v = -v;
-    for (double& v : result.face_value) v = -v;
-    for (int r = 0; r < cell.count; ++r) {
-        result.at[r] = cell.at[cell.count - 1 - r];
-        result.rank[result.at[r]] = r;
-    }
-    result.bd_high ^= cell.ambiguous;
-    return result;
-}
-
-/// The corners of the region of a corner.
-unsigned region_of(const std::array<std::uint8_t, 8>& region, int corner) {
-    unsigned corners = 0;
-    for (int k = 0; k < 8; ++k) corners |= unsigned{region[k] == region[corner]} << k;
-    return corners;
-}
-
-/// The two regions that a tunnel joins, followed upwards.
-struct Tunnel {
-    unsigned a, b;
-
-    /// What is left of them at a higher cut; false when one is gone or falls apart, or when no tunnel fits between them.
-    [[nodiscard]] bool follow(const RankedCell& cell, int cut, int low_corner) {
-        const int pattern = cell.pattern(cut);
-        const std::array<std::uint8_t, 8> region = cell_regions(pattern, cell.joined(cut));
-        const unsigned left_a = a & static_cast<unsigned>(pattern), left_b = b & static_cast<unsigned>(pattern);
-        if (left_a == 0 || left_b == 0) return false;
-        if (region_of(region, std::countr_zero(left_a)) != left_a || region_of(region, std::countr_zero(left_b)) != left_b) return false;
-        if (!tunnel_fits(left_a, left_b, region_of(region, low_corner))) return false;
-        a = left_a, b = left_b;
-        return true;
-    }
-};
-
-/// The body point above the closing face f of a cell whose saddle is known; none when it would not lie above f.
-std::optional<BodyPoint> place(const RankedCell& cell, const BodySaddle& saddle, int f) {
-    const std::array<int, 2> highs = cell.highs(f), lows = cell.lows(f);
-    const int above = cell.rank[8 + f] + 1;
-    const std::array<std::uint8_t, 8> region = cell_regions(cell.pattern(above), cell.joined(above));
-    Tunnel tunnel{region_of(region, highs[0]), region_of(region, highs[1])};
-    if (!tunnel.follow(cell, above, lows[0])) return std::nullopt;
+/// The body point above the closing face f of a cell whose saddle is known; none when it would not lie above f. The two regions that meet
+/// in f are followed upwards: the body point may lie where both are still in one piece and a tunnel fits between them.
+std::optional<BodyPoint> place(const CellView& cell, const BodySaddle& saddle, int f) {
+    const int low = cell.diagonal(f, false)[0];
+    const std::array<int, 2> highs = cell.diagonal(f, true);
+    CellCut cut = cell.above_face(f);
+    const TunnelShape* shape = &tunnel_shape(cut.pattern, cut.joined, true);
+    unsigned a = shape->a, b = shape->b;
+    const auto apart = [&](int p, int q) { return (a >> p & b >> q & 1) != 0; };
+    if ((shape->ring >> low & 1) == 0 || !(apart(highs[0], highs[1]) || apart(highs[1], highs[0]))) return std::nullopt;
     double value = saddle.value;
-    for (int r = above; r < cell.count && cell.value_of(cell.at[r]) < value; ++r) {
-        if (tunnel.follow(cell, r + 1, lows[0])) continue;
-        value = cell.value_of(cell.at[r]);  // it cannot lie higher
+    const Ascending passed(cell, cut, value);
+    for (int i = 0; i < passed.count; ++i) {
+        cut.lower(passed.element[i]);
+        shape = &tunnel_shape(cut.pattern, cut.joined, true);
+        const unsigned left_a = a & static_cast<unsigned>(cut.pattern), left_b = b & static_cast<unsigned>(cut.pattern);
+        if (left_a == 0 || !shape->joins(left_a, left_b) || (shape->ring >> low & 1) == 0) {
+            value = cell.value(passed.element[i]);  // it cannot lie higher
+            break;
+        }
+        a = left_a, b = left_b;
     }
-    if (!(value > cell.face_value[f])) return std::nullopt;
-    return BodyPoint{value, saddle.position, f, std::countr_zero(tunnel.a), std::countr_zero(tunnel.b), lows[0]};
+    if (!(value > cell.value(8 + f))) return std::nullopt;
+    return BodyPoint{value, saddle.position, f, std::countr_zero(a), std::countr_zero(b), low};
 }
 
 /// B1 of a cell with a saddle. faces: those whose Highs are joined in truth but not by default. Untied faces first, then the highest.
-std::optional<BodyPoint> opening_point(const RankedCell& cell, const BodySaddle& saddle, unsigned faces) {
+std::optional<BodyPoint> opening_point(const CellView& cell, const BodySaddle& saddle, unsigned faces) {
     std::array<int, 6> order{};
     int count = 0;
     for (unsigned rest = faces; rest != 0; rest &= rest - 1) order[count++] = std::countr_zero(rest);
     std::sort(order.begin(), order.begin() + count, [&](int f, int g) {
         if (cell.is_tied(f) != cell.is_tied(g)) return cell.is_tied(g);
-        return cell.rank[8 + f] > cell.rank[8 + g];
+        return cell.is_above(8 + f, 8 + g);
     });
     for (int i = 0; i < count; ++i) {
-        if (saddle.value > cell.face_value[order[i]]) return place(cell, saddle, order[i]);
+        if (saddle.value > cell.value(8 + order[i])) return place(cell, saddle, order[i]);
     }
     return std::nullopt;
 }
@@ -169,13 +151,13 @@ CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, doub
     const std::optional<BodySaddle> low = openings != 0 ? body_saddle(cell.value) : std::nullopt;
     const std::optional<BodySaddle> high = closings != 0 ? body_saddle(negated(cell.value)) : std::nullopt;
     if (!low && !high) return bodies;
-    const RankedCell upright = ranked(cell);
+    const CellView upright(cell, false), upside_down(cell, true);
     if (low) bodies.opening = opening_point(upright, *low, openings);
-    if (high) bodies.closing = opening_point(upside_down(upright), *high, closings);
+    if (high) bodies.closing = opening_point(upside_down, *high, closings);
     if (bodies.closing) bodies.closing->value = -bodies.closing->value;
     if (bodies.opening && bodies.closing) {
-        const bool in_order = bodies.closing->value >= bodies.opening->value &&
-                              upright.rank[8 + bodies.closing->face] > upright.rank[8 + bodies.opening->face];
+        const bool in_order =
+            bodies.closing->value >= bodies.opening->value && upright.is_above(8 + bodies.closing->face, 8 + bodies.opening->face);
         if (!in_order) bodies.opening.reset();
     }
     for (std::optional<BodyPoint>* body : {&bodies.opening, &bodies.closing}) {

@@ -83,8 +83,7 @@ Turn canonical_turn(const std::array<double, 8>& value) {
     return *best;
 }
 
-/// The saddle of the cell as it lies, at most `slack` outside.
-std::optional<std::array<double, 3>> saddle_position(const std::array<double, 8>& value, double slack) {
+std::optional<std::array<double, 3>> saddle_position(const std::array<double, 8>& value) {
     const auto [k0, k1, k2, k3, k4, k5, k6, k7] = coefficients(value);
     const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
     const double q2 = -(a * b * c);
@@ -94,23 +93,21 @@ std::optional<std::array<double, 3>> saddle_position(const std::array<double, 8>
                                          coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
                                          coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)};
     for (const double x : position) {
-        if (!(x > -slack && x < 1 + slack)) return std::nullopt;
+        if (!(x > 0 && x < 1)) return std::nullopt;
     }
     return position;
 }
 
 }  // namespace
 
-// Rounding must not depend on how the cell lies: mirrored volumes have the same body values, bit by bit. So a saddle that may lie inside is
-// computed once more in the turned cell.
+// Rounding must not depend on how the cell lies: mirrored volumes have the same body values, bit by bit. So the saddle is computed in the
+// turned cell.
 std::optional<BodySaddle> body_saddle(const std::array<double, 8>& value) {
-    constexpr double kSlack = 1e-6;
     int exponent = 0;
     const std::array<double, 8> at_hand = scaled(value, exponent);
-    if (!saddle_position(at_hand, kSlack)) return std::nullopt;
     const Turn turn = canonical_turn(at_hand);
     const std::array<double, 8> turned = turn.of(at_hand);
-    const std::optional<std::array<double, 3>> position = saddle_position(turned, 0);
+    const std::optional<std::array<double, 3>> position = saddle_position(turned);
     if (!position) return std::nullopt;
     BodySaddle saddle{std::ldexp(interpolate(turned, *position), exponent), {}};
     for (int a = 0; a < 3; ++a) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "critical/tunnels.h"
 #include "field/grid.h"
 #include "field/order.h"
 
@@ -16,9 +17,6 @@ struct OpenTunnel {
     std::uint8_t a, b, ring;     ///< the regions it joins, and the one of the other class around it
     std::array<double, 3> body;  ///< position of its body point in the cell, 0..1
 };
-
-/// Can a cell with this High pattern and these joined faces hold a tunnel at all? 140 of 654 can. O(1).
-bool may_hold_tunnel(int pattern, int joined);
 
 template <class T>
 class TunnelFinder {

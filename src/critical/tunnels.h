@@ -1,10 +1,22 @@
-// The shapes a tunnel through a cell can have (trilinear.md section 2, "Six tunnel configurations").
+// Which tunnels a cell can hold, by its case (trilinear.md section 2, "Six tunnel configurations").
 #pragma once
+
+#include <cstdint>
 
 namespace isoatlas {
 
-/// Can a tunnel join the regions a and b of a cell, with the region `ring` around it? Regions: bit k for corner k; all other corners belong
-/// to other regions. Up to the 48 symmetries of the cube there are six such triples.
-bool tunnel_fits(unsigned a, unsigned b, unsigned ring);
+/// A tunnel joins the regions a and b of one class; the region `ring` of the other class lies around it. Bit k for corner k; a == 0: none.
+struct TunnelShape {
+    std::uint8_t a = 0, b = 0, ring = 0;
+    [[nodiscard]] bool exists() const { return a != 0; }
+    /// Does it join these two?
+    [[nodiscard]] bool joins(unsigned p, unsigned q) const { return (a == p && b == q) || (a == q && b == p); }
+};
+
+/// The tunnel of Highs, or of Lows, that fits into a cell with this High pattern and these joined faces; at most one of each class. O(1).
+const TunnelShape& tunnel_shape(int pattern, int joined, bool joins_highs);
+
+/// Can such a cell hold a tunnel at all? 140 of 654 cases can.
+bool may_hold_tunnel(int pattern, int joined);
 
 }  // namespace isoatlas

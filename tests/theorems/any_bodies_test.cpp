@@ -36,12 +36,11 @@ double any_value_above(double low, double high, std::mt19937_64& dice) {
     return low + (high - low) * std::uniform_real_distribution<>(0, 1)(dice);
 }
 
-std::optional<BodyPoint> any_opening(const RankedCell& cell, unsigned faces, std::mt19937_64& dice) {
-    const double top = *std::max_element(cell.value.begin(), cell.value.end());
+std::optional<BodyPoint> any_opening(const CellView& cell, double top, unsigned faces, std::mt19937_64& dice) {
     for (unsigned rest = faces; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
         if (dice() % 2 == 0) continue;
-        const std::optional<BodyPoint> body = place(cell, {any_value_above(cell.face_value[f], top, dice), {0.5, 0.5, 0.5}}, f);
+        const std::optional<BodyPoint> body = place(cell, {any_value_above(cell.value(8 + f), top, dice), {0.5, 0.5, 0.5}}, f);
         if (body) return body;
     }
     return std::nullopt;
@@ -53,13 +52,14 @@ CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, doub
     CellBodies bodies;
     std::mt19937_64 dice = dice_of(cell);
     if (!std::isfinite(tunnel_height) || cell.ambiguous == 0 || dice() % 4 == 0) return bodies;
-    const RankedCell upright = ranked(cell);
-    bodies.opening = any_opening(upright, cell.ambiguous & ~default_types, dice);
-    bodies.closing = any_opening(upside_down(upright), cell.ambiguous & default_types, dice);
+    const CellView upright(cell, false), upside_down(cell, true);
+    const auto [lowest, highest] = std::minmax_element(cell.value.begin(), cell.value.end());
+    bodies.opening = any_opening(upright, *highest, cell.ambiguous & ~default_types, dice);
+    bodies.closing = any_opening(upside_down, -*lowest, cell.ambiguous & default_types, dice);
     if (bodies.closing) bodies.closing->value = -bodies.closing->value;
     if (bodies.opening && bodies.closing) {
-        const bool in_order = bodies.closing->value >= bodies.opening->value &&
-                              upright.rank[8 + bodies.closing->face] > upright.rank[8 + bodies.opening->face];
+        const bool in_order =
+            bodies.closing->value >= bodies.opening->value && upright.is_above(8 + bodies.closing->face, 8 + bodies.opening->face);
         if (!in_order) (dice() % 2 == 0 ? bodies.opening : bodies.closing).reset();
     }
     for (const std::optional<BodyPoint>& body : {bodies.opening, bodies.closing}) {
