@@ -1,0 +1,119 @@
+#include "store/container.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "isoatlas/error.h"
+#include "store/checksum.h"
+
+namespace isoatlas::store {
+namespace {
+
+constexpr std::int64_t kMostContents = std::int64_t{1} << 28;  // a header that claims more is damaged
+
+struct RawHeader {
+    char magic[16];
+    std::uint64_t file_size, contents_offset, contents_bytes, contents_checksum, checksum;
+};
+static_assert(sizeof(RawHeader) == 56);
+constexpr std::size_t kCheckedHeader = 48;
+
+}  // namespace
+
+std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header) {
+    RawHeader raw{};
+    std::memcpy(raw.magic, kMagic, sizeof kMagic);
+    raw.file_size = static_cast<std::uint64_t>(header.file_size);
+    raw.contents_offset = static_cast<std::uint64_t>(header.contents_offset);
+    raw.contents_bytes = static_cast<std::uint64_t>(header.contents_bytes);
+    raw.contents_checksum = header.contents_checksum;
+    std::array<std::byte, kHeaderBytes> bytes{};
+    std::memcpy(bytes.data(), &raw, sizeof raw);
+    raw.checksum = checksum(std::span(bytes).first(kCheckedHeader));
+    std::memcpy(bytes.data(), &raw, sizeof raw);
+    return bytes;
+}
+
+bool begins_like_a_store(std::span<const std::byte> first) {
+    return first.size() >= sizeof kMagic && std::memcmp(first.data(), kMagic, sizeof kMagic) == 0;
+}
+
+Container::Container(const std::string& path) : path_(path), file_(io::open_file(path)), file_size_(file_->size()) { read_header(); }
+
+void Container::damaged(const std::string& where, const std::string& what) const {
+    throw Error(ErrorKind::input,
+                {.file = path_, .where = where, .what = what, .next = "the store is damaged: build it again from the volume"});
+}
+
+void Container::read_header() {
+    std::array<std::byte, kHeaderBytes> bytes{};
+    const std::size_t got = io::read_available(*file_, path_, 0, bytes);
+    if (!begins_like_a_store(std::span(bytes).first(got))) {
+        throw Error(ErrorKind::input, {.file = path_,
+                                       .what = "is no isoatlas store",
+                                       .expected = "a file that `isoatlas build` has finished",
+                                       .next = "build one: isoatlas build VOLUME -o FILE.atlas"});
+    }
+    RawHeader raw;
+    std::memcpy(&raw, bytes.data(), sizeof raw);
+    const bool rest_is_zero = std::all_of(bytes.begin() + sizeof raw, bytes.end(), [](std::byte b) { return b == std::byte{0}; });
+    if (got < bytes.size() || raw.checksum != checksum(std::span(bytes).first(kCheckedHeader)) || !rest_is_zero)
+        damaged("header", "its checksum is wrong");
+    if (raw.file_size != static_cast<std::uint64_t>(file_size_)) {
+        damaged("header", "the file has " + std::to_string(file_size_) + " bytes and should have " + std::to_string(raw.file_size));
+    }
+    const auto offset = static_cast<std::int64_t>(raw.contents_offset), size = static_cast<std::int64_t>(raw.contents_bytes);
+    if (size < 0 || size > kMostContents || offset < kHeaderBytes || offset > file_size_ - size)
+        damaged("header", "the contents lie outside the file");
+    std::string text(static_cast<std::size_t>(size), '\0');
+    io::read_fully(*file_, path_, offset, std::as_writable_bytes(std::span<char>(text)));
+    if (checksum(std::as_bytes(std::span<const char>(text))) != raw.contents_checksum) damaged("contents", "their checksum is wrong");
+    contents_ = contents_of_json(text, path_, file_size_);
+    contents_.volume.path = path_;
+    contents_.volume.file_bytes = file_size_;
+}
+
+std::vector<std::uint64_t> Container::checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
+    std::vector<std::uint64_t> sums(static_cast<std::size_t>(last - first));
+    io::read_fully(*file_, path_, array.checksums + 8 * first, std::as_writable_bytes(std::span(sums)));
+    return sums;
+}
+
+void Container::read(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
+    const auto size = static_cast<std::int64_t>(out.size());
+    if (first < 0 || first > array.bytes() - size || array.block == 0) damaged(array.name, "bytes outside the array are asked for");
+    if (size == 0) return;
+    const std::int64_t begin = first / array.block, end = (first + size + array.block - 1) / array.block;
+    const std::vector<std::uint64_t> sums = checksums_of(array, begin, end);
+    std::vector<std::byte> edge(static_cast<std::size_t>(array.block));
+    for (std::int64_t block = begin; block < end; ++block) {
+        const std::int64_t start = block * array.block, bytes = std::min(array.block, array.bytes() - start);
+        const std::int64_t from = std::max(start, first), to = std::min(start + bytes, first + size);
+        const std::span<std::byte> wanted = out.subspan(static_cast<std::size_t>(from - first), static_cast<std::size_t>(to - from));
+        const bool is_whole = to - from == bytes;
+        const std::span<std::byte> whole = is_whole ? wanted : std::span(edge).first(static_cast<std::size_t>(bytes));
+        io::read_fully(*file_, path_, array.offset + start, whole);
+        if (checksum(whole) != sums[static_cast<std::size_t>(block - begin)])
+            damaged(array.name + ", block " + std::to_string(block), "its checksum is wrong");
+        if (!is_whole) std::memcpy(wanted.data(), whole.data() + (from - start), wanted.size());
+    }
+}
+
+void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
+    const auto size = static_cast<std::int64_t>(out.size());
+    if (first < 0 || first > array.bytes() - size) damaged(array.name, "bytes outside the array are asked for");
+    io::read_fully(*file_, path_, array.offset + first, out);
+}
+
+void Container::check_all() const {
+    for (const StoredArray& array : contents_.arrays) {
+        if (array.block == 0) continue;
+        const std::vector<std::uint64_t> sums = checksums_of(array, 0, array.blocks());
+        if (checksum(std::as_bytes(std::span(sums))) != array.sum) damaged(array.name, "the checksum of its checksums is wrong");
+        std::vector<std::byte> block(static_cast<std::size_t>(std::min(array.block, array.bytes())));
+        for (std::int64_t first = 0; first < array.bytes(); first += array.block)
+            read(array, first, std::span(block).first(static_cast<std::size_t>(std::min(array.block, array.bytes() - first))));
+    }
+}
+
+}  // namespace isoatlas::store

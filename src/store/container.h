@@ -1,0 +1,67 @@
+// Reading a store: a header, the contents, and arrays by their offsets. Nothing is returned before its checksum was right.
+//
+// The header is the first 512 bytes: "isoatlas store\n", a zero byte, then little endian 64-bit numbers: the size of the file, offset,
+// length and checksum of the contents, and the checksum of all these 48 bytes; zeros fill the rest.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/file_access.h"
+#include "store/contents.h"
+
+namespace isoatlas::store {
+
+inline constexpr std::int64_t kHeaderBytes = 512;
+inline constexpr char kMagic[16] = "isoatlas store\n";  // and a zero byte
+
+struct Header {
+    std::int64_t file_size = 0, contents_offset = 0, contents_bytes = 0;
+    std::uint64_t contents_checksum = 0;
+};
+[[nodiscard]] std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header);
+/// Does a file begin like a store? `first`: its first 16 bytes or less.
+[[nodiscard]] bool begins_like_a_store(std::span<const std::byte> first);
+
+/// An open store. Reading is thread safe: it changes nothing.
+class Container {
+public:
+    /// Reads header and contents. Throws Error: input (missing, no store, half-written, damaged), unsupported (a later version).
+    explicit Container(const std::string& path);
+
+    [[nodiscard]] const Contents& contents() const { return contents_; }
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::int64_t file_size() const { return file_size_; }
+
+    /// Bytes [first, first + out.size()) of an array whose blocks have checksums. Cost: the blocks that they touch are read whole.
+    void read(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
+    /// Bytes of an array that checks its parts itself; the caller compares the checksum.
+    void read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
+
+    /// All numbers of an array.
+    template <class T>
+    [[nodiscard]] std::vector<T> all(std::string_view name, std::string_view type) const {
+        const StoredArray& array = contents_.array(name, type);
+        std::vector<T> numbers(static_cast<std::size_t>(array.count()));
+        read(array, 0, std::as_writable_bytes(std::span<T>(numbers)));
+        return numbers;
+    }
+
+    /// Reads every array that has checksums; throws Error{input} for the first that is damaged.
+    void check_all() const;
+
+private:
+    void read_header();
+    [[nodiscard]] std::vector<std::uint64_t> checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
+    [[noreturn]] void damaged(const std::string& where, const std::string& what) const;
+
+    std::string path_;
+    std::unique_ptr<io::FileHandle> file_;
+    std::int64_t file_size_ = 0;
+    Contents contents_;
+};
+
+}  // namespace isoatlas::store

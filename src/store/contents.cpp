@@ -1,0 +1,171 @@
+#include "store/contents.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "isoatlas/error.h"
+
+namespace isoatlas::store {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::pair<std::string_view, int> kTypes[] = {{"uint8", 1}, {"int8", 1},   {"uint16", 2}, {"int16", 2},   {"uint32", 4},
+                                                       {"int32", 4}, {"uint64", 8}, {"int64", 8},  {"float32", 4}, {"float64", 8}};
+
+[[noreturn]] void damaged(const std::string& path, const std::string& where, const std::string& what) {
+    throw Error(ErrorKind::input,
+                {.file = path, .where = where, .what = what, .next = "the store is damaged: build it again from the volume"});
+}
+
+Json json_of(const VolumeInfo& info) {
+    Json json{{"name", info.path}, {"rank", info.extent.rank}, {"size", info.extent.size}, {"type", name_of(info.type)}};
+    const Geometry& g = info.geometry;
+    json["spacing"] = g.spacing;
+    json["origin"] = g.origin;
+    json["direction"] = g.direction;
+    json["coordinates"] = g.coordinates;
+    json["space"] = g.space;
+    json["unit"] = g.unit;
+    json["calibration"] = {{"slope", info.calibration.slope}, {"intercept", info.calibration.intercept}};
+    json["value_unit"] = info.value_unit;
+    json["description"] = info.description;
+    return json;
+}
+
+ValueType value_type(const std::string& name) {
+    for (int i = 0; i < 8; ++i) {
+        if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
+    }
+    throw Error(ErrorKind::input, {.what = "'" + name + "' is no sample type"});
+}
+
+VolumeInfo volume_of(const Json& json) {
+    VolumeInfo info;
+    info.path = json.at("name").get<std::string>();
+    info.format = "isoatlas store";
+    info.encoding = "bricks";
+    info.extent.rank = json.at("rank").get<int>();
+    info.extent.size = json.at("size").get<std::array<std::int64_t, 3>>();
+    info.type = value_type(json.at("type").get<std::string>());
+    Geometry& g = info.geometry;
+    g.spacing = json.at("spacing").get<Vec3>();
+    g.origin = json.at("origin").get<Vec3>();
+    g.direction = json.at("direction").get<Mat3>();
+    g.coordinates = json.at("coordinates").get<std::array<std::vector<double>, 3>>();
+    g.space = json.at("space").get<std::string>();
+    g.unit = json.at("unit").get<std::string>();
+    info.calibration.slope = json.at("calibration").at("slope").get<double>();
+    info.calibration.intercept = json.at("calibration").at("intercept").get<double>();
+    info.value_unit = json.at("value_unit").get<std::string>();
+    info.description = json.at("description").get<std::string>();
+    return info;
+}
+
+StoredArray array_of(const Json& json) {
+    StoredArray array;
+    array.name = json.at("name").get<std::string>();
+    array.type = json.at("type").get<std::string>();
+    array.shape = json.at("shape").get<std::vector<std::int64_t>>();
+    array.offset = json.at("offset").get<std::int64_t>();
+    array.block = json.at("block").get<std::int64_t>();
+    array.checksums = json.at("checksums").get<std::int64_t>();
+    array.sum = json.at("sum").get<std::uint64_t>();
+    return array;
+}
+
+bool lies_inside(std::int64_t offset, std::int64_t bytes, std::int64_t file_size) {
+    return offset >= 0 && bytes >= 0 && offset <= file_size && bytes <= file_size - offset;
+}
+
+/// A product of sizes that cannot overflow silently.
+bool is_sound(const StoredArray& array, std::int64_t file_size) {
+    const std::int64_t size = size_of_type(array.type);
+    if (size == 0 || array.block < 0 || array.shape.empty()) return false;
+    std::int64_t bytes = size;
+    for (const std::int64_t n : array.shape) {
+        if (n < 0 || (n > 0 && bytes > file_size / n)) return false;
+        bytes *= n;
+    }
+    return lies_inside(array.offset, bytes, file_size) && lies_inside(array.checksums, 8 * array.blocks(), file_size);
+}
+
+bool is_sound(const Extent& extent) {
+    if (extent.rank != 2 && extent.rank != 3) return false;
+    std::int64_t voxels = 1;
+    for (const std::int64_t n : extent.size) {
+        if (n < 1 || voxels > (std::int64_t{1} << 60) / n) return false;
+        voxels *= n;
+    }
+    return extent.rank == 3 || extent.size[2] == 1;
+}
+
+}  // namespace
+
+std::int64_t size_of_type(std::string_view type) {
+    for (const auto& [name, size] : kTypes) {
+        if (name == type) return size;
+    }
+    return 0;
+}
+
+std::int64_t StoredArray::count() const {
+    std::int64_t count = 1;
+    for (const std::int64_t n : shape) count *= n;
+    return count;
+}
+
+std::int64_t StoredArray::bytes() const { return count() * size_of_type(type); }
+
+const StoredArray& Contents::array(std::string_view name, std::string_view type) const {
+    const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const StoredArray& a) { return a.name == name && a.type == type; });
+    if (found != arrays.end()) return *found;
+    damaged(volume.path, std::string(name), "the store has no such array of the type " + std::string(type));
+}
+
+std::string to_json(const Contents& contents) {
+    Json json{{"format", "isoatlas store"}, {"version", contents.version}, {"volume", json_of(contents.volume)}};
+    json["parameters"] = {{"interpolant", name_of(contents.parameters.interpolant)},
+                          {"tunnel_height", contents.parameters.tunnel_height},
+                          {"samples_checksum", contents.parameters.samples_checksum}};
+    Json& arrays = json["arrays"] = Json::array();
+    for (const StoredArray& a : contents.arrays) {
+        arrays.push_back({{"name", a.name},
+                          {"type", a.type},
+                          {"shape", a.shape},
+                          {"offset", a.offset},
+                          {"block", a.block},
+                          {"checksums", a.checksums},
+                          {"sum", a.sum}});
+    }
+    return json.dump(1);
+}
+
+Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size) try {
+    const Json json = Json::parse(text);
+    Contents contents;
+    contents.version = json.at("version").get<int>();
+    if (contents.version != kStoreVersion) {
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .what = "is a store of version " + std::to_string(contents.version),
+                                             .expected = "version " + std::to_string(kStoreVersion),
+                                             .next = "use the isoatlas that built it, or build it again"});
+    }
+    contents.volume = volume_of(json.at("volume"));
+    if (!is_sound(contents.volume.extent)) damaged(path, "contents", "the size of the volume makes no sense");
+    const Json& parameters = json.at("parameters");
+    const bool is_faces = parameters.at("interpolant").get<std::string>() == name_of(Interpolant::faces);
+    contents.parameters.interpolant = is_faces ? Interpolant::faces : Interpolant::trilinear;
+    contents.parameters.tunnel_height = parameters.at("tunnel_height").get<double>();
+    contents.parameters.samples_checksum = parameters.at("samples_checksum").get<std::uint64_t>();
+    for (const Json& entry : json.at("arrays")) {
+        contents.arrays.push_back(array_of(entry));
+        if (!is_sound(contents.arrays.back(), file_size)) damaged(path, contents.arrays.back().name, "the array lies outside the file");
+    }
+    return contents;
+} catch (const nlohmann::json::exception& error) {
+    damaged(path, "contents", std::string("they cannot be read: ") + error.what());
+}
+
+}  // namespace isoatlas::store

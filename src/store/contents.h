@@ -1,0 +1,59 @@
+// What is in a store: the volume it was made of, how it was made, and where its arrays are.
+//
+// A store is an HDF5 file, so that anybody can open its arrays. isoatlas itself reads it without HDF5: the first 512 bytes (the "user
+// block", which HDF5 skips) say where the contents are, and the contents say where every array is. docs/format.md describes both.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "isoatlas/analysis.h"
+#include "isoatlas/volume.h"
+
+namespace isoatlas::store {
+
+inline constexpr int kStoreVersion = 1;
+
+/// Numbers in a row of bytes, little endian, first index slowest.
+struct StoredArray {
+    std::string name;                 ///< path in the file, such as "tree/value"
+    std::string type;                 ///< "uint8" ... "uint64", "int8" ... "int64", "float32", "float64"
+    std::vector<std::int64_t> shape;  ///< no entry is negative
+    std::int64_t offset = 0;          ///< of the first byte in the file
+    std::int64_t block = 0;           ///< bytes under one checksum (the last block may be shorter); 0: the array checks its parts itself
+    std::int64_t checksums = 0;       ///< offset of its checksums, 8 bytes a block; they lie under the checksum `sum`
+    std::uint64_t sum = 0;
+
+    [[nodiscard]] std::int64_t count() const;  ///< of numbers
+    [[nodiscard]] std::int64_t bytes() const;
+    [[nodiscard]] std::int64_t blocks() const { return block == 0 ? 0 : (bytes() + block - 1) / block; }
+};
+
+/// How a store was made. The same volume and parameters give the same bytes.
+struct Parameters {
+    Interpolant interpolant = Interpolant::trilinear;
+    double tunnel_height = 0;
+    std::uint64_t samples_checksum = 0;  ///< of the samples of the volume, little endian
+};
+
+struct Contents {
+    int version = kStoreVersion;
+    VolumeInfo volume;  ///< extent, type, geometry, calibration, value unit; path is the name of the source
+    Parameters parameters;
+    std::vector<StoredArray> arrays;
+
+    /// Throws Error{input} when there is none of that name and type.
+    [[nodiscard]] const StoredArray& array(std::string_view name, std::string_view type) const;
+};
+
+/// Bytes of one number of a type; 0: no such type.
+[[nodiscard]] std::int64_t size_of_type(std::string_view type);
+
+[[nodiscard]] std::string to_json(const Contents& contents);
+/// Throws Error{input} when the text is not that of a store, unsupported when it is that of a later version. Every array is checked to lie
+/// inside the file.
+[[nodiscard]] Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size);
+
+}  // namespace isoatlas::store

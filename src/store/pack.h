@@ -1,0 +1,38 @@
+// Writing a store in one go: all arrays are known, nothing is left to be found out.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "store/contents.h"
+
+namespace isoatlas::store {
+
+/// Takes the next bytes of an array.
+using Put = std::function<void(std::span<const std::byte>)>;
+
+/// An array to be written. feed calls put until all bytes are there; blocks as in StoredArray.
+struct PackedArray {
+    std::string name, type;
+    std::vector<std::int64_t> shape;
+    std::int64_t block = 0;
+    std::function<void(const Put& put)> feed;
+};
+
+inline constexpr std::int64_t kBlock = std::int64_t{1} << 16;
+
+/// An array whose numbers lie in memory until the store is written.
+template <class T>
+[[nodiscard]] PackedArray packed(std::string name, std::string type, std::span<const T> numbers, std::int64_t block = kBlock) {
+    return {std::move(name), std::move(type), {static_cast<std::int64_t>(numbers.size())}, block, [numbers](const Put& put) {
+                put(std::as_bytes(numbers));
+            }};
+}
+
+/// Writes PATH.partial, syncs it and renames it to PATH. contents: volume and parameters; its arrays are filled in.
+/// The same bytes for the same arrays. Throws Error{resource} with the reason of the system; nothing is left behind then.
+void pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays);
+
+}  // namespace isoatlas::store
