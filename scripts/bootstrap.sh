@@ -21,6 +21,7 @@ demo|libfmt-dev|text output of the command line
 demo|nlohmann-json3-dev|JSON output of the command line
 test|libgtest-dev|test framework
 test|librapidcheck-dev|random volumes that shrink to the smallest failing one
+test|libcgal-dev|exact predicates: surfaces must not cross themselves
 test|python3|layering test, schema test, documentation test
 test|assimp-utils|independent reader of the surfaces we write
 test|python3-vtk9|independent reader of the surfaces and trees we write

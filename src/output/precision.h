@@ -13,6 +13,8 @@ enum class Real : std::uint8_t { f32, f64 };
 
 /// f32 when rounding to float32 merges no two points, leaves every triangle an area, and still knows at least 2^12 positions along an
 /// edge of mean length (largest coordinate <= 2^11 mean edges); f64 otherwise. Cost: O(n log n) time, 8 bytes a point.
+/// Crossings are not looked for, that would cost more than the surface. Along the axes of space rounding makes none; on oblique grids
+/// sheets that are a rounding error apart may cross (docs/theory/5-surfaces.md, "In files").
 [[nodiscard]] Real position_precision(const Surface& surface);
 
 /// How many points become equal to another one by rounding to float32. Distinct positions are told apart by 64-bit hashes.
