@@ -60,6 +60,13 @@ std::size_t decode_inner(std::span<const std::byte> packed, Unsigned<sizeof(T)> 
 }  // namespace
 
 template <class T>
+std::pair<T, T> extremes_of(std::span<const T> samples) {
+    Unsigned<sizeof(T)> low = key_of(samples.front()), high = low;
+    for (const T sample : samples) low = std::min(low, key_of(sample)), high = std::max(high, key_of(sample));
+    return {sample_of<T>(low), sample_of<T>(high)};
+}
+
+template <class T>
 int bits_of_range(T low, T high) {
     return static_cast<int>(std::bit_width(static_cast<Unsigned<sizeof(T)>>(key_of(high) - key_of(low))));
 }
@@ -92,6 +99,7 @@ void decode_brick(std::span<const std::byte> packed, T low, int bits, std::span<
 }
 
 #define ISOATLAS_INSTANTIATE(T)                                                         \
+    template std::pair<T, T> extremes_of<T>(std::span<const T>);                        \
     template int bits_of_range<T>(T, T);                                                \
     template void encode_brick<T>(std::span<const T>, T, int, std::vector<std::byte>&); \
     template void decode_brick<T>(std::span<const std::byte>, T, int, std::span<T>)

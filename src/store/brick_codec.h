@@ -6,11 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace isoatlas::store {
 
-/// Bits of a sample of a brick with these extremes. T: a sample type.
+/// The lowest and the highest of some samples, -0.0 below 0.0. T: a sample type.
+template <class T>
+[[nodiscard]] std::pair<T, T> extremes_of(std::span<const T> samples);
+
+/// Bits of a sample of a brick with these extremes.
 template <class T>
 [[nodiscard]] int bits_of_range(T low, T high);
 

@@ -1,0 +1,40 @@
+// How a volume is cut into bricks of 16 samples a side; the last ones of an axis are smaller.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "isoatlas/volume.h"
+
+namespace isoatlas::store {
+
+inline constexpr std::int64_t kBrickSide = 16;
+
+/// Samples [begin, end) of each axis.
+struct Box {
+    std::array<std::int64_t, 3> begin, end;
+    [[nodiscard]] std::int64_t size(int axis) const { return end[axis] - begin[axis]; }
+    [[nodiscard]] std::int64_t count() const { return size(0) * size(1) * size(2); }
+};
+
+struct BrickGrid {
+    Extent extent;
+    std::array<std::int64_t, 3> size;  ///< bricks of each axis; brick = x + size[0] * (y + size[1] * z)
+
+    explicit BrickGrid(const Extent& volume) : extent(volume) {
+        for (int axis = 0; axis < 3; ++axis) size[axis] = (volume.size[axis] + kBrickSide - 1) / kBrickSide;
+    }
+    [[nodiscard]] std::int64_t count() const { return size[0] * size[1] * size[2]; }
+    [[nodiscard]] std::int64_t brick(const std::array<std::int64_t, 3>& place) const {
+        return place[0] + size[0] * (place[1] + size[1] * place[2]);
+    }
+    [[nodiscard]] std::array<std::int64_t, 3> place(std::int64_t brick) const {
+        return {brick % size[0], brick / size[0] % size[1], brick / size[0] / size[1]};
+    }
+    [[nodiscard]] Box box(std::int64_t brick) const;
+    /// All bricks in the order in which they lie in a store: along a curve that keeps neighbours together (Morton order).
+    [[nodiscard]] std::vector<std::int64_t> file_order() const;
+};
+
+}  // namespace isoatlas::store

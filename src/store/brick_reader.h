@@ -1,0 +1,54 @@
+// Reading bricks of a store: few, long reads; every brick checked before it is used.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "store/brick_grid.h"
+#include "store/container.h"
+
+namespace isoatlas::store {
+
+/// What reading has cost.
+struct IoCounters {
+    std::int64_t bytes = 0, extents = 0, bricks = 0;
+    IoCounters& operator+=(const IoCounters& other) {
+        bytes += other.bytes, extents += other.extents, bricks += other.bricks;
+        return *this;
+    }
+};
+
+template <class T>
+class BrickReader {
+public:
+    /// Reads what there is about every brick: 18 bytes and two samples each. Throws Error{input} when it contradicts itself.
+    explicit BrickReader(const Container& store);
+
+    [[nodiscard]] const BrickGrid& grid() const { return grid_; }
+    [[nodiscard]] T low(std::int64_t brick) const { return low_[static_cast<std::size_t>(brick)]; }
+    [[nodiscard]] T high(std::int64_t brick) const { return high_[static_cast<std::size_t>(brick)]; }
+
+    /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that lie
+    /// close to each other in the file come with one read. Throws Error{input} for a damaged one.
+    IoCounters read(std::vector<std::int64_t> bricks, int threads, const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+
+private:
+    struct Extent {
+        std::size_t first, last;  ///< of the list
+        std::int64_t begin, end;  ///< bytes in volume/data
+    };
+    [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const;
+    [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks) const;
+    void decode(std::int64_t brick, std::span<const std::byte> packed,
+                const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+
+    const Container& store_;
+    const StoredArray& data_;
+    BrickGrid grid_;
+    std::vector<std::uint64_t> offset_, sums_;
+    std::vector<std::uint8_t> bits_;
+    std::vector<T> low_, high_;
+};
+
+}  // namespace isoatlas::store

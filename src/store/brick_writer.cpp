@@ -1,0 +1,99 @@
+#include "store/brick_writer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+
+#include "base/check.h"
+#include "base/parallel.h"
+#include "store/brick_codec.h"
+#include "store/brick_grid.h"
+#include "store/checksum.h"
+
+namespace isoatlas::store {
+namespace {
+
+/// Copies the samples of a box, x fastest.
+template <class T>
+void copy_box(std::span<const T> samples, const Extent& extent, const Box& box, std::vector<T>& out) {
+    out.resize(static_cast<std::size_t>(box.count()));
+    T* to = out.data();
+    for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+        for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+            std::memcpy(to, samples.data() + extent.index(box.begin[0], y, z), static_cast<std::size_t>(box.size(0)) * sizeof(T));
+            to += box.size(0);
+        }
+    }
+}
+
+constexpr std::int64_t kTogether = 512;  // bricks: a piece of work, and what is kept of them at once
+
+template <class T>
+struct Bricks {
+    std::span<const T> samples;
+    BrickGrid grid;
+    int threads;
+    std::vector<std::int64_t> order;
+    std::vector<std::uint64_t> offset, sums;
+    std::vector<std::uint8_t> bits;
+    std::vector<T> low, high;
+    std::int64_t bytes = 0;
+
+    Bricks(std::span<const T> values, const Extent& extent, int thread_count)
+        : samples(values), grid(extent), threads(thread_count), order(grid.file_order()) {
+        const auto count = static_cast<std::size_t>(grid.count());
+        offset.resize(count), sums.resize(count), bits.resize(count), low.resize(count), high.resize(count);
+        for_each_block(threads, (grid.count() + kTogether - 1) / kTogether, [this](std::int64_t block) {
+            for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) measure(i);
+        });
+        for (const std::int64_t brick : order) {
+            offset[brick] = static_cast<std::uint64_t>(bytes);
+            bytes += packed_bytes(grid.box(brick).count(), bits[brick]);
+        }
+    }
+
+    void measure(std::int64_t brick) {
+        std::vector<T> values;
+        copy_box(samples, grid.extent, grid.box(brick), values);
+        std::tie(low[brick], high[brick]) = extremes_of<T>(values);
+        bits[brick] = static_cast<std::uint8_t>(bits_of_range(low[brick], high[brick]));
+    }
+
+    void feed(const Put& put) {
+        std::vector<std::vector<std::byte>> packed(kTogether);
+        for (std::int64_t first = 0; first < grid.count(); first += kTogether) {
+            const std::int64_t count = std::min(kTogether, grid.count() - first);
+            for_each_block(threads, count, [&](std::int64_t i) {
+                const std::int64_t brick = order[first + i];
+                std::vector<T> values;
+                copy_box(samples, grid.extent, grid.box(brick), values);
+                packed[i].clear();
+                encode_brick<T>(values, low[brick], bits[brick], packed[i]);
+                sums[brick] = checksum(packed[i]);
+            });
+            for (std::int64_t i = 0; i < count; ++i) put(packed[i]);
+        }
+    }
+};
+
+}  // namespace
+
+std::vector<PackedArray> brick_arrays(const Volume& volume, const Context& context) {
+    std::vector<PackedArray> arrays;
+    visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info.extent, context.threads);
+        const auto add = [&]<class N>(const char* name, const char* type, const std::vector<N>& numbers) {
+            const std::vector<std::int64_t> shape{bricks->grid.size[2], bricks->grid.size[1], bricks->grid.size[0]};
+            arrays.push_back({name, type, shape, kBlock, [bricks, &numbers](const Put& put) { put(std::as_bytes(std::span(numbers))); }});
+        };
+        arrays.push_back({"volume/data", "uint8", {bricks->bytes}, 0, [bricks](const Put& put) { bricks->feed(put); }});
+        add("volume/offset", "uint64", bricks->offset);
+        add("volume/bits", "uint8", bricks->bits);
+        add("volume/low", name_of(volume.info.type), bricks->low);
+        add("volume/high", name_of(volume.info.type), bricks->high);
+        add("volume/checksum", "uint64", bricks->sums);
+    });
+    return arrays;
+}
+
+}  // namespace isoatlas::store
