@@ -3,8 +3,8 @@
 
 #include "base/parallel.h"
 #include "critical/bodies.h"
-#include "isoatlas/surface.h"
 #include "mesh/cells.h"
+#include "mesh/extract_level.h"
 #include "mesh/hits.h"
 #include "mesh/huge_pages.h"
 #include "mesh/selection.h"
@@ -27,17 +27,17 @@ bool is_mirrored(const VolumeInfo& info) {
 template <class T>
 class Extraction {
 public:
-    Extraction(const Volume& volume, std::span<const T> samples, double tau, const ExtractOptions& options, const Context& context,
-               const HighBits& high, const Components* components)
-        : grid_{samples.data(), volume.info.extent},
-          tau_(tau),
+    Extraction(const TauLevel& level, std::span<const T> samples, const ExtractOptions& options, const Context& context,
+               const Components* components)
+        : grid_{samples.data(), level.info().extent},
+          tau_(level.tau),
           options_(options),
           context_(context),
           components_(components),
-          domain_(high, options.boundary),
-          map_(volume.info.geometry, volume.info.extent),
-          flip_(is_mirrored(volume.info)),
-          cells_(grid_, tau, domain_, map_, options, flip_) {}
+          domain_(level.high, options.boundary),
+          map_(level.info().geometry, level.info().extent),
+          flip_(is_mirrored(level.info())),
+          cells_(grid_, level.tau, domain_, map_, options, flip_) {}
 
     void run(Surface& surface) {
         if (domain_.is_empty()) return;
@@ -118,26 +118,25 @@ private:
 
 }  // namespace
 
-Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {
+Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context) {
+    const VolumeInfo& info = level.info();
     Surface surface;
-    surface.tau = tau;
-    surface.reported_tau = volume.info.calibration.reported(tau);
-    surface.space = volume.info.geometry.space;
-    surface.unit = volume.info.geometry.unit;
+    surface.tau = level.tau;
+    surface.reported_tau = info.calibration.reported(level.tau);
+    surface.space = info.geometry.space;
+    surface.unit = info.geometry.unit;
     surface.closed = options.boundary == Boundary::closed;
     surface.interpolant = options.interpolant;
     surface.tunnel_height = options.tunnel_height;
-    surface.reported_tunnel_height = volume.info.calibration.reported_difference(options.tunnel_height);
+    surface.reported_tunnel_height = info.calibration.reported_difference(options.tunnel_height);
 
-    const HighBits high = classify(volume, tau, context);
     const bool selects = !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
     std::optional<Components> components;
-    if (selects || options.ids)
-        components = find_components(volume, tau, tunnel_height_of(options.interpolant, options.tunnel_height), high, context);
-    const std::vector<std::uint8_t> chosen = selects ? chosen_contours(volume, tau, *components, options) : std::vector<std::uint8_t>{};
-    visit_samples(volume, [&](auto samples) {
+    if (selects || options.ids) components = find_components(level, tunnel_height_of(options.interpolant, options.tunnel_height), context);
+    const std::vector<std::uint8_t> chosen = selects ? chosen_contours(level, *components, options) : std::vector<std::uint8_t>{};
+    visit_samples(level.volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
-        Extraction<T>(volume, samples, tau, options, context, high, components ? &*components : nullptr).run(surface);
+        Extraction<T>(level, samples, options, context, components ? &*components : nullptr).run(surface);
     });
     if (selects) keep_contours(chosen, surface);
     if (options.ids)
@@ -145,6 +144,11 @@ Surface extract(const Volume& volume, double tau, const ExtractOptions& options,
     else
         surface.contour.clear();
     return surface;
+}
+
+Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {
+    const HighBits high = classify(volume, tau, context);
+    return extract_level({volume, tau, high}, options, context);
 }
 
 }  // namespace isoatlas

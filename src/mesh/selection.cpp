@@ -22,8 +22,8 @@ std::string describe_voxel(const Extent& extent, std::int64_t voxel) {
 }
 
 /// The object (number) that contains a voxel.
-std::int32_t object_at(const Volume& volume, double tau, const Components& components, std::int64_t voxel) {
-    const Extent& extent = volume.info.extent;
+std::int32_t object_at(const TauLevel& level, const Components& components, std::int64_t voxel) {
+    const Extent& extent = level.info().extent;
     if (voxel < 0 || voxel >= extent.voxels()) {
         throw Error(ErrorKind::not_found, {.where = "object " + std::to_string(voxel),
                                            .what = "there is no such voxel",
@@ -34,23 +34,22 @@ std::int32_t object_at(const Volume& volume, double tau, const Components& compo
     const RunRow row = components.runs.row(at[1], at[2]);
     const std::int64_t run = row.run_at(at[0] + 1);
     if (((run - row.first_run) & 1) == 0) {
-        const Calibration& calibration = volume.info.calibration;
+        const Calibration& calibration = level.info().calibration;
         throw Error(ErrorKind::not_found,
                     {.where = describe_voxel(extent, voxel),
-                     .what = "its value " + shortest(calibration.reported(volume.value(voxel))) + " is below the isovalue " +
-                             shortest(calibration.reported(tau)) + ", so no object contains it",
+                     .what = "its value " + shortest(calibration.reported(level.sample_at(voxel))) + " is below the isovalue " +
+                             shortest(calibration.reported(level.tau)) + ", so no object contains it",
                      .next = "lower the isovalue, or list the objects at this isovalue and take one of their ids"});
     }
     return components.of_run[run];
 }
 
-std::int64_t contour_with_id(const std::unordered_map<std::int64_t, std::int64_t>& numbers, const Volume& volume, double tau,
-                             std::int64_t id) {
+std::int64_t contour_with_id(const std::unordered_map<std::int64_t, std::int64_t>& numbers, const TauLevel& level, std::int64_t id) {
     const auto found = numbers.find(id);
     if (found != numbers.end()) return found->second;
     throw Error(ErrorKind::not_found,
                 {.where = "contour " + std::to_string(id),
-                 .what = "there is no such contour at the isovalue " + shortest(volume.info.calibration.reported(tau)),
+                 .what = "there is no such contour at the isovalue " + shortest(level.info().calibration.reported(level.tau)),
                  .expected = "the highest voxel of an object or the lowest voxel of a cavity",
                  .next = "list the objects at this isovalue with their contours"});
 }
@@ -81,17 +80,17 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
     }
 }
 
-std::vector<std::uint8_t> chosen_contours(const Volume& volume, double tau, const Components& components, const ExtractOptions& options) {
+std::vector<std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options) {
     if (options.objects.empty() && options.contours.empty() && options.shell == ShellChoice::all) return {};
     const std::int64_t contours = components.contours();
     std::vector<std::uint8_t> object_chosen(static_cast<std::size_t>(components.objects()), options.objects.empty());
-    for (const std::int64_t voxel : options.objects) object_chosen[object_at(volume, tau, components, voxel)] = 1;
+    for (const std::int64_t voxel : options.objects) object_chosen[object_at(level, components, voxel)] = 1;
 
     std::vector<std::uint8_t> chosen(static_cast<std::size_t>(contours), options.contours.empty());
     if (!options.contours.empty()) {
         std::unordered_map<std::int64_t, std::int64_t> numbers;
         for (std::int64_t contour = 0; contour < contours; ++contour) numbers.emplace(components.contour_id(contour), contour);
-        for (const std::int64_t id : options.contours) chosen[contour_with_id(numbers, volume, tau, id)] = 1;
+        for (const std::int64_t id : options.contours) chosen[contour_with_id(numbers, level, id)] = 1;
     }
     for (std::int64_t contour = 0; contour < contours; ++contour) {
         const bool outer = contour < components.objects();

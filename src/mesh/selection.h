@@ -12,8 +12,7 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
 
 /// The contours that the options ask for, as a flag per contour number; empty: all of them.
 /// Throws Error: usage (not a voxel), not_found (a Low voxel, no such contour at tau).
-[[nodiscard]] std::vector<std::uint8_t> chosen_contours(const Volume& volume, double tau, const Components& components,
-                                                        const ExtractOptions& options);
+[[nodiscard]] std::vector<std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options);
 
 /// Keeps the points of the chosen contours and what is between them. Surface::contour holds contour numbers.
 void keep_contours(const std::vector<std::uint8_t>& chosen, Surface& surface);

@@ -100,17 +100,39 @@ void find_extremes(const GridView<T>& grid, const Context& context, Components& 
     }
 }
 
+/// The highest voxel of an object is a maximum, the lowest one of a low component a minimum: the first of a sorted list that it contains.
+void take_extremes(const Extrema& extrema, Components& components) {
+    const Extent& extent = components.runs.extent;
+    const auto take = [&](const std::vector<std::int64_t>& voxels, bool high, std::vector<std::int64_t>& name) {
+        for (const std::int64_t voxel : voxels) {
+            const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+            const RunRow row = components.runs.row(at[1], at[2]);
+            const std::int64_t run = row.run_at(at[0] + 1);
+            ISOATLAS_CHECK(((run - row.first_run) & 1) == (high ? 1 : 0));
+            std::int64_t& named = name[components.of_run[run]];
+            if (named == -1) named = voxel;
+        }
+    };
+    take(extrema.maxima, true, components.highest);
+    take(extrema.minima, false, components.lowest);
+    components.lowest[0] = -1;  // the outside has no name
+}
+
 }  // namespace
 
-Components find_components(const Volume& volume, double tau, double tunnel_height, const HighBits& high, const Context& context) {
-    Components components{find_runs(high, context), {}, {}, {}, {}, {}};
-    RunSets sets = unite_runs(volume, tau, tunnel_height, high, components.runs, context);
+Components find_components(const TauLevel& level, double tunnel_height, const Context& context) {
+    Components components{find_runs(level.high, context), {}, {}, {}, {}, {}};
+    RunSets sets = unite_runs(level.volume, level.tau, tunnel_height, level.high, components.runs, context);
     number_components(sets, components);
     components.highest.assign(static_cast<std::size_t>(components.objects()), -1);
     components.lowest.assign(static_cast<std::size_t>(components.lows()), -1);
-    visit_samples(volume, [&](auto samples) {
+    if (level.extrema != nullptr) {
+        take_extremes(*level.extrema, components);
+        return components;
+    }
+    visit_samples(level.volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
-        find_extremes(GridView<T>{samples.data(), volume.info.extent}, context, components);
+        find_extremes(GridView<T>{samples.data(), level.info().extent}, context, components);
     });
     return components;
 }

@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "query/runs.h"
+#include "query/tau_level.h"
 
 namespace isoatlas {
 
@@ -39,11 +40,10 @@ struct Components {
     }
 };
 
-/// Components of the samples at tau; `high` are their classes. Connected are: 6-neighbours (4 in 2D) of one class, and the diagonal of a
+/// Components of the samples. Connected are: 6-neighbours (4 in 2D) of one class, and the diagonal of a
 /// 4-hit face that its face point joins (theory.md section 1); with the trilinear interpolant, also the two regions of a cell that a tunnel
 /// joins. Cost: O(runs) beyond the bits, and O(active cells) for tunnels. Same result for any threads and slabs.
-[[nodiscard]] Components find_components(const Volume& volume, double tau, double tunnel_height, const HighBits& high,
-                                         const Context& context);
+[[nodiscard]] Components find_components(const TauLevel& level, double tunnel_height, const Context& context);
 
 /// Walks along a row and tells the component of ascending positions. Outside the volume everything is low component 0.
 class ComponentCursor {

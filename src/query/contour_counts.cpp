@@ -111,9 +111,9 @@ void count_3d(const GridView<T>& grid, double tau, double tunnel_height, const H
 
 }  // namespace
 
-ContourCounts count_contours(const Volume& volume, double tau, double tunnel_height, const HighBits& high, const Components& components,
+ContourCounts count_contours(const VolumeView& volume, double tau, double tunnel_height, const HighBits& high, const Components& components,
                              const Context& context) {
-    const Extent& extent = volume.info.extent;
+    const Extent& extent = volume.info->extent;
     const auto contours = static_cast<std::size_t>(components.contours());
     ContourCounts counts{std::vector<std::int64_t>(contours), std::vector<std::int64_t>(contours), 0};
     if (extent.rank == 2) {

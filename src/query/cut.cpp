@@ -1,4 +1,4 @@
-#include "isoatlas/cut.h"
+#include "query/cut_level.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,9 +13,9 @@ namespace isoatlas {
 namespace {
 
 /// Voxels, physical size and bounds of every object, in the numbering of Components. In scan order: sums do not depend on threads.
-void measure_objects(const Volume& volume, const Components& components, std::vector<CutObject>& objects) {
-    const Extent& extent = volume.info.extent;
-    const Geometry& geometry = volume.info.geometry;
+void measure_objects(const VolumeInfo& info, const Components& components, std::vector<CutObject>& objects) {
+    const Extent& extent = info.extent;
+    const Geometry& geometry = info.geometry;
     const bool rectilinear = std::ranges::any_of(geometry.coordinates, [](const auto& axis) { return axis.size() > 1; });
     constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -99,25 +99,29 @@ void label_voxels(const Components& components, const std::vector<std::int64_t>&
 
 }  // namespace
 
-Cut cut(const Volume& volume, double tau, const CutOptions& options, const Context& context) {
+Cut cut_level(const TauLevel& level, const CutOptions& options, const Context& context) {
     const double tunnel_height = tunnel_height_of(options.interpolant, options.tunnel_height);
-    const HighBits high = classify(volume, tau, context);
-    const Components components = find_components(volume, tau, tunnel_height, high, context);
-    const ContourCounts counts = count_contours(volume, tau, tunnel_height, high, components, context);
+    const Components components = find_components(level, tunnel_height, context);
+    const ContourCounts counts = count_contours(level.volume, level.tau, tunnel_height, level.high, components, context);
 
     std::vector<CutObject> objects(static_cast<std::size_t>(components.objects()));
-    measure_objects(volume, components, objects);
+    measure_objects(level.info(), components, objects);
     std::vector<std::int64_t> order(objects.size());
     std::iota(order.begin(), order.end(), std::int64_t{0});
     std::ranges::sort(order, [&](std::int64_t a, std::int64_t b) {
         return objects[a].voxels != objects[b].voxels ? objects[a].voxels > objects[b].voxels : objects[a].id < objects[b].id;
     });
 
-    Cut result{tau, options.interpolant, options.tunnel_height, {}, {}, counts.active_cells, {}};
+    Cut result{level.tau, options.interpolant, options.tunnel_height, {}, {}, counts.active_cells, {}};
     for (const std::int64_t object : order) result.objects.push_back(objects[object]);
     group_contours(components, counts, order, result);
     if (options.label) label_voxels(components, order, context, result.label);
     return result;
+}
+
+Cut cut(const Volume& volume, double tau, const CutOptions& options, const Context& context) {
+    const HighBits high = classify(volume, tau, context);
+    return cut_level({volume, tau, high}, options, context);
 }
 
 }  // namespace isoatlas

@@ -96,11 +96,12 @@ private:
 
 }  // namespace
 
-RunSets unite_runs(const Volume& volume, double tau, double tunnel_height, const HighBits& high, const Runs& runs, const Context& context) {
+RunSets unite_runs(const VolumeView& volume, double tau, double tunnel_height, const HighBits& high, const Runs& runs,
+                   const Context& context) {
     RunSets sets(static_cast<std::size_t>(runs.count()));
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;
-        const GridView<T> grid{samples.data(), volume.info.extent};
+        const GridView<T> grid{samples.data(), volume.info->extent};
         RunJoiner<T> joiner(grid, tau, tunnel_height, high, runs, sets);
         const Slices slices{grid.extent.size[2], grid.extent.slice()};
         // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.

@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "output", "phantom", "verify"]
+STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "atlas", "output", "phantom", "verify"]
 MAX_LINES = 400
 
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
@@ -19,7 +19,7 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/query/slab_work\.cpp",  # the last asks which thread it is on
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/analysis_data\.h",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/analysis_data\.h|src/query/stored_samples\.(h|cpp)|src/atlas/atlas\.cpp",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"src/dist/.*",
     r"tiff.*\.h": r"src/io/tiff.*|src/output/.*|tests/.*",
     r"pugixml\.hpp": r"src/io/.*|src/output/.*|tests/.*",

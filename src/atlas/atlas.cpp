@@ -1,0 +1,138 @@
+#include "isoatlas/atlas.h"
+
+#include <mutex>
+
+#include "base/lazy.h"
+#include "field/order.h"
+#include "mesh/extract_level.h"
+#include "query/cut_level.h"
+#include "query/stored_samples.h"
+#include "store/brick_writer.h"
+#include "store/checksum.h"
+#include "store/container.h"
+#include "store/tree_arrays.h"
+
+namespace isoatlas {
+namespace {
+
+/// Voxels and values of all maxima, descending, and of all minima, ascending.
+struct AllExtrema {
+    std::vector<std::int64_t> maxima, minima;
+    std::vector<double> maxima_value, minima_value;
+};
+
+AllExtrema extrema_of(const store::Container& store) {
+    const auto value = store.all<double>("elements/value", "float64");
+    const auto code = store.all<std::uint64_t>("elements/code", "uint64");
+    const std::int64_t voxels = store.contents().volume.extent.voxels();
+    AllExtrema all;
+    for (std::size_t i = 0; i < value.size() && i < code.size(); ++i) {
+        const ElementCode element{code[i]};
+        if (element.kind() != CodeKind::vertex || element.index() >= voxels) continue;
+        if (element.h0() == 0) all.maxima.push_back(element.index()), all.maxima_value.push_back(value[i]);
+        if (element.l0() == 0) all.minima.push_back(element.index()), all.minima_value.push_back(value[i]);
+    }
+    std::reverse(all.minima.begin(), all.minima.end());
+    std::reverse(all.minima_value.begin(), all.minima_value.end());
+    return all;
+}
+
+}  // namespace
+
+struct Atlas::Data {
+    store::Container store;
+    std::unique_ptr<StoredSamples> samples;
+    Lazy<AllExtrema> extrema;
+    mutable std::mutex mutex;
+    store::IoCounters reads;
+
+    explicit Data(const std::string& path) : store(path), samples(stored_samples(store)) {}
+
+    void count(const store::IoCounters& counters) {
+        const std::lock_guard lock(mutex);
+        reads += counters;
+    }
+
+    /// What names objects and low components at tau.
+    Extrema extrema_at(double tau) const {
+        const AllExtrema& all = extrema.get([this] { return extrema_of(store); });
+        Extrema at;
+        for (std::size_t i = 0; i < all.maxima.size() && all.maxima_value[i] >= tau; ++i) at.maxima.push_back(all.maxima[i]);
+        for (std::size_t i = 0; i < all.minima.size() && all.minima_value[i] < tau; ++i) at.minima.push_back(all.minima[i]);
+        return at;
+    }
+
+    /// Runs query(level).
+    template <class Query>
+    auto at_level(double tau, const Context& context, Query&& query) {
+        store::IoCounters counters;
+        const HighBits high = samples->classify(tau, context, counters);
+        const Extrema names = extrema_at(tau);
+        const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, counters); };
+        auto answer = query(TauLevel{samples->view(), tau, high, &names, sample});
+        count(counters);
+        return answer;
+    }
+};
+
+void build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
+    const Analysis analysis = analyse(volume, options, context);
+    store::Contents contents;
+    contents.volume = volume.info;
+    const std::size_t slash = volume.info.path.rfind('/');
+    if (slash != std::string::npos) contents.volume.path = volume.info.path.substr(slash + 1);  // where it lay does not matter
+    contents.parameters = {options.interpolant, options.tunnel_height, store::checksum(volume.bytes)};
+    std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context);
+    for (store::PackedArray& array : store::tree_arrays(analysis)) arrays.push_back(std::move(array));
+    store::pack_store(path, contents, arrays);
+}
+
+bool is_atlas(const std::string& path) try {
+    const std::unique_ptr<io::FileHandle> file = io::open_file(path);
+    std::array<std::byte, sizeof store::kMagic> first{};
+    const std::size_t got = io::read_available(*file, path, 0, first);
+    return store::begins_like_a_store(std::span(first).first(got));
+} catch (const Error&) {
+    return false;
+}
+
+Atlas::Atlas(const std::string& path) : data_(std::make_unique<Data>(path)) {}
+Atlas::Atlas(Atlas&&) noexcept = default;
+Atlas& Atlas::operator=(Atlas&&) noexcept = default;
+Atlas::~Atlas() = default;
+
+const VolumeInfo& Atlas::info() const { return data_->store.contents().volume; }
+Interpolant Atlas::interpolant() const { return data_->store.contents().parameters.interpolant; }
+double Atlas::tunnel_height() const { return data_->store.contents().parameters.tunnel_height; }
+
+Cut Atlas::cut(double tau, const CutOptions& options, const Context& context) const {
+    CutOptions own = options;
+    own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
+    return data_->at_level(tau, context, [&](const TauLevel& level) { return cut_level(level, own, context); });
+}
+
+Surface Atlas::extract(double tau, const ExtractOptions& options, const Context& context) const {
+    ExtractOptions own = options;
+    own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
+    return data_->at_level(tau, context, [&](const TauLevel& level) { return extract_level(level, own, context); });
+}
+
+Analysis Atlas::analysis() const { return store::analysis_of(data_->store); }
+
+Volume Atlas::volume(const Context& context) const {
+    Volume volume = make_volume(info().extent, info().type, info().geometry);
+    volume.info = info();
+    store::IoCounters counters;
+    data_->samples->read_all(volume.bytes, context, counters);
+    data_->count(counters);
+    return volume;
+}
+
+AtlasReads Atlas::reads() const {
+    const std::lock_guard lock(data_->mutex);
+    return {data_->reads.bytes, data_->reads.extents, data_->reads.bricks};
+}
+
+void Atlas::clear_cache() const { data_->samples->clear(); }
+
+}  // namespace isoatlas

@@ -1,0 +1,26 @@
+// Room for an array that is filled here and there: pages that nobody has written take no memory.
+#pragma once
+
+#include <cstddef>
+
+namespace isoatlas {
+
+class VirtualArray {
+public:
+    /// Zeros. Throws std::bad_alloc when the system has no room for the addresses.
+    explicit VirtualArray(std::size_t bytes);
+    ~VirtualArray();
+    VirtualArray(const VirtualArray&) = delete;
+    VirtualArray& operator=(const VirtualArray&) = delete;
+
+    [[nodiscard]] std::byte* data() { return data_; }
+    [[nodiscard]] const std::byte* data() const { return data_; }
+    /// Gives all memory back; afterwards everything is zero.
+    void clear();
+
+private:
+    std::byte* data_;
+    std::size_t bytes_;
+};
+
+}  // namespace isoatlas

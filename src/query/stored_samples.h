@@ -1,0 +1,37 @@
+// The samples of a store at one isovalue: the bricks that the surface passes are read, the others are High or Low as a whole.
+//
+// Samples lie where they would lie in the whole volume, in a virtual array: so the kernels for volumes in memory work on them. Which bricks
+// are needed:
+//   1. those that the isovalue divides (low < tau <= high): afterwards all classes are known;
+//   2. those with a sample next to an active cell: cells between two bricks, and normals, which look one sample further.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "base/virtual_array.h"
+#include "query/tau_level.h"
+#include "store/brick_reader.h"
+
+namespace isoatlas {
+
+class StoredSamples {
+public:
+    virtual ~StoredSamples() = default;
+
+    /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view().
+    /// Cost: the bricks that are not present yet, and O(voxels / 16) for the classes.
+    [[nodiscard]] virtual HighBits classify(double tau, const Context& context, store::IoCounters& counters) = 0;
+    [[nodiscard]] virtual VolumeView view() const = 0;
+    /// Any sample; reads its brick when it is not present.
+    [[nodiscard]] virtual double sample(std::int64_t voxel, store::IoCounters& counters) = 0;
+    /// All samples, x fastest.
+    virtual void read_all(std::span<std::byte> samples, const Context& context, store::IoCounters& counters) = 0;
+    /// Forgets the samples that are present.
+    virtual void clear() = 0;
+};
+
+/// The store must outlive what is returned.
+[[nodiscard]] std::unique_ptr<StoredSamples> stored_samples(const store::Container& store);
+
+}  // namespace isoatlas

@@ -1,0 +1,33 @@
+// A volume at one isovalue, ready to be cut or extracted.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "field/volume_view.h"
+#include "query/high_bits.h"
+
+namespace isoatlas {
+
+/// Critical voxels that name objects and low components (docs/decisions/0001): the first one of a component in these orders is its name.
+struct Extrema {
+    std::vector<std::int64_t> maxima;  ///< all maxima that are High, descending in the total order
+    std::vector<std::int64_t> minima;  ///< all minima that are Low, ascending
+};
+
+struct TauLevel {
+    VolumeView volume;  ///< samples are needed at the corners of active cells, and one sample around them for normals
+    double tau;
+    const HighBits& high;                          ///< of all samples
+    const Extrema* extrema = nullptr;              ///< null: names are found by looking at all samples
+    std::function<double(std::int64_t)> sample{};  ///< of any voxel, for messages; empty: it is in `volume`
+
+    [[nodiscard]] const VolumeInfo& info() const { return *volume.info; }
+    [[nodiscard]] double sample_at(std::int64_t voxel) const {
+        if (sample) return sample(voxel);
+        return visit_samples(volume, [voxel](auto samples) { return static_cast<double>(samples[static_cast<std::size_t>(voxel)]); });
+    }
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,135 @@
+// From a store come the same answers as from the volume, to the last byte, whatever was read before; and only what is needed is read.
+#include "isoatlas/atlas.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "isoatlas/phantom.h"
+#include "oracle/difference.h"
+#include "oracle/mesh_checks.h"
+
+namespace oracle {
+namespace {
+
+namespace fs = std::filesystem;
+using isoatlas::Atlas;
+using isoatlas::Surface;
+using isoatlas::Volume;
+
+class Stores : public testing::Test {
+protected:
+    Stores() : path_((fs::temp_directory_path() / ("isoatlas_atlas_" + std::to_string(::getpid()) + ".atlas")).string()) {}
+    ~Stores() override { fs::remove(path_); }
+    Stores(const Stores&) = delete;
+    Stores& operator=(const Stores&) = delete;
+
+public:
+    std::string path_;
+};
+
+std::string text(const isoatlas::Cut& cut) {
+    std::ostringstream out;
+    out.precision(17);
+    out << cut.tau << ' ' << cut.active_cells << '\n';
+    for (const auto& o : cut.objects) {
+        out << o.id << ' ' << o.chi << ' ' << o.b1 << ' ' << o.b2 << ' ' << o.voxels << ' ' << o.measure << ' ' << join(o.box_low)
+            << join(o.box_high) << o.first_contour << ' ' << o.contour_count << '\n';
+    }
+    for (const auto& c : cut.contours)
+        out << c.id << ' ' << c.object << ' ' << static_cast<int>(c.shell) << ' ' << c.genus << ' ' << c.hits << '\n';
+    for (const auto label : cut.label) out << label << ' ';
+    return out.str();
+}
+
+bool same(const Surface& p, const Surface& q) {
+    return p.points == q.points && p.normals == q.normals && p.triangles == q.triangles && p.segments == q.segments &&
+           p.object == q.object && p.contour == q.contour && p.tau == q.tau && p.interpolant == q.interpolant;
+}
+
+/// Bricks of 16 samples a side need larger volumes than the oracle can bear.
+Grid arbitrary_volume() {
+    std::array<Index, 3> size{};
+    for (Index& n : size) n = *rc::gen::inRange<Index>(1, 36);
+    const int rank = *rc::gen::inRange(0, 5) == 0 ? 2 : 3;
+    if (rank == 2) size[2] = 1;
+    const auto texture = static_cast<Texture>(*rc::gen::inRange(0, kTextures));
+    const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000000);
+    std::vector<int> raw(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 40);
+    std::uint64_t state = seed * 2 + 1;
+    for (int& r : raw) r = static_cast<int>((state = state * 6364136223846793005U + 1442695040888963407U) >> 33) % 10000;
+    return make_grid(rank, size, texture, raw);
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameCutsAndSurfaces, ()) {
+    const Grid grid = arbitrary_volume();
+    Volume volume = to_volume(grid, arbitrary_type(grid));
+    volume.info.geometry = arbitrary_geometry(grid);
+    const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant()};
+    isoatlas::build_atlas(path_, volume, options, arbitrary_context());
+    const Atlas atlas(path_);
+    for (int query = 0; query < 6; ++query) {
+        double tau = grid.value[*rc::gen::inRange<std::size_t>(0, grid.value.size())];
+        if (*rc::gen::inRange(0, 2) == 0) tau += 0.25;
+        const isoatlas::CutOptions cut{.interpolant = options.interpolant, .label = true};
+        RC_ASSERT(text(atlas.cut(tau, cut, arbitrary_context())) == text(isoatlas::cut(volume, tau, cut)));
+        isoatlas::ExtractOptions extract;
+        extract.interpolant = options.interpolant;
+        extract.style = *rc::gen::element(isoatlas::SurfaceStyle::compact, isoatlas::SurfaceStyle::full);
+        extract.boundary = *rc::gen::element(isoatlas::Boundary::closed, isoatlas::Boundary::open);
+        extract.shell = *rc::gen::element(isoatlas::ShellChoice::all, isoatlas::ShellChoice::outer, isoatlas::ShellChoice::inner);
+        extract.ids = *rc::gen::inRange(0, 2) == 0;
+        RC_ASSERT(same(atlas.extract(tau, extract, arbitrary_context()), isoatlas::extract(volume, tau, extract)));
+        if (*rc::gen::inRange(0, 4) == 0) atlas.clear_cache();
+    }
+    RC_ASSERT(atlas.volume().bytes == volume.bytes);
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {
+    const Grid grid = *arbitrary_grid(6, 120);
+    const Volume volume = to_volume(grid, arbitrary_type(grid));
+    const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant()};
+    isoatlas::build_atlas(path_, volume, options);
+    const isoatlas::Analysis expected = isoatlas::analyse(volume, options), actual = Atlas(path_).analysis();
+    RC_ASSERT(canonical_text(actual) == canonical_text(expected));
+    RC_ASSERT(actual.element_count() == expected.element_count());
+    for (Index e = 0; e < expected.event_count(); ++e) {
+        RC_ASSERT(actual.event(e).zone.voxels == expected.event(e).zone.voxels);
+        RC_ASSERT(actual.event(e).position == expected.event(e).position);
+    }
+}
+
+TEST_F(Stores, ReadOnlyTheBricksOfTheSurface) {
+    const Volume volume = isoatlas::make_phantom("nested-shells", {.size = 160});
+    isoatlas::build_atlas(path_, volume);
+    const Atlas atlas(path_);
+    EXPECT_EQ(atlas.reads().bytes, 0);
+    const double tau = 0.5;
+    const Surface surface = atlas.extract(tau);
+    EXPECT_TRUE(same(surface, isoatlas::extract(volume, tau)));
+    const isoatlas::AtlasReads first = atlas.reads();
+    EXPECT_LT(first.bricks, 700);  // of 1000
+    const Surface again = atlas.extract(tau);
+    EXPECT_TRUE(same(surface, again));
+    EXPECT_EQ(atlas.reads().bytes, first.bytes);  // nothing is read twice
+}
+
+TEST_F(Stores, TheSameVolumeGivesTheSameBytes) {
+    const Volume volume = isoatlas::make_phantom("noise", {.size = 40});
+    std::string first;
+    for (const int threads : {1, 2, 3}) {
+        isoatlas::Context context;
+        context.threads = threads;
+        context.slab_slices = threads;
+        isoatlas::build_atlas(path_, volume, {}, context);
+        std::ifstream file(path_, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        if (first.empty()) first = bytes;
+        EXPECT_TRUE(bytes == first);
+    }
+}
+
+}  // namespace
+}  // namespace oracle
