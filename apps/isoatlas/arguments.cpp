@@ -110,6 +110,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
+    } else if (verb == "build") {
+        add_output(app, arguments, ".atlas", true);
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
         app.add_option("--size", arguments.phantom.size, "Samples per axis")
@@ -188,6 +190,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     }
     arguments.interpolant = parse_choice<Interpolant>("--interpolant", typed.interpolant,
                                                       {{"faces", Interpolant::faces}, {"trilinear", Interpolant::trilinear}});
+    arguments.interpolant_given = given("--interpolant");
     if (given("--tunnel-height")) {
         arguments.tunnel_height_in_percent = typed.tunnel_height.ends_with('%');
         arguments.tunnel_height = parse_height("--tunnel-height", typed.tunnel_height);

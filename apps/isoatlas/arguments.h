@@ -22,6 +22,7 @@ struct Arguments {
 
     // Running and talking
     Interpolant interpolant = Interpolant::trilinear;
+    bool interpolant_given = false;
     double tunnel_height = 0;  ///< in reported units, or in percent of the range
     bool tunnel_height_in_percent = false;
     int threads = 0;

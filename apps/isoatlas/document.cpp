@@ -59,6 +59,11 @@ Json document(const std::string& name, const VolumeInfo& info, Interpolant inter
     return json;
 }
 
+void add_reads(Json& json, const std::optional<AtlasReads>& reads) {
+    Json& entry = json["reads"] = nullptr;
+    if (reads) entry = {{"bytes", reads->bytes}, {"extents", reads->extents}, {"bricks", reads->bricks}};
+}
+
 void print(Terminal& terminal, const Json& json) { terminal.out() << "{\n" << members(json) << "\n}\n"; }
 
 void print(Terminal& terminal, const Json& head, const std::string& name, std::int64_t count,

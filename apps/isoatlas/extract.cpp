@@ -5,7 +5,7 @@
 
 #include "document.h"
 #include "interrupt.h"
-#include "session.h"
+#include "source.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
@@ -25,17 +25,16 @@ const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
 }
 
 /// The best isovalue of the objects asked for. With --best and no --object, the first line of the table is the object.
-double best_tau(const Arguments& arguments, const Volume& volume, ExtractOptions& options, const Context& context) {
-    const Analysis analysis =
-        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
-    ObjectTable table = rank_objects(volume, analysis, {}, context);
+double best_tau(const Arguments& arguments, Source& source, ExtractOptions& options) {
+    const Analysis analysis = source.analysis(true);
+    ObjectTable table = rank_objects(source.volume(), analysis, {}, source.context());
     if (options.objects.empty()) {
         if (table.entries.empty()) no_such_entry(arguments, "nothing in this volume rises above the noise");
         options.objects = {table.entries[0].id};
     }
     const auto known = [&](std::int64_t id) { return find(table, id) != nullptr; };
     if (!std::all_of(options.objects.begin(), options.objects.end(), known)) {
-        table = rank_objects(volume, analysis, {.top = 0, .gate = false}, context);
+        table = rank_objects(source.volume(), analysis, {.top = 0, .gate = false}, source.context());
     }
     double tau = 0;
     for (std::size_t i = 0; i < options.objects.size(); ++i) {
@@ -65,14 +64,14 @@ void check_arguments(const Arguments& arguments) {
 }
 
 /// Ids are voxel indices: one beyond the volume is no object, whatever the isovalue.
-void check_ids(const Arguments& arguments, const Volume& volume) {
+void check_ids(const Arguments& arguments, const VolumeInfo& info) {
     for (const std::vector<std::int64_t>* ids : {&arguments.objects, &arguments.contours}) {
         for (const std::int64_t id : *ids) {
-            if (id >= 0 && id < volume.info.extent.voxels()) continue;
+            if (id >= 0 && id < info.extent.voxels()) continue;
             throw Error(ErrorKind::not_found,
                         {.file = arguments.file,
                          .what = fmt::format("there is no {} {}", ids == &arguments.objects ? "object" : "contour", id),
-                         .expected = fmt::format("a voxel index, 0 to {}", volume.info.extent.voxels() - 1),
+                         .expected = fmt::format("a voxel index, 0 to {}", info.extent.voxels() - 1),
                          .next = "isoatlas objects " + shell_word(arguments.file) + " lists them"});
         }
     }
@@ -97,9 +96,9 @@ Counts count(const Surface& surface) {
             surface.closed};
 }
 
-Json to_json(const Arguments& arguments, const Volume& volume, const Surface& surface, const Counts& counts,
+Json to_json(const Arguments& arguments, const Source& source, const Surface& surface, const Counts& counts,
              const std::vector<std::string>& warnings) {
-    Json json = document("extract", volume.info, surface.interpolant, surface.tunnel_height, arguments.boundary);
+    Json json = document("extract", source.info(), surface.interpolant, surface.tunnel_height, arguments.boundary);
     json["tau"] = surface.reported_tau;
     json["style"] = arguments.style == SurfaceStyle::compact ? "compact" : "full";
     json["output"] = arguments.output;
@@ -111,6 +110,7 @@ Json to_json(const Arguments& arguments, const Volume& volume, const Surface& su
     json["closed"] = counts.closed;
     json["space"] = surface.space;
     json["warnings"] = warnings;
+    add_reads(json, source.reads());
     return json;
 }
 
@@ -128,19 +128,17 @@ void print_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo
 
 int run_extract(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
-    Session session(arguments, terminal);
-    const Volume volume = session.load();
-    check_ids(arguments, volume);
-    const Context context = session.context();
-    ExtractOptions options{.interpolant = arguments.interpolant,
-                           .tunnel_height = tunnel_height_of(arguments, volume),
+    Source source(arguments, terminal);
+    check_ids(arguments, source.info());
+    ExtractOptions options{.interpolant = source.interpolant(),
+                           .tunnel_height = source.tunnel_height(),
                            .boundary = arguments.boundary,
                            .style = arguments.style,
                            .objects = arguments.objects,
                            .contours = arguments.contours,
                            .shell = arguments.shell};
-    const double tau = arguments.tau ? tau_of(arguments, volume) : best_tau(arguments, volume, options, context);
-    const Surface surface = extract(volume, tau, options, context);
+    const double tau = arguments.tau ? source.tau() : best_tau(arguments, source, options);
+    const Surface surface = source.extract(tau, options);
     if (surface.points.empty()) {
         throw Error(ErrorKind::not_found, {.file = arguments.file,
                                            .what = "there is no such surface at this isovalue; nothing was written",
@@ -154,9 +152,9 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     }
     for (const std::string& warning : warnings) terminal.warn(warning);
     if (arguments.json) {
-        print(terminal, to_json(arguments, volume, surface, counts, warnings));
+        print(terminal, to_json(arguments, source, surface, counts, warnings));
     } else {
-        print_text(arguments, terminal, volume.info, surface, counts);
+        print_text(arguments, terminal, source.info(), surface, counts);
     }
     return 0;
 }

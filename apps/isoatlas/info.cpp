@@ -127,10 +127,20 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
 
 int run_info(const Arguments& arguments, Terminal& terminal) {
     Session session(arguments, terminal);
-    const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
-    VolumeInfo info = reader->info();
+    VolumeInfo info;
+    Values values;
+    if (is_atlas(arguments.file)) {
+        const Atlas atlas(arguments.file);
+        const std::array<double, 2> range = atlas.range();
+        info = atlas.info();
+        info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()));
+        values = {true, range[0], range[1], 0};
+    } else {
+        const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+        info = reader->info();
+        values = read_values(*reader, session);
+    }
     if (arguments.voxel_units) info.geometry = Geometry{};
-    const Values values = read_values(*reader, session);
     if (arguments.json) {
         print(terminal, to_json(info, values, cost_of_analysis(info, arguments.threads)));
         return 0;

@@ -6,7 +6,7 @@
 
 #include "document.h"
 #include "interrupt.h"
-#include "session.h"
+#include "source.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
@@ -26,10 +26,8 @@ struct Labels {
                                          .next = "label the objects of one isovalue with --tau"});
 }
 
-Labels label_objects(const Arguments& arguments, const Volume& volume, const Context& context) {
-    const Cut at =
-        cut(volume, tau_of(arguments, volume),
-            {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume), .label = true}, context);
+Labels label_objects(Source& source) {
+    const Cut at = source.cut(source.tau(), true);
     Labels labels{std::vector<std::uint32_t>(at.label.size()),
                   static_cast<std::int64_t>(at.objects.size()),
                   {.interpolant = at.interpolant, .tunnel_height = at.tunnel_height, .tau = at.tau}};
@@ -37,11 +35,10 @@ Labels label_objects(const Arguments& arguments, const Volume& volume, const Con
     return labels;
 }
 
-Labels label_zones(const Arguments& arguments, const Volume& volume, const Context& context) {
-    const Analysis analysis =
-        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
+Labels label_zones(const Arguments& arguments, Source& source) {
+    const Analysis analysis = source.analysis(true);
     if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
-    const std::int64_t voxels = volume.info.extent.voxels();
+    const std::int64_t voxels = source.info().extent.voxels();
     Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)),
                   analysis.event_count(),
                   {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
@@ -63,26 +60,25 @@ void check_arguments(const Arguments& arguments) {
 
 int run_label(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
-    Session session(arguments, terminal);
-    const Volume volume = session.load();
-    const Labels labels =
-        arguments.zones ? label_zones(arguments, volume, session.context()) : label_objects(arguments, volume, session.context());
+    Source source(arguments, terminal);
+    const Labels labels = arguments.zones ? label_zones(arguments, source) : label_objects(source);
     {
         const WritingGuard guard(arguments.output);
-        write_labels(arguments.output, volume.info, labels.of_voxel, labels.origin);
+        write_labels(arguments.output, source.info(), labels.of_voxel, labels.origin);
     }
     if (arguments.json) {
-        Json json = document("label", volume.info, labels.origin.interpolant, labels.origin.tunnel_height);
+        Json json = document("label", source.info(), labels.origin.interpolant, labels.origin.tunnel_height);
         json["output"] = arguments.output;
         json["labels_are"] = arguments.zones ? "zones" : "objects";
         json["tau"] = arguments.tau ? Json(*arguments.tau) : Json(nullptr);
         json["labels"] = labels.count;
+        add_reads(json, source.reads());
         print(terminal, json);
         return 0;
     }
     terminal.out() << arguments.output << ": " << counted(labels.count, arguments.zones ? "zone" : "object")
                    << (arguments.zones ? " (label = event id + 1), " : " (label 1 is the largest, 0 is background), ")
-                   << interpolant_text(volume.info, labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
+                   << interpolant_text(source.info(), labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
     if (arguments.tau) {
         terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),
                                   reading_options(arguments), *arguments.tau));

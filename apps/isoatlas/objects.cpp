@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "document.h"
-#include "session.h"
+#include "source.h"
 #include "table.h"
 #include "terminal.h"
 #include "values.h"
@@ -127,13 +127,11 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, const Volu
 }
 
 int list_best(const Arguments& arguments, Terminal& terminal) {
-    Session session(arguments, terminal);
-    const Volume volume = session.load();
-    const Context context = session.context();
-    const Analysis analysis =
-        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, context);
+    Source source(arguments, terminal);
+    const Analysis analysis = source.analysis(true);
+    const Volume& volume = source.volume();
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
-    const ObjectTable table = rank_objects(volume, analysis, {.top = top, .gate = !arguments.all}, context);
+    const ObjectTable table = rank_objects(volume, analysis, {.top = top, .gate = !arguments.all}, source.context());
     if (arguments.json) {
         print_table_json(terminal, volume, analysis, table);
     } else {
@@ -160,12 +158,13 @@ Json object_json(const CutObject& object, const Cut& cut) {
             {"contours", std::move(contours)}};
 }
 
-void print_cut_json(Terminal& terminal, const Volume& volume, const Cut& cut, std::int64_t shown, double tau) {
-    Json head = document("objects", volume.info, cut.interpolant, cut.tunnel_height);
+void print_cut_json(Terminal& terminal, const Source& source, const Cut& cut, std::int64_t shown, double tau) {
+    Json head = document("objects", source.info(), cut.interpolant, cut.tunnel_height);
     head["tau"] = tau;
     head["object_count"] = cut.objects.size();
     head["contour_count"] = cut.contours.size();
     head["active_cells"] = cut.active_cells;
+    add_reads(head, source.reads());
     print(terminal, head, "objects", shown, [&](std::int64_t i) { return object_json(cut.objects[static_cast<std::size_t>(i)], cut); });
 }
 
@@ -177,8 +176,8 @@ std::string box_text(const CutObject& object, int rank) {
     return text;
 }
 
-void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Cut& cut, std::int64_t shown) {
-    const Sizes sizes(volume.info, largest_measure(cut.objects));
+void print_cut_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const Cut& cut, std::int64_t shown) {
+    const Sizes sizes(info, largest_measure(cut.objects));
     std::vector<Table::Column> columns{{"#"}, {"id"}};
     sizes.add_titles(columns);
     columns.insert(columns.end(), {{"contours"}, {"box", true}});
@@ -187,29 +186,27 @@ void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume
         const CutObject& object = cut.objects[static_cast<std::size_t>(i)];
         std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
         sizes.add(row, object.voxels, object.measure, object.b1, object.b2);
-        row.insert(row.end(), {count_text(object.contour_count), box_text(object, volume.info.extent.rank)});
+        row.insert(row.end(), {count_text(object.contour_count), box_text(object, info.extent.rank)});
         text.add(row);
     }
     const auto all = static_cast<std::int64_t>(cut.objects.size());
     terminal.say(fmt::format("{} with {} at {}; {}", counted(all, "object"),
                              counted(static_cast<std::int64_t>(cut.contours.size()), "contour"), *arguments.tau,
-                             interpolant_text(volume.info, cut.interpolant, cut.tunnel_height)));
+                             interpolant_text(info, cut.interpolant, cut.tunnel_height)));
     text.print(terminal);
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
     terminal.next(extract_command(arguments, cut.objects[0].id, fmt::format("{}", *arguments.tau)));
 }
 
 int list_at(const Arguments& arguments, Terminal& terminal) {
-    Session session(arguments, terminal);
-    const Volume volume = session.load();
-    const Cut at = cut(volume, tau_of(arguments, volume),
-                       {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, session.context());
+    Source source(arguments, terminal);
+    const Cut at = source.cut(source.tau(), false);
     const auto all = static_cast<std::int64_t>(at.objects.size());
     const std::int64_t shown = arguments.top > 0 ? std::min(all, arguments.top) : all;
     if (arguments.json) {
-        print_cut_json(terminal, volume, at, shown, *arguments.tau);
+        print_cut_json(terminal, source, at, shown, *arguments.tau);
     } else {
-        print_cut_text(terminal, arguments, volume, at, shown);
+        print_cut_text(terminal, arguments, source.info(), at, shown);
     }
     return 0;
 }

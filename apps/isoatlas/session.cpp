@@ -34,20 +34,6 @@ double machine_memory() {
     return pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : INFINITY;
 }
 
-std::string describe_volume(const Volume& volume) {
-    const VolumeInfo& info = volume.info;
-    const Scale scale(info);
-    const ValueRange range = range_of(volume);
-    const Vec3& spacing = info.geometry.spacing;
-    std::string line = fmt::format("{}  {}  {}  {}", info.path, info.format, extent_text(info.extent), name_of(info.type));
-    if (info.geometry.coordinates[0].empty()) {
-        line += fmt::format("  spacing {:.5g} x {:.5g}", spacing[0], spacing[1]);
-        if (info.extent.rank == 3) line += fmt::format(" x {:.5g}", spacing[2]);
-        line += info.geometry.unit.empty() ? "" : " " + info.geometry.unit;
-    }
-    return line + fmt::format("  values {} .. {}", scale.brief(range.low), scale.brief(range.high));
-}
-
 void check_file_system(const std::string& output) {
     std::error_code ignored;
     if (fs::is_directory(output, ignored)) {
@@ -82,6 +68,24 @@ Context Session::context() {
     return context;
 }
 
+std::string Session::describe(const VolumeInfo& info, const ValueRange& range) {
+    const Scale scale(info);
+    const Vec3& spacing = info.geometry.spacing;
+    std::string line = fmt::format("{}  {}  {}  {}", info.path, info.format, extent_text(info.extent), name_of(info.type));
+    if (info.geometry.coordinates[0].empty()) {
+        line += fmt::format("  spacing {:.5g} x {:.5g}", spacing[0], spacing[1]);
+        if (info.extent.rank == 3) line += fmt::format(" x {:.5g}", spacing[2]);
+        line += info.geometry.unit.empty() ? "" : " " + info.geometry.unit;
+    }
+    return line + fmt::format("  values {} .. {}", scale.brief(range.low), scale.brief(range.high));
+}
+
+Geometry voxel_geometry() {
+    Geometry geometry;
+    geometry.space = "voxel";
+    return geometry;
+}
+
 Volume Session::load() {
     Volume volume;
     {
@@ -102,11 +106,8 @@ Volume Session::load() {
     }
     stop_if_interrupted();
     for (const std::string& note : volume.info.notes) terminal_.say("note: " + note);
-    if (arguments_.voxel_units) {
-        volume.info.geometry = Geometry{};
-        volume.info.geometry.space = "voxel";
-    }
-    if (!arguments_.quiet) terminal_.say(describe_volume(volume));
+    if (arguments_.voxel_units) volume.info.geometry = voxel_geometry();
+    if (!arguments_.quiet) terminal_.say(describe(volume.info, range_of(volume)));
     return volume;
 }
 
@@ -126,25 +127,6 @@ std::string cost_text(const VolumeInfo& info, int threads) {
     const auto range = [](const std::string& low, const std::string& high) { return low == high ? low : low + " to " + high; };
     return fmt::format("memory {} (smooth to noisy data), time {}", range(bytes_text(cost.memory_smooth), bytes_text(cost.memory_noise)),
                        range(seconds_text(cost.seconds_smooth), seconds_text(cost.seconds_noise)));
-}
-
-double tunnel_height_of(const Arguments& arguments, const Volume& volume) {
-    if (arguments.tunnel_height == 0) return 0;
-    if (!arguments.tunnel_height_in_percent) return arguments.tunnel_height / std::abs(volume.info.calibration.slope);
-    const ValueRange range = range_of(volume);
-    return arguments.tunnel_height / 100 * (range.high - range.low);
-}
-
-double tau_of(const Arguments& arguments, const Volume& volume) {
-    const Scale scale(volume.info);
-    const double tau = scale.stored(*arguments.tau);
-    const ValueRange range = range_of(volume);
-    if (tau >= range.low && tau <= range.high) return tau;
-    throw Error(ErrorKind::not_found,
-                {.file = arguments.file,
-                 .what = fmt::format("the isovalue {} is {} every sample", *arguments.tau, tau > range.high ? "above" : "below"),
-                 .expected = fmt::format("{} .. {}", scale.text(range.low), scale.text(range.high)),
-                 .next = "isoatlas objects " + shell_word(arguments.file) + " lists isovalues that show something"});
 }
 
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions) {

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] Context context();
     /// Loads arguments.file, prints one line about it and the notes of the reader. Turns out-of-memory into Error{resource}.
     [[nodiscard]] Volume load();
+    /// "scan.nrrd  NRRD  512 x 512 x 420  int16  spacing ...  values ..."
+    [[nodiscard]] static std::string describe(const VolumeInfo& info, const ValueRange& range);
 
 private:
     const Arguments& arguments_;
@@ -42,10 +44,8 @@ struct Cost {
 /// "memory 210 MB to 1.3 GB, time about 2 s" for messages.
 [[nodiscard]] std::string cost_text(const VolumeInfo& info, int threads);
 
-/// The stored isovalue of --tau. Throws Error{not_found} with the range when no sample of the volume has it between them.
-/// --tunnel-height in stored values.
-[[nodiscard]] double tunnel_height_of(const Arguments& arguments, const Volume& volume);
-[[nodiscard]] double tau_of(const Arguments& arguments, const Volume& volume);
+/// What --voxel makes of any geometry.
+[[nodiscard]] Geometry voxel_geometry();
 
 /// Fails early, before the long work: unknown extension, missing or unwritable folder, output equal to the input.
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions);

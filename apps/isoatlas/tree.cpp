@@ -7,7 +7,7 @@
 
 #include "document.h"
 #include "interrupt.h"
-#include "session.h"
+#include "source.h"
 #include "table.h"
 #include "terminal.h"
 #include "values.h"
@@ -167,10 +167,10 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
 
 int run_tree(const Arguments& arguments, Terminal& terminal) {
     if (!arguments.output.empty()) check_output(arguments, {".json", ".graphml", ".csv", ".vtu"});
-    Session session(arguments, terminal);
-    const Volume volume = session.load();
-    const Analysis analysis =
-        analyse(volume, {.interpolant = arguments.interpolant, .tunnel_height = tunnel_height_of(arguments, volume)}, session.context());
+    Source source(arguments, terminal);
+    const Analysis analysis = source.analysis(false);
+    Volume volume;  // what is written needs its header only
+    volume.info = source.info();
     stop_if_interrupted();
     if (!arguments.output.empty()) {
         write_file(terminal, arguments, volume, analysis);

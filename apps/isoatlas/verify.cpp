@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "document.h"
-#include "session.h"
+#include "source.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
@@ -66,14 +66,14 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
         head["what"] = "mesh";
         checks = check_mesh(arguments, head);
     } else {
-        Session session(arguments, terminal);
-        const Volume volume = session.load();
-        const double height = tunnel_height_of(arguments, volume);
-        checks = verify_volume(volume, {.levels = arguments.levels, .interpolant = arguments.interpolant, .tunnel_height = height},
-                               session.context());
-        of_what = ", " + interpolant_text(volume.info, arguments.interpolant, height);
-        head = document("verify", volume.info, arguments.interpolant, height);
-        head["what"] = "volume";
+        Source source(arguments, terminal);
+        const VerifyOptions options{
+            .levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
+        checks = source.is_store() ? verify_atlas(Atlas(arguments.file), options, source.context())
+                                   : verify_volume(source.volume(), options, source.context());
+        of_what = ", " + interpolant_text(source.info(), options.interpolant, options.tunnel_height);
+        head = document("verify", source.info(), options.interpolant, options.tunnel_height);
+        head["what"] = source.is_store() ? "store" : "volume";
         head["levels"] = arguments.levels;
     }
     if (arguments.json) {

@@ -119,8 +119,10 @@ public:
     /// Cost: O(events + levels) plus what is visited.
     void visit_object_contours(const std::function<void(std::int64_t, std::span<const GenusCount>)>& visit) const;
 
+    /// Are the voxels of zones and objects counted? (Made with zones, or read from a store.)
+    [[nodiscard]] bool counts_voxels() const;
     /// The zone (event id) of a voxel: the event e with value(parent(e)) < value(voxel) <= value(e) in the voxel's object.
-    /// Throws Error{usage} when the analysis was made without zones.
+    /// Throws Error{usage} when the analysis was made without zones, or read from a store.
     [[nodiscard]] std::int64_t zone(std::int64_t voxel) const;
 
     [[nodiscard]] const Data& data() const { return *data_; }

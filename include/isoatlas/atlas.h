@@ -1,6 +1,7 @@
 // Atlas: a volume, its trees and its bricks in one file, from which any surface is served without reading the rest.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -38,7 +39,9 @@ public:
 
     [[nodiscard]] const VolumeInfo& info() const;
     [[nodiscard]] Interpolant interpolant() const;
-    [[nodiscard]] double tunnel_height() const;  ///< of AnalysisOptions
+    [[nodiscard]] double tunnel_height() const;         ///< of AnalysisOptions
+    [[nodiscard]] std::array<double, 2> range() const;  ///< lowest and highest sample
+    [[nodiscard]] std::int64_t file_bytes() const;
 
     /// The same as cut() and extract() of the volume, with the interpolant of the store whatever the options say. Bricks that the isovalue
     /// does not divide and that no active cell touches are not read.
@@ -51,7 +54,10 @@ public:
     [[nodiscard]] Volume volume(const Context& context = {}) const;
 
     [[nodiscard]] AtlasReads reads() const;
-    /// Forgets the bricks that earlier queries have read.
+    /// Compares every byte that has a checksum with it, and the samples with those the store was made of. Throws Error{input} for the first
+    /// that differs. Cost: reads the whole store.
+    void check(const Context& context = {}) const;
+    /// Forgets the bricks that earlier queries have read. Not while a query runs.
     void clear_cache() const;
 
 private:

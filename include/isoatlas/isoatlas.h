@@ -17,6 +17,7 @@
 #pragma once
 
 #include "isoatlas/analysis.h"
+#include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/error.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "isoatlas/analysis.h"
+#include "isoatlas/atlas.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
 
@@ -28,5 +29,8 @@ struct VerifyOptions {
 /// Tree invariants, Euler sums, zones partition the voxels; and at some isovalues spread over the range (data values and values
 /// between): tree == cut == mesh (components, genus, Euler numbers, closed and manifold).
 [[nodiscard]] std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions& options = {}, const Context& context = {});
+
+/// Every checksum of a store; the guarantees of its volume (verify_volume); cuts and surfaces from the store are those of the volume.
+[[nodiscard]] std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

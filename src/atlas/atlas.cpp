@@ -1,5 +1,6 @@
 #include "isoatlas/atlas.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "base/lazy.h"
@@ -126,6 +127,19 @@ Volume Atlas::volume(const Context& context) const {
     data_->samples->read_all(volume.bytes, context, counters);
     data_->count(counters);
     return volume;
+}
+
+std::array<double, 2> Atlas::range() const { return data_->samples->range(); }
+std::int64_t Atlas::file_bytes() const { return data_->store.file_size(); }
+
+void Atlas::check(const Context& context) const {
+    data_->store.check_all();
+    if (store::checksum(volume(context).bytes) != data_->store.contents().parameters.samples_checksum) {
+        throw Error(ErrorKind::input, {.file = data_->store.path(),
+                                       .where = "volume/data",
+                                       .what = "the samples are not those that the store was made of",
+                                       .next = "build it again from the volume"});
+    }
 }
 
 AtlasReads Atlas::reads() const {

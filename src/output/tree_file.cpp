@@ -12,16 +12,6 @@ namespace output {
 
 namespace {
 
-bool zones_are_known(const Analysis& analysis) {
-    try {
-        (void)analysis.zone(0);
-        return true;
-    } catch (const Error& error) {
-        if (error.kind() != ErrorKind::usage) throw;
-        return false;  // made without zones
-    }
-}
-
 /// Graphs need ends, and points need places.
 void check_detail(const std::string& path, const std::string& extension, TreeDetail detail) {
     const bool graph = extension == ".graphml" || extension == ".vtu";
@@ -37,7 +27,7 @@ void check_detail(const std::string& path, const std::string& extension, TreeDet
 }  // namespace
 
 TreeView::TreeView(const Volume& the_volume, const Analysis& the_analysis, const TreeOutput& the_options)
-    : volume(the_volume), analysis(the_analysis), options(the_options), has_zones(zones_are_known(the_analysis)) {}
+    : volume(the_volume), analysis(the_analysis), options(the_options), has_zones(the_analysis.counts_voxels()) {}
 
 std::int64_t TreeView::item_count() const {
     switch (options.detail) {

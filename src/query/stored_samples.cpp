@@ -65,6 +65,12 @@ public:
         return high;
     }
 
+    [[nodiscard]] std::array<double, 2> range() const override {
+        T low = bricks_.low(0), high = bricks_.high(0);
+        for (std::int64_t b = 1; b < grid_.count(); ++b) low = std::min(low, bricks_.low(b)), high = std::max(high, bricks_.high(b));
+        return {static_cast<double>(low), static_cast<double>(high)};
+    }
+
     [[nodiscard]] double sample(std::int64_t voxel, IoCounters& counters) override {
         const std::lock_guard lock(mutex_);
         const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);

@@ -23,6 +23,8 @@ public:
     /// Cost: the bricks that are not present yet, and O(voxels / 16) for the classes.
     [[nodiscard]] virtual HighBits classify(double tau, const Context& context, store::IoCounters& counters) = 0;
     [[nodiscard]] virtual VolumeView view() const = 0;
+    /// Lowest and highest sample; reads nothing.
+    [[nodiscard]] virtual std::array<double, 2> range() const = 0;
     /// Any sample; reads its brick when it is not present.
     [[nodiscard]] virtual double sample(std::int64_t voxel, store::IoCounters& counters) = 0;
     /// All samples, x fastest.

@@ -47,6 +47,10 @@ const Extent& Analysis::extent() const { return data_->extent; }
 Interpolant Analysis::interpolant() const { return data_->interpolant; }
 double Analysis::tunnel_height() const { return data_->tunnel_height; }
 
+bool Analysis::counts_voxels() const {
+    return data_->visit([](const auto& held) { return !held.arrays.voxels.empty(); });
+}
+
 std::int64_t Analysis::element_count() const {
     return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.arrays.value.size()); });
 }

@@ -1,0 +1,103 @@
+#include "source.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "suggest.h"
+#include "terminal.h"
+#include "values.h"
+
+namespace isoatlas::cli {
+namespace {
+
+/// A store has its own answer to everything that is decided while it is built.
+void check_store_options(const Arguments& arguments, const Atlas& atlas) {
+    const auto refuse = [&](const char* option, const std::string& has) {
+        throw Error(ErrorKind::usage, {.file = arguments.file,
+                                       .what = std::string(option) + " contradicts the store, which was built with " + has,
+                                       .next = std::string("leave out ") + option + ", or build another store from the volume"});
+    };
+    if (arguments.interpolant_given && arguments.interpolant != atlas.interpolant())
+        refuse("--interpolant", std::string("--interpolant ") + name_of(atlas.interpolant()));
+    if (arguments.tunnel_height > 0) refuse("--tunnel-height", fmt::format("a tunnel height of {}", atlas.tunnel_height()));
+    const OpenOptions& open = arguments.open;
+    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.spacing || open.origin || open.time_step)
+        refuse("an option of the reader", "what the volume file said");
+    if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
+}
+
+}  // namespace
+
+Source::Source(const Arguments& arguments, Terminal& terminal) : arguments_(arguments), session_(arguments, terminal) {
+    if (!is_atlas(arguments.file)) {
+        volume_ = session_.load();
+        info_ = volume_->info;
+        return;
+    }
+    atlas_.emplace(arguments.file);
+    check_store_options(arguments, *atlas_);
+    info_ = atlas_->info();
+    if (arguments.voxel_units) info_.geometry = voxel_geometry();
+    if (!arguments.quiet) terminal.say(session_.describe(info_, range()));
+}
+
+ValueRange Source::range() {
+    if (!range_ && atlas_) {
+        const std::array<double, 2> both = atlas_->range();
+        range_ = ValueRange{both[0], both[1]};
+    }
+    if (!range_) range_ = range_of(*volume_);
+    return *range_;
+}
+
+Interpolant Source::interpolant() const { return atlas_ ? atlas_->interpolant() : arguments_.interpolant; }
+
+double Source::tunnel_height() {
+    if (atlas_) return atlas_->tunnel_height();
+    if (arguments_.tunnel_height == 0) return 0;
+    if (!arguments_.tunnel_height_in_percent) return arguments_.tunnel_height / std::abs(info_.calibration.slope);
+    return arguments_.tunnel_height / 100 * (range().high - range().low);
+}
+
+double Source::tau() {
+    const Scale scale(info_);
+    const double tau = scale.stored(*arguments_.tau);
+    const ValueRange all = range();
+    if (tau >= all.low && tau <= all.high) return tau;
+    throw Error(ErrorKind::not_found,
+                {.file = arguments_.file,
+                 .what = fmt::format("the isovalue {} is {} every sample", *arguments_.tau, tau > all.high ? "above" : "below"),
+                 .expected = fmt::format("{} .. {}", scale.text(all.low), scale.text(all.high)),
+                 .next = "isoatlas objects " + shell_word(arguments_.file) + " lists isovalues that show something"});
+}
+
+Cut Source::cut(double tau, bool label) {
+    const CutOptions options{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = label};
+    if (atlas_ && !arguments_.voxel_units) return atlas_->cut(tau, options, context());
+    return isoatlas::cut(volume(), tau, options, context());
+}
+
+Surface Source::extract(double tau, ExtractOptions options) {
+    options.interpolant = interpolant();
+    options.tunnel_height = tunnel_height();
+    if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context());
+    return isoatlas::extract(volume(), tau, options, context());
+}
+
+Analysis Source::analysis(bool with_zones) {
+    if (atlas_ && !with_zones) return atlas_->analysis();
+    return analyse(volume(), analysis_options(), context());
+}
+
+const Volume& Source::volume() {
+    if (!volume_) {
+        volume_ = atlas_->volume(context());
+        volume_->info = info_;
+    }
+    return *volume_;
+}
+
+std::optional<AtlasReads> Source::reads() const { return atlas_ ? std::optional(atlas_->reads()) : std::nullopt; }
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,50 @@
+// Source: what the verbs ask of a volume file or of a store (`isoatlas build`), so that they need not know which one it is.
+//
+// A volume file is read whole. A store is read as far as a question needs.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <isoatlas/isoatlas.h>
+
+#include "session.h"
+
+namespace isoatlas::cli {
+
+class Source {
+public:
+    /// Opens arguments.file, prints one line about it and the notes of the reader.
+    Source(const Arguments& arguments, Terminal& terminal);
+
+    [[nodiscard]] bool is_store() const { return atlas_.has_value(); }
+    [[nodiscard]] const VolumeInfo& info() const { return info_; }
+    [[nodiscard]] ValueRange range();
+    [[nodiscard]] Interpolant interpolant() const;
+    [[nodiscard]] double tunnel_height();  ///< stored values
+    [[nodiscard]] AnalysisOptions analysis_options() { return {.interpolant = interpolant(), .tunnel_height = tunnel_height()}; }
+    /// The stored isovalue of --tau. Throws Error{not_found} with the range when no sample of the volume has it between them.
+    [[nodiscard]] double tau();
+    [[nodiscard]] Context context() { return session_.context(); }
+
+    [[nodiscard]] Cut cut(double tau, bool label);
+    /// options: interpolant and tunnel height are those of the source.
+    [[nodiscard]] Surface extract(double tau, ExtractOptions options);
+    /// The trees. with_zones: zone(voxel) will be asked.
+    [[nodiscard]] Analysis analysis(bool with_zones);
+    /// All samples.
+    [[nodiscard]] const Volume& volume();
+
+    /// What has been read of a store, for the JSON documents; nothing for a volume file.
+    [[nodiscard]] std::optional<AtlasReads> reads() const;
+
+private:
+    const Arguments& arguments_;
+    Session session_;
+    std::optional<Atlas> atlas_;
+    std::optional<Volume> volume_;
+    std::optional<ValueRange> range_;
+    VolumeInfo info_;
+};
+
+}  // namespace isoatlas::cli

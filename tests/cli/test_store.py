@@ -1,0 +1,60 @@
+"""Stores on the command line: what a store answers is what its volume answers."""
+import harness
+
+
+class Stores(harness.CliTest):
+    phantoms = {"noise.nrrd": ["noise", "--size", "20", "--quantise", "64"]}
+
+    def setUp(self):
+        self.built = self.run_json("build", "noise.nrrd", "-o", "noise.atlas")
+
+    def read(self, name):
+        return (self.folder / name).read_bytes()
+
+    def test_build_says_what_it_made(self):
+        self.assertEqual(self.built["schema"], "isoatlas/build/1")
+        self.assertEqual(self.built["bytes"], len(self.read("noise.atlas")))
+        self.assertEqual(self.built["sample_bytes"], 20 ** 3 * 1)
+        self.assertEqual(self.built["interpolant"], "trilinear")
+
+    def test_surfaces_labels_and_trees_are_those_of_the_volume(self):
+        for options in (["--tau", "31"], ["--tau", "40.5", "--style", "full"], ["--tau", "20", "--shell", "outer"], ["--best"]):
+            self.run_ok("extract", "noise.nrrd", *options, "-o", "volume.ply")
+            told = self.run_json("extract", "noise.atlas", *options, "-o", "store.ply")
+            self.assertEqual(self.read("volume.ply"), self.read("store.ply"), options)
+            self.assertGreater(told["reads"]["bytes"], 0)
+        for name, options in (("l.nrrd", ["--tau", "31"]), ("z.nrrd", ["--zones"])):
+            self.run_ok("label", "noise.nrrd", *options, "-o", "volume-" + name)
+            self.run_ok("label", "noise.atlas", *options, "-o", "store-" + name)
+            self.assertEqual(self.read("volume-" + name), self.read("store-" + name))
+        for detail in ("events", "levels", "elements", "contours"):
+            self.run_ok("tree", "noise.nrrd", "--detail", detail, "-o", "volume.csv")
+            self.run_ok("tree", "noise.atlas", "--detail", detail, "-o", "store.csv")
+            self.assertEqual(self.read("volume.csv"), self.read("store.csv"), detail)
+        for options in (["--tau", "31"], []):
+            one = self.run_json("objects", "noise.nrrd", *options)
+            other = self.run_json("objects", "noise.atlas", *options)
+            self.assertEqual(one["objects"], other["objects"])
+
+    def test_info_and_verify(self):
+        self.assertEqual(self.run_json("info", "noise.atlas")["values"]["low"], self.run_json("info", "noise.nrrd")["values"]["low"])
+        self.assertTrue(self.run_json("verify", "noise.atlas", "--levels", "3")["holds"])
+
+    def test_damage_is_found(self):
+        whole = bytearray(self.read("noise.atlas"))
+        whole[len(whole) // 2] ^= 1
+        (self.folder / "damaged.atlas").write_bytes(whole)
+        checked = self.run_json("verify", "damaged.atlas", code=7)
+        self.assertFalse(checked["holds"])
+        (self.folder / "short.atlas").write_bytes(whole[:-100])
+        self.run_error(3, "objects", "short.atlas", "--tau", "31", says="damaged")
+
+    def test_options_that_contradict_the_store(self):
+        self.run_error(2, "extract", "noise.atlas", "--tau", "31", "--interpolant", "faces", "-o", "x.ply", says="built with")
+        self.run_error(2, "tree", "noise.atlas", "--tunnel-height", "2", next_says="leave out")
+        self.run_error(2, "build", "noise.atlas", "-o", "other.atlas", says="store already")
+        self.run_error(2, "build", "noise.nrrd", "-o", "other.h5", says=".atlas")
+
+
+if __name__ == "__main__":
+    harness.main()
