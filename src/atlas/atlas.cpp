@@ -1,9 +1,12 @@
 #include "isoatlas/atlas.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
+#include "atlas/object_window.h"
 #include "base/lazy.h"
+#include "critical/bodies.h"
 #include "field/order.h"
 #include "mesh/extract_level.h"
 #include "query/cut_level.h"
@@ -38,6 +41,21 @@ AllExtrema extrema_of(const store::Container& store) {
     return all;
 }
 
+/// The number of a voxel in a window; -1: it lies outside.
+std::int64_t local_voxel(const StoredWindow& window, std::int64_t voxel) {
+    const std::array<std::int64_t, 3> at = window.window.whole.voxel(voxel), &origin = window.window.origin;
+    const Extent& extent = window.info.extent;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (at[axis] < origin[axis] || at[axis] >= origin[axis] + extent.size[axis]) return -1;
+    }
+    return extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
+}
+
+std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
+    const std::array<std::int64_t, 3> at = window.info.extent.voxel(voxel), &origin = window.window.origin;
+    return window.window.whole.index(at[0] + origin[0], at[1] + origin[1], at[2] + origin[2]);
+}
+
 }  // namespace
 
 struct Atlas::Data {
@@ -63,6 +81,38 @@ struct Atlas::Data {
         return at;
     }
 
+    /// Those of them that lie in a window, numbered there.
+    Extrema extrema_in(const StoredWindow& window, double tau) const {
+        Extrema inside = extrema_at(tau);
+        const auto keep = [&](std::vector<std::int64_t>& voxels) {
+            std::size_t kept = 0;
+            for (const std::int64_t voxel : voxels) {
+                const std::int64_t local = local_voxel(window, voxel);
+                if (local >= 0) voxels[kept++] = local;
+            }
+            voxels.resize(kept);
+        };
+        keep(inside.maxima);
+        keep(inside.minima);
+        return inside;
+    }
+
+    /// One object from its own part of the store; nothing when the whole is cheaper, or the voxel lies in no object.
+    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context) {
+        store::IoCounters counters;
+        const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
+        const std::optional<StoredWindow> window = window_of_object(*samples, options.objects[0], tau, height, context, counters);
+        count(counters);
+        if (!window) return std::nullopt;
+        const Extrema names = extrema_in(*window, tau);
+        options.objects = {local_voxel(*window, options.objects[0])};
+        Surface surface = extract_level({window->view(), tau, window->high, &names, window->window}, options, context);
+        for (std::vector<std::int64_t>* ids : {&surface.object, &surface.contour}) {
+            for (std::int64_t& id : *ids) id = whole_voxel(*window, id);
+        }
+        return surface;
+    }
+
     /// Runs query(level).
     template <class Query>
     auto at_level(double tau, const Context& context, Query&& query) {
@@ -70,7 +120,7 @@ struct Atlas::Data {
         const HighBits high = samples->classify(tau, context, counters);
         const Extrema names = extrema_at(tau);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, counters); };
-        auto answer = query(TauLevel{samples->view(), tau, high, &names, sample});
+        auto answer = query(TauLevel{samples->view(), tau, high, &names, {}, sample});
         count(counters);
         return answer;
     }
@@ -115,6 +165,10 @@ Cut Atlas::cut(double tau, const CutOptions& options, const Context& context) co
 Surface Atlas::extract(double tau, const ExtractOptions& options, const Context& context) const {
     ExtractOptions own = options;
     own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
+    if (own.objects.size() == 1 && own.contours.empty() && std::isfinite(tau)) {
+        std::optional<Surface> surface = data_->extract_object(tau, own, context);
+        if (surface) return std::move(*surface);
+    }
     return data_->at_level(tau, context, [&](const TauLevel& level) { return extract_level(level, own, context); });
 }
 

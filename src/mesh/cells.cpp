@@ -103,12 +103,13 @@ template <class T>
 void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
                                  std::int64_t* point, Surface& surface) const {
     const std::array<double, 8> value = tunnels_.values(extent_.index(voxel[0], voxel[1], voxel[2]));
+    const std::array<std::int64_t, 3> corner{voxel[0] + origin_[0], voxel[1] + origin_[1], voxel[2] + origin_[2]};
     const std::array<Vec3, 6> ring = ring_points(cell, *state.tunnel, state.pattern, state.joined, value, joiner_.tau);
     for (int i = 0; i < cell.ring_points; ++i) {
         const std::int64_t target = point[12 + i] = next++;
         Vec3 position = ring[i];
-        if (!surface.normals.empty()) surface.normals[target] = normal_at(value, voxel, position);
-        for (int axis = 0; axis < 3; ++axis) position[axis] += static_cast<double>(voxel[axis]);
+        if (!surface.normals.empty()) surface.normals[target] = normal_at(value, corner, position);
+        for (int axis = 0; axis < 3; ++axis) position[axis] += static_cast<double>(corner[axis]);
         surface.points[target] = map_.point(position);
         if (!surface.contour.empty()) surface.contour[target] = surface.contour[point[cell.hit]];
     }

@@ -19,6 +19,7 @@ public:
         : joiner_(grid, tau),
           tunnels_(grid, tau, tunnel_height_of(options.interpolant, options.tunnel_height)),
           extent_(grid.extent),
+          origin_(grid.origin),
           domain_(domain),
           map_(map),
           style_(options.style),
@@ -48,6 +49,7 @@ private:
     FaceJoiner<T> joiner_;
     TunnelFinder<T> tunnels_;
     Extent extent_;
+    std::array<std::int64_t, 3> origin_;
     const MeshDomain& domain_;
     const PhysicalMap& map_;
     SurfaceStyle style_;

@@ -29,13 +29,13 @@ class Extraction {
 public:
     Extraction(const TauLevel& level, std::span<const T> samples, const ExtractOptions& options, const Context& context,
                const Components* components)
-        : grid_{samples.data(), level.info().extent},
+        : grid_{samples.data(), level.info().extent, level.window ? level.window->origin : std::array<std::int64_t, 3>{}},
           tau_(level.tau),
           options_(options),
           context_(context),
           components_(components),
           domain_(level.high, options.boundary),
-          map_(level.info().geometry, level.info().extent),
+          map_(level.info().geometry, level.window ? level.window->whole : level.info().extent),
           flip_(is_mirrored(level.info())),
           cells_(grid_, level.tau, domain_, map_, options, flip_) {}
 

@@ -25,14 +25,15 @@ typename HitWriter<T>::Stencil HitWriter<T>::stencil(std::int64_t y, std::int64_
             grid_.row(y + (y + 1 < size[1]), z),
             grid_.row(y, z - (z > 0)),
             grid_.row(y, z + (z + 1 < size[2])),
-            static_cast<Real>(map_.inverse_distance(1)[y]),
-            static_cast<Real>(map_.inverse_distance(2)[z])};
+            static_cast<Real>(map_.inverse_distance(1)[y + grid_.origin[1]]),
+            static_cast<Real>(map_.inverse_distance(2)[z + grid_.origin[2]])};
 }
 
 template <class T>
 inline std::array<typename HitWriter<T>::Real, 3> HitWriter<T>::slope(const Stencil& around, std::int64_t x) const {
     const std::int64_t low = x - (x > 0), high = x + (x + 1 < grid_.extent.size[0]);
-    return {(static_cast<Real>(around.row[high]) - static_cast<Real>(around.row[low])) * static_cast<Real>(map_.inverse_distance(0)[x]),
+    return {(static_cast<Real>(around.row[high]) - static_cast<Real>(around.row[low])) *
+                static_cast<Real>(map_.inverse_distance(0)[x + grid_.origin[0]]),
             (static_cast<Real>(around.y_high[x]) - static_cast<Real>(around.y_low[x])) * around.y_scale,
             (static_cast<Real>(around.z_high[x]) - static_cast<Real>(around.z_low[x])) * around.z_scale};
 }
@@ -67,20 +68,21 @@ void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& pla
     const RowHits hits(domain_, y, z);
     const std::array<std::int64_t, 3>& size = grid_.extent.size;
     const Stencil here = stencil(y, z), next_y = stencil(y + 1, z), next_z = stencil(y, z + 1);
-    const auto fy = static_cast<double>(y), fz = static_cast<double>(z);
+    const auto fy = static_cast<double>(y + grid_.origin[1]), fz = static_cast<double>(z + grid_.origin[2]);
+    const std::int64_t before = grid_.origin[0] - 1;  // position p is voxel p - 1
     std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
     for (std::int64_t w = 0; w < hits.words; ++w) {
         for_bits(w, hits.x(w), [&](std::int64_t p) {  // between the voxels p - 1 and p
-            const auto fx = static_cast<double>(p - 1);
+            const auto fx = static_cast<double>(p + before);
             if (p == 0)
-                write_border({0, fy, fz}, 0, -1, x_point++);
+                write_border({fx + 1, fy, fz}, 0, -1, x_point++);
             else if (p == size[0])
                 write_border({fx, fy, fz}, 0, 1, x_point++);
             else
                 write_inner(here, p - 1, here, p, 0, {fx, fy, fz}, x_point++);
         });
         for_bits(w, hits.y(w), [&](std::int64_t p) {
-            const auto fx = static_cast<double>(p - 1);
+            const auto fx = static_cast<double>(p + before);
             if (here.row == nullptr)
                 write_border({fx, fy + 1, fz}, 1, -1, y_point++);
             else if (next_y.row == nullptr)
@@ -89,7 +91,7 @@ void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& pla
                 write_inner(here, p - 1, next_y, p - 1, 1, {fx, fy, fz}, y_point++);
         });
         for_bits(w, hits.z(w), [&](std::int64_t p) {
-            const auto fx = static_cast<double>(p - 1);
+            const auto fx = static_cast<double>(p + before);
             if (here.row == nullptr)
                 write_border({fx, fy, fz + 1}, 2, -1, z_point++);
             else if (next_z.row == nullptr)

@@ -35,6 +35,79 @@ bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, b
     return true;
 }
 
+/// A box of bricks as a grid of its own.
+struct Part {
+    const BrickGrid& whole;
+    std::array<std::int64_t, 3> first;   ///< brick
+    std::array<std::int64_t, 3> origin;  ///< voxel
+    BrickGrid grid;
+
+    explicit Part(const BrickGrid& all) : Part(all, {{0, 0, 0}, all.size}) {}
+    Part(const BrickGrid& all, const Box& bricks)
+        : whole(all), first(bricks.begin), origin(all.box(all.brick(bricks.begin)).begin), grid(extent_of(all, bricks)) {}
+    /// The number in the whole grid.
+    [[nodiscard]] std::int64_t number(std::int64_t brick) const {
+        const std::array<std::int64_t, 3> at = grid.place(brick);
+        return whole.brick({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
+    }
+
+private:
+    static Extent extent_of(const BrickGrid& all, const Box& bricks) {
+        const Box low = all.box(all.brick(bricks.begin)),
+                  high = all.box(all.brick({bricks.end[0] - 1, bricks.end[1] - 1, bricks.end[2] - 1}));
+        Extent extent = all.extent;
+        for (int axis = 0; axis < 3; ++axis) extent.size[axis] = high.end[axis] - low.begin[axis];
+        return extent;
+    }
+};
+
+/// Is any brick around it of another class, or the grid at an end?
+bool may_touch(const BrickGrid& grid, std::int64_t brick, BrickClass own, const std::vector<BrickClass>& classes) {
+    const std::array<std::int64_t, 3> at = grid.place(brick);
+    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
+    for (std::int64_t z = at[2] - flat; z <= at[2] + flat; ++z) {
+        for (std::int64_t y = at[1] - 1; y <= at[1] + 1; ++y) {
+            for (std::int64_t x = at[0] - 1; x <= at[0] + 1; ++x) {
+                const bool inside = x >= 0 && y >= 0 && z >= 0 && x < grid.size[0] && y < grid.size[1] && z < grid.size[2];
+                const BrickClass other = inside ? classes[static_cast<std::size_t>(grid.brick({x, y, z}))] : BrickClass::low;
+                if (other != own) return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool is_uniform_around(const BrickGrid& grid, const HighBits& high, std::int64_t brick, bool own) {
+    const Box box = grid.box(brick);
+    const std::int64_t begin = std::max<std::int64_t>(box.begin[0] - kBeside + 1, 0);
+    const std::int64_t end = std::min(box.end[0] + kBeside + 1, grid.extent.size[0] + 2);
+    const std::int64_t flat = grid.extent.rank == 2 ? 0 : kBeside;
+    for (std::int64_t z = box.begin[2] - flat; z < box.end[2] + flat; ++z) {
+        for (std::int64_t y = box.begin[1] - kBeside; y < box.end[1] + kBeside; ++y) {
+            if (!all_equal(high.row(y, z), begin, end, own)) return false;  // rows outside are Low
+        }
+    }
+    return true;
+}
+
+/// Bricks that are High or Low as a whole with something else within two samples, or High at an end of the grid.
+std::vector<std::int64_t> beside_surface(const HighBits& high, const BrickGrid& grid, const std::vector<BrickClass>& classes, int threads) {
+    std::vector<std::uint8_t> wanted(classes.size());
+    const std::int64_t layer = grid.size[0] * grid.size[1];
+    for_each_block(threads, grid.size[2], [&](std::int64_t z) {
+        for (std::int64_t b = z * layer; b < (z + 1) * layer; ++b) {
+            const BrickClass own = classes[static_cast<std::size_t>(b)];
+            if (own == BrickClass::divided || !may_touch(grid, b, own, classes)) continue;
+            wanted[static_cast<std::size_t>(b)] = !is_uniform_around(grid, high, b, own == BrickClass::high);
+        }
+    });
+    std::vector<std::int64_t> list;
+    for (std::size_t b = 0; b < wanted.size(); ++b) {
+        if (wanted[b]) list.push_back(static_cast<std::int64_t>(b));
+    }
+    return list;
+}
+
 template <class T>
 class Samples final : public StoredSamples {
 public:
@@ -53,16 +126,43 @@ public:
         }
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
-        const std::vector<BrickClass> classes = classes_of(threshold);
+        std::vector<BrickClass> classes;
         std::vector<std::int64_t> divided;
         for (std::int64_t b = 0; b < grid_.count(); ++b) {
-            if (classes[static_cast<std::size_t>(b)] == BrickClass::divided) divided.push_back(b);
+            classes.push_back(class_of(b, threshold));
+            if (classes.back() == BrickClass::divided) divided.push_back(b);
         }
         load(divided, context.threads, counters);
         HighBits high(info_.extent);
-        if (!threshold.none_high) fill(high, classes, threshold.least, context.threads);
-        load(beside_surface(high, classes, context.threads), context.threads, counters);
+        if (!threshold.none_high) fill(high, Part(grid_), classes, threshold.least, context.threads);
+        load(beside_surface(high, grid_, classes, context.threads), context.threads, counters);
         return high;
+    }
+
+    [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
+
+    [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, IoCounters& counters) override {
+        const std::lock_guard lock(mutex_);
+        const Threshold<T> threshold = threshold_for<T>(tau);
+        const Part part(grid_, bricks);
+        StoredWindow result{info_, {info_.extent, part.origin}, {}, HighBits(part.grid.extent)};
+        result.info.extent = part.grid.extent;
+        std::vector<BrickClass> classes;
+        std::vector<std::int64_t> divided;
+        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+            classes.push_back(class_of(part.number(b), threshold));
+            if (classes.back() == BrickClass::divided) divided.push_back(part.number(b));
+        }
+        load(divided, 1, counters);
+        if (!threshold.none_high) fill(result.high, part, classes, threshold.least, 1);
+        std::vector<std::int64_t> beside;
+        for (const std::int64_t b : beside_surface(result.high, part.grid, classes, 1)) beside.push_back(part.number(b));
+        load(beside, 1, counters);
+        result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
+        for (const std::vector<std::int64_t>* list : {&divided, &beside}) {
+            for (const std::int64_t b : *list) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
+        }
+        return result;
     }
 
     [[nodiscard]] std::array<double, 2> range() const override {
@@ -112,91 +212,47 @@ private:
         for (const std::int64_t b : wanted) present_[static_cast<std::size_t>(b)] = 1;
     }
 
-    [[nodiscard]] std::vector<BrickClass> classes_of(const Threshold<T>& threshold) const {
-        std::vector<BrickClass> classes(static_cast<std::size_t>(grid_.count()), BrickClass::low);
-        if (threshold.none_high) return classes;
-        for (std::int64_t b = 0; b < grid_.count(); ++b) {
-            if (bricks_.high(b) < threshold.least) continue;
-            classes[static_cast<std::size_t>(b)] = bricks_.low(b) >= threshold.least ? BrickClass::high : BrickClass::divided;
-        }
-        return classes;
+    [[nodiscard]] BrickClass class_of(std::int64_t brick, const Threshold<T>& threshold) const {
+        if (threshold.none_high || bricks_.high(brick) < threshold.least) return BrickClass::low;
+        return bricks_.low(brick) >= threshold.least ? BrickClass::high : BrickClass::divided;
     }
 
-    /// Calls visit(first brick, y, z) for every row of samples, in blocks of rows of bricks.
-    template <class Visit>
-    void for_rows(int threads, Visit&& visit) const {
-        for_each_block(threads, grid_.size[1] * grid_.size[2], [&](std::int64_t row) {
-            const std::int64_t first = row * grid_.size[0];
-            const Box box = grid_.box(first);
-            for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-                for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) visit(first, y, z);
-            }
-        });
-    }
-
-    void fill(HighBits& high, const std::vector<BrickClass>& classes, T least, int threads) {
-        for_rows(threads, [&](std::int64_t first, std::int64_t y, std::int64_t z) {
-            std::uint64_t* row = high.row(y, z);
-            const T* values = samples() + info_.extent.index(0, y, z);
-            for (std::int64_t i = 0; i < grid_.size[0]; ++i) {
-                const BrickClass brick = classes[static_cast<std::size_t>(first + i)];
-                if (brick == BrickClass::low) continue;
-                const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, info_.extent.size[0] - begin);
-                std::uint64_t bits = 0xffff >> (kBrickSide - count);
-                if (brick == BrickClass::divided) {
-                    bits = 0;
-                    for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
-                }
-                put_bits(row, begin + 1, bits);  // position p is voxel p - 1
-            }
-        });
-    }
-
-    /// Bricks that are High or Low as a whole with something else within two samples, or High at the border of the volume.
-    [[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const std::vector<BrickClass>& classes,
-                                                           int threads) const {
-        std::vector<std::uint8_t> wanted(classes.size());
-        for_each_block(threads, grid_.size[2], [&](std::int64_t z) {
-            for (std::int64_t b = z * grid_.size[0] * grid_.size[1]; b < (z + 1) * grid_.size[0] * grid_.size[1]; ++b) {
-                const BrickClass own = classes[static_cast<std::size_t>(b)];
-                if (own == BrickClass::divided || !may_touch(b, own, classes)) continue;
-                wanted[static_cast<std::size_t>(b)] = !is_uniform_around(high, b, own == BrickClass::high);
-            }
-        });
-        std::vector<std::int64_t> list;
-        for (std::size_t b = 0; b < wanted.size(); ++b) {
-            if (wanted[b]) list.push_back(static_cast<std::int64_t>(b));
-        }
-        return list;
-    }
-
-    /// Is any brick around it of another class, or the volume at an end?
-    [[nodiscard]] bool may_touch(std::int64_t brick, BrickClass own, const std::vector<BrickClass>& classes) const {
-        const std::array<std::int64_t, 3> at = grid_.place(brick);
-        const std::int64_t flat = info_.extent.rank == 2 ? 0 : 1;
-        for (std::int64_t z = at[2] - flat; z <= at[2] + flat; ++z) {
-            for (std::int64_t y = at[1] - 1; y <= at[1] + 1; ++y) {
-                for (std::int64_t x = at[0] - 1; x <= at[0] + 1; ++x) {
-                    const bool inside = x >= 0 && y >= 0 && z >= 0 && x < grid_.size[0] && y < grid_.size[1] && z < grid_.size[2];
-                    const BrickClass other = inside ? classes[static_cast<std::size_t>(grid_.brick({x, y, z}))] : BrickClass::low;
-                    if (other != own) return true;
-                }
-            }
-        }
-        return false;
-    }
-
-    [[nodiscard]] bool is_uniform_around(const HighBits& high, std::int64_t brick, bool own) const {
+    void copy_brick(std::int64_t brick, const Part& part, T* to) {
         const Box box = grid_.box(brick);
-        const std::int64_t begin = std::max<std::int64_t>(box.begin[0] - kBeside + 1, 0);
-        const std::int64_t end = std::min(box.end[0] + kBeside + 1, info_.extent.size[0] + 2);
-        const std::int64_t flat = info_.extent.rank == 2 ? 0 : kBeside;
-        for (std::int64_t z = box.begin[2] - flat; z < box.end[2] + flat; ++z) {
-            for (std::int64_t y = box.begin[1] - kBeside; y < box.end[1] + kBeside; ++y) {
-                if (!all_equal(high.row(y, z), begin, end, own)) return false;  // rows outside are Low
+        const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+                const std::int64_t at = part.grid.extent.index(box.begin[0] - part.origin[0], y - part.origin[1], z - part.origin[2]);
+                std::memcpy(to + at, samples() + info_.extent.index(box.begin[0], y, z), bytes);
             }
         }
-        return true;
+    }
+
+    void fill(HighBits& high, const Part& part, const std::vector<BrickClass>& classes, T least, int threads) {
+        const BrickGrid& grid = part.grid;
+        for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
+            const std::int64_t first = row_of_bricks * grid.size[0];
+            const Box box = grid.box(first);
+            for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+                for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+                    const T* values = samples() + info_.extent.index(part.origin[0], y + part.origin[1], z + part.origin[2]);
+                    fill_row(high.row(y, z), values, grid, classes.data() + first, least);
+                }
+            }
+        });
+    }
+
+    static void fill_row(std::uint64_t* row, const T* values, const BrickGrid& grid, const BrickClass* classes, T least) {
+        for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+            if (classes[i] == BrickClass::low) continue;
+            const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
+            std::uint64_t bits = 0xffff >> (kBrickSide - count);
+            if (classes[i] == BrickClass::divided) {
+                bits = 0;
+                for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
+            }
+            put_bits(row, begin + 1, bits);  // position p is voxel p - 1
+        }
     }
 
     VolumeInfo info_;

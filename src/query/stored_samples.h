@@ -15,6 +15,16 @@
 
 namespace isoatlas {
 
+/// Samples and classes of some bricks, as a volume of its own.
+struct StoredWindow {
+    VolumeInfo info;
+    Window window;
+    std::vector<std::byte> samples;
+    HighBits high;
+
+    [[nodiscard]] VolumeView view() const { return {info, samples.data()}; }
+};
+
 class StoredSamples {
 public:
     virtual ~StoredSamples() = default;
@@ -22,7 +32,10 @@ public:
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view().
     /// Cost: the bricks that are not present yet, and O(voxels / 16) for the classes.
     [[nodiscard]] virtual HighBits classify(double tau, const Context& context, store::IoCounters& counters) = 0;
+    /// The same for the bricks of a box alone (bricks, not samples). Cost: proportional to the box.
+    [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, store::IoCounters& counters) = 0;
     [[nodiscard]] virtual VolumeView view() const = 0;
+    [[nodiscard]] virtual const store::BrickGrid& grid() const = 0;
     /// Lowest and highest sample; reads nothing.
     [[nodiscard]] virtual std::array<double, 2> range() const = 0;
     /// Any sample; reads its brick when it is not present.

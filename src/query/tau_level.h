@@ -1,8 +1,10 @@
 // A volume at one isovalue, ready to be cut or extracted.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "field/volume_view.h"
@@ -16,11 +18,18 @@ struct Extrema {
     std::vector<std::int64_t> minima;  ///< all minima that are Low, ascending
 };
 
+/// A part of a volume that stands for itself.
+struct Window {
+    Extent whole;                        ///< of the volume
+    std::array<std::int64_t, 3> origin;  ///< first voxel of the part
+};
+
 struct TauLevel {
     VolumeView volume;  ///< samples are needed at the corners of active cells, and one sample around them for normals
     double tau;
     const HighBits& high;                          ///< of all samples
     const Extrema* extrema = nullptr;              ///< null: names are found by looking at all samples
+    std::optional<Window> window{};                ///< of what `volume` is a part; voxels are numbered in the part
     std::function<double(std::int64_t)> sample{};  ///< of any voxel, for messages; empty: it is in `volume`
 
     [[nodiscard]] const VolumeInfo& info() const { return *volume.info; }

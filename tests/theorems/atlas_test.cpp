@@ -87,6 +87,52 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameCutsAndSurfaces, ()) {
     RC_ASSERT(atlas.volume().bytes == volume.bytes);
 }
 
+// One object from the bricks around it: every object of a cut, or some of many.
+void check_objects(const Atlas& atlas, const Volume& volume, double tau, isoatlas::ExtractOptions options) {
+    const isoatlas::Cut cut = isoatlas::cut(volume, tau, {.interpolant = options.interpolant});
+    const std::size_t step = std::max<std::size_t>(1, cut.objects.size() / 40);
+    for (std::size_t i = 0; i < cut.objects.size(); i += step) {
+        options.objects = {cut.objects[i].id};
+        ASSERT_TRUE(same(atlas.extract(tau, options), isoatlas::extract(volume, tau, options))) << "object " << cut.objects[i].id;
+    }
+}
+
+TEST_F(Stores, GiveTheSameObjects) {
+    struct Example {
+        const char* phantom;
+        isoatlas::PhantomOptions options;
+        std::vector<double> isovalues;
+    };
+    const std::vector<Example> examples{{"noise", {.size = 70}, {0.9, 0.99}},
+                                        {"random-field", {.size = 90, .noise = 0.1, .quantise = 64}, {20, 40, 45.5, 60}},
+                                        {"nested-shells", {.size = 80}, {0.5}}};
+    for (const Example& example : examples) {
+        Volume volume = isoatlas::make_phantom(example.phantom, example.options);
+        volume.info.geometry.spacing = {0.7, 0.7, 1.3};
+        volume.info.geometry.origin = {-100.1, 20.3, 7};
+        isoatlas::build_atlas(path_, volume);
+        for (const double tau : example.isovalues) {
+            for (const isoatlas::ShellChoice shell : {isoatlas::ShellChoice::all, isoatlas::ShellChoice::inner}) {
+                isoatlas::ExtractOptions options;
+                options.shell = shell;
+                ASSERT_NO_FATAL_FAILURE(check_objects(Atlas(path_), volume, tau, options));
+            }
+        }
+    }
+}
+
+TEST_F(Stores, ReadForASmallObjectOnlyWhatIsAroundIt) {
+    const Volume volume = isoatlas::make_phantom("random-field", {.size = 128, .noise = 0.1, .quantise = 256});
+    isoatlas::build_atlas(path_, volume);
+    const isoatlas::Cut cut = isoatlas::cut(volume, 200);
+    ASSERT_GT(cut.objects.size(), 10U);
+    const Atlas atlas(path_);
+    isoatlas::ExtractOptions options;
+    options.objects = {cut.objects.back().id};  // the smallest
+    EXPECT_FALSE(atlas.extract(200, options).points.empty());
+    EXPECT_LE(atlas.reads().bricks, 64);  // of 512
+}
+
 RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {
     const Grid grid = *arbitrary_grid(6, 120);
     const Volume volume = to_volume(grid, arbitrary_type(grid));

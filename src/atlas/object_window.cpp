@@ -1,0 +1,85 @@
+#include "atlas/object_window.h"
+
+#include <algorithm>
+
+#include "query/components.h"
+
+namespace isoatlas {
+namespace {
+
+using store::Box;
+using store::BrickGrid;
+using store::kBrickSide;
+
+constexpr std::int64_t kMargin = 3;
+
+/// Bounds of the object that contains a voxel of the window; empty: the voxel is Low.
+std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, double tau, double tunnel_height, const Context& context) {
+    const Extrema no_names;
+    const Components components = find_components({window.view(), tau, window.high, &no_names}, tunnel_height, context);
+    const Extent& extent = window.info.extent;
+    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const RunRow home = components.runs.row(at[1], at[2]);
+    const std::int64_t run = home.run_at(at[0] + 1);
+    if (((run - home.first_run) & 1) == 0) return std::nullopt;
+    const std::int32_t object = components.of_run[run];
+    Box box{extent.size, {0, 0, 0}};
+    for (std::int64_t r = 0; r < components.runs.rows(); ++r) {
+        const RunRow row = components.runs.row(r);
+        for (std::int64_t i = 1; i < row.changes; i += 2) {
+            if (components.of_run[row.first_run + i] != object) continue;
+            const std::array<std::int64_t, 3> low{row.change[i - 1] - std::int64_t{1}, r % extent.size[1], r / extent.size[1]};
+            const std::array<std::int64_t, 3> high{row.change[i] - std::int64_t{1}, low[1] + 1, low[2] + 1};
+            for (int axis = 0; axis < 3; ++axis) {
+                box.begin[axis] = std::min(box.begin[axis], low[axis]);
+                box.end[axis] = std::max(box.end[axis], high[axis]);
+            }
+        }
+    }
+    return box;
+}
+
+/// Moves the ends of a box of bricks that the object comes too close to. Returns whether it moved any.
+bool grow(Box& bricks, const Box& object, const StoredWindow& window, const BrickGrid& grid) {
+    bool moved = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t step = bricks.size(axis);
+        if (object.begin[axis] < kMargin && bricks.begin[axis] > 0) {
+            bricks.begin[axis] = std::max<std::int64_t>(bricks.begin[axis] - step, 0);
+            moved = true;
+        }
+        if (object.end[axis] > window.info.extent.size[axis] - kMargin && bricks.end[axis] < grid.size[axis]) {
+            bricks.end[axis] = std::min(bricks.end[axis] + step, grid.size[axis]);
+            moved = true;
+        }
+    }
+    return moved;
+}
+
+}  // namespace
+
+std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_t voxel, double tau, double tunnel_height,
+                                             const Context& context, store::IoCounters& counters) {
+    const BrickGrid& grid = samples.grid();
+    if (grid.extent.rank == 2 || voxel < 0 || voxel >= grid.extent.voxels()) return std::nullopt;
+    const std::array<std::int64_t, 3> at = grid.extent.voxel(voxel);
+    Box bricks{};
+    for (int axis = 0; axis < 3; ++axis) {
+        bricks.begin[axis] = at[axis] / kBrickSide;
+        bricks.end[axis] = bricks.begin[axis] + 1;
+    }
+    Context alone = context;
+    alone.threads = 1;
+    alone.progress = nullptr;
+    while (2 * bricks.count() <= grid.count()) {
+        StoredWindow window = samples.classify_window(tau, bricks, counters);
+        const std::array<std::int64_t, 3>& origin = window.window.origin;
+        const std::int64_t local = window.info.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
+        const std::optional<Box> object = bounds_of(window, local, tau, tunnel_height, alone);
+        if (!object) return std::nullopt;
+        if (!grow(bricks, *object, window, grid)) return window;
+    }
+    return std::nullopt;
+}
+
+}  // namespace isoatlas
