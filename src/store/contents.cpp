@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "isoatlas/error.h"
@@ -17,6 +18,28 @@ constexpr std::pair<std::string_view, int> kTypes[] = {{"uint8", 1}, {"int8", 1}
 [[noreturn]] void damaged(const std::string& path, const std::string& where, const std::string& what) {
     throw Error(ErrorKind::input,
                 {.file = path, .where = where, .what = what, .next = "the store is damaged: build it again from the volume"});
+}
+
+/// A JSON text that is none of ours.
+struct Unreadable : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The library would convert 1e300 to an integer.
+std::int64_t integer(const Json& json) {
+    if (!json.is_number_integer()) throw Unreadable("an integer is expected, not " + json.dump());
+    return json.get<std::int64_t>();
+}
+
+std::uint64_t unsigned_integer(const Json& json) {
+    if (!json.is_number_unsigned()) throw Unreadable("a number of at least 0 is expected, not " + json.dump());
+    return json.get<std::uint64_t>();
+}
+
+std::vector<std::int64_t> integers(const Json& json) {
+    std::vector<std::int64_t> list;
+    for (const Json& entry : json) list.push_back(integer(entry));
+    return list;
 }
 
 Json json_of(const VolumeInfo& info) {
@@ -38,7 +61,7 @@ ValueType value_type(const std::string& name) {
     for (int i = 0; i < 8; ++i) {
         if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
     }
-    throw Error(ErrorKind::input, {.what = "'" + name + "' is no sample type"});
+    throw Unreadable("'" + name + "' is no sample type");
 }
 
 VolumeInfo volume_of(const Json& json) {
@@ -46,8 +69,10 @@ VolumeInfo volume_of(const Json& json) {
     info.path = json.at("name").get<std::string>();
     info.format = "isoatlas store";
     info.encoding = "bricks";
-    info.extent.rank = json.at("rank").get<int>();
-    info.extent.size = json.at("size").get<std::array<std::int64_t, 3>>();
+    const std::vector<std::int64_t> size = integers(json.at("size"));
+    if (size.size() != 3) throw Unreadable("a volume has three sizes");
+    std::copy(size.begin(), size.end(), info.extent.size.begin());
+    info.extent.rank = integer(json.at("rank")) == 2 ? 2 : 3;
     info.type = value_type(json.at("type").get<std::string>());
     Geometry& g = info.geometry;
     g.spacing = json.at("spacing").get<Vec3>();
@@ -67,11 +92,11 @@ StoredArray array_of(const Json& json) {
     StoredArray array;
     array.name = json.at("name").get<std::string>();
     array.type = json.at("type").get<std::string>();
-    array.shape = json.at("shape").get<std::vector<std::int64_t>>();
-    array.offset = json.at("offset").get<std::int64_t>();
-    array.block = json.at("block").get<std::int64_t>();
-    array.checksums = json.at("checksums").get<std::int64_t>();
-    array.sum = json.at("sum").get<std::uint64_t>();
+    array.shape = integers(json.at("shape"));
+    array.offset = integer(json.at("offset"));
+    array.block = integer(json.at("block"));
+    array.checksums = integer(json.at("checksums"));
+    array.sum = unsigned_integer(json.at("sum"));
     return array;
 }
 
@@ -145,10 +170,10 @@ std::string to_json(const Contents& contents) {
 Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size) try {
     const Json json = Json::parse(text);
     Contents contents;
-    contents.version = json.at("version").get<int>();
-    if (contents.version != kStoreVersion) {
+    const std::int64_t version = integer(json.at("version"));
+    if (version != kStoreVersion) {
         throw Error(ErrorKind::unsupported, {.file = path,
-                                             .what = "is a store of version " + std::to_string(contents.version),
+                                             .what = "is a store of version " + std::to_string(version),
                                              .expected = "version " + std::to_string(kStoreVersion),
                                              .next = "use the isoatlas that built it, or build it again"});
     }
@@ -158,13 +183,15 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     const bool is_faces = parameters.at("interpolant").get<std::string>() == name_of(Interpolant::faces);
     contents.parameters.interpolant = is_faces ? Interpolant::faces : Interpolant::trilinear;
     contents.parameters.tunnel_height = parameters.at("tunnel_height").get<double>();
-    contents.parameters.samples_checksum = parameters.at("samples_checksum").get<std::uint64_t>();
+    contents.parameters.samples_checksum = unsigned_integer(parameters.at("samples_checksum"));
     for (const Json& entry : json.at("arrays")) {
         contents.arrays.push_back(array_of(entry));
         if (!is_sound(contents.arrays.back(), file_size)) damaged(path, contents.arrays.back().name, "the array lies outside the file");
     }
     return contents;
 } catch (const nlohmann::json::exception& error) {
+    damaged(path, "contents", std::string("they cannot be read: ") + error.what());
+} catch (const Unreadable& error) {
     damaged(path, "contents", std::string("they cannot be read: ") + error.what());
 }
 
