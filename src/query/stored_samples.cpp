@@ -27,12 +27,23 @@ void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
     if (p % 64 > 48) row[p / 64 + 1] |= bits >> (64 - p % 64);
 }
 
-/// Are the bits [begin, end) of a row all equal to `high`? Positions before 0 do not exist; those behind the padding are Low.
+/// Are the bits [begin, end) of a row all equal to `high`? At most 64 of them.
 bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, bool high) {
-    for (std::int64_t p = begin; p < end; ++p) {
-        if ((row[p / 64] >> p % 64 & 1) != std::uint64_t{high}) return false;
-    }
-    return true;
+    const std::int64_t w = begin / 64, skip = begin % 64;
+    const std::uint64_t bits = skip == 0 ? row[w] : row[w] >> skip | row[w + 1] << (64 - skip);
+    const std::uint64_t mask = ~std::uint64_t{0} >> (64 - (end - begin));
+    return (bits & mask) == (high ? mask : 0);
+}
+
+/// Which of 16 samples are at least `least`, as bits.
+template <class T>
+std::uint64_t bits_of_samples(const T* values, T least) {
+    std::array<std::uint8_t, kBrickSide> flags;
+    for (std::int64_t i = 0; i < kBrickSide; ++i) flags[static_cast<std::size_t>(i)] = values[i] >= least;
+    std::array<std::uint64_t, 2> eight;
+    std::memcpy(eight.data(), flags.data(), sizeof eight);
+    constexpr std::uint64_t kGather = 0x0102040810204080;  // bit 0 of each byte to the top byte
+    return eight[0] * kGather >> 56 | eight[1] * kGather >> 56 << 8;
 }
 
 /// A box of bricks as a grid of its own.
@@ -247,7 +258,9 @@ private:
             if (classes[i] == BrickClass::low) continue;
             const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
             std::uint64_t bits = 0xffff >> (kBrickSide - count);
-            if (classes[i] == BrickClass::divided) {
+            if (classes[i] == BrickClass::divided && count == kBrickSide) {
+                bits = bits_of_samples(values + begin, least);
+            } else if (classes[i] == BrickClass::divided) {
                 bits = 0;
                 for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
             }
