@@ -65,19 +65,31 @@ public:
     [[nodiscard]] std::int64_t add(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape) const {
         const std::vector<hsize_t> dims(shape.begin(), shape.end());
         const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
-        const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-        H5Pset_create_intermediate_group(links, 1);
+        const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+        add_groups(name);
         H5Pset_layout(creation, H5D_CONTIGUOUS);
         H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
         H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
         H5Pset_obj_track_times(creation, 0);
-        const Handle set(H5Dcreate2(file_, name.c_str(), hdf5_type(type), space, links, creation, H5P_DEFAULT), H5Dclose);
+        const Handle set(H5Dcreate2(file_, name.c_str(), hdf5_type(type), space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
         if (set < 0) cannot_write(path_, "no room for the array " + name);
         const haddr_t address = H5Dget_offset(set);
         return address == HADDR_UNDEF ? -1 : static_cast<std::int64_t>(address);
     }
 
 private:
+    /// Groups that HDF5 makes by itself carry the time.
+    void add_groups(const std::string& name) const {
+        const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+        H5Pset_obj_track_times(creation, 0);
+        for (std::size_t slash = name.find('/', 1); slash != std::string::npos; slash = name.find('/', slash + 1)) {
+            const std::string group = name.substr(0, slash);
+            if (H5Lexists(file_, group.c_str(), H5P_DEFAULT) > 0) continue;
+            const Handle made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+            if (made < 0) cannot_write(path_, "no room for the group " + group);
+        }
+    }
+
     static hid_t create(const std::string& path) {
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
         const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
