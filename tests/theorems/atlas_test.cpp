@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -147,6 +148,28 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {
         RC_ASSERT(actual.event(e).zone.voxels == expected.event(e).zone.voxels);
         RC_ASSERT(actual.event(e).position == expected.event(e).position);
     }
+}
+
+TEST_F(Stores, AnswerManyAtOnce) {
+    const Volume volume = isoatlas::make_phantom("random-field", {.size = 64, .noise = 0.1, .quantise = 64});
+    isoatlas::build_atlas(path_, volume);
+    std::vector<Surface> expected;
+    for (int i = 0; i < 12; ++i) expected.push_back(isoatlas::extract(volume, 5 * i + 3));
+    const Atlas atlas(path_);
+    std::atomic<int> wrong = 0;
+    std::vector<std::thread> askers;
+    for (int asker = 0; asker < 4; ++asker) {
+        askers.emplace_back([&, asker] {
+            isoatlas::Context context;
+            context.threads = 1;
+            for (int i = 0; i < 12; ++i) {
+                const int which = (i * 5 + asker * 3) % 12;
+                wrong += same(atlas.extract(5 * which + 3, {}, context), expected[static_cast<std::size_t>(which)]) ? 0 : 1;
+            }
+        });
+    }
+    for (std::thread& asker : askers) asker.join();
+    EXPECT_EQ(wrong, 0);
 }
 
 TEST_F(Stores, ReadOnlyTheBricksOfTheSurface) {
