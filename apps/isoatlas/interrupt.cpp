@@ -39,6 +39,7 @@ void catch_signals() {
     sigaction(SIGTERM, &action, nullptr);
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, nullptr);
+    sigaction(SIGXFSZ, &action, nullptr);  // a limit on file sizes is an error of the write, which is told
 }
 
 bool interrupted() { return signals > 0; }

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "base/check.h"
 #include "isoatlas/error.h"
@@ -58,8 +59,18 @@ hid_t hdf5_type(std::string_view type) {
 /// The file as HDF5 sees it: contiguous arrays with their room taken, no times in it, so that the same store has the same bytes.
 class Layout {
 public:
-    explicit Layout(const std::string& path) : path_(path), file_(create(path), H5Fclose) {
-        if (file_ < 0) cannot_write(path, std::strerror(errno != 0 ? errno : EIO));
+    Layout(const std::string& partial, std::string path) : path_(std::move(path)), file_(create(partial)) {
+        if (file_ < 0) cannot_write(path_, std::strerror(errno != 0 ? errno : EIO));
+    }
+    Layout(const Layout&) = delete;
+    Layout& operator=(const Layout&) = delete;
+    ~Layout() {
+        if (file_ >= 0) H5Fclose(file_);
+    }
+    /// Writes what HDF5 has to say about the arrays.
+    void close() {
+        errno = 0;
+        if (H5Fclose(std::exchange(file_, -1)) < 0) cannot_write(path_, std::strerror(errno != 0 ? errno : EIO));
     }
     /// Takes room for an array and returns its offset; -1 when it is empty.
     [[nodiscard]] std::int64_t add(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape) const {
@@ -91,6 +102,7 @@ private:
     }
 
     static hid_t create(const std::string& path) {
+        H5dont_atexit();  // after a full disk its cleanup at the end of the program would crash
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
         const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
         H5Pset_userblock(creation, static_cast<hsize_t>(kHeaderBytes));
@@ -101,14 +113,15 @@ private:
     }
 
     std::string path_;
-    Handle file_;
+    hid_t file_;
 };
 
 /// The same file for plain writes.
 class RawFile {
 public:
-    explicit RawFile(const std::string& path) : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {
-        if (descriptor_ < 0) cannot_write(path, std::strerror(errno));
+    RawFile(const std::string& partial, std::string path)
+        : path_(std::move(path)), descriptor_(::open(partial.c_str(), O_RDWR | O_CLOEXEC)) {
+        if (descriptor_ < 0) cannot_write(path_, std::strerror(errno));
     }
     RawFile(const RawFile&) = delete;
     RawFile& operator=(const RawFile&) = delete;
@@ -211,7 +224,7 @@ void pack_store(const std::string& path, Contents contents, const std::vector<Pa
     PartialName partial(path);
     Header header;
     {
-        const Layout layout(partial.name());
+        Layout layout(partial.name(), path);
         contents.arrays.clear();
         for (const PackedArray& source : arrays) {
             StoredArray array{source.name, source.type, source.shape, 0, source.block, 0, 0};
@@ -219,7 +232,7 @@ void pack_store(const std::string& path, Contents contents, const std::vector<Pa
             if (array.blocks() > 0) array.checksums = layout.add("/checksums/" + source.name, "uint64", {array.blocks()});
             contents.arrays.push_back(std::move(array));
         }
-        const RawFile file(partial.name());
+        const RawFile file(partial.name(), path);
         for (std::size_t i = 0; i < arrays.size(); ++i) write_array(file, arrays[i], contents.arrays[i]);
         const std::string text = to_json(contents);
         header.contents_bytes = static_cast<std::int64_t>(text.size());
@@ -227,8 +240,9 @@ void pack_store(const std::string& path, Contents contents, const std::vector<Pa
         const std::span<const std::byte> bytes = std::as_bytes(std::span(text));
         header.contents_checksum = checksum(bytes);
         file.write(header.contents_offset, bytes);
+        layout.close();
     }
-    const RawFile file(partial.name());
+    const RawFile file(partial.name(), path);
     header.file_size = file.size();
     file.write(0, bytes_of_header(header));
     file.sync();

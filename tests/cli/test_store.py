@@ -1,4 +1,6 @@
 """Stores on the command line: what a store answers is what its volume answers."""
+import resource
+
 import harness
 
 
@@ -48,6 +50,16 @@ class Stores(harness.CliTest):
         self.assertFalse(checked["holds"])
         (self.folder / "short.atlas").write_bytes(whole[:-100])
         self.run_error(3, "objects", "short.atlas", "--tau", "31", says="damaged")
+
+    def test_a_full_disk_is_told_and_leaves_nothing(self):
+        whole = len(self.read("noise.atlas"))
+        for limit in [1000, 30000, whole // 2, whole - 5000, whole - 600, whole - 1]:
+            done = self.start(["build", "noise.nrrd", "-o", "full.atlas"],
+                              preexec_fn=lambda size=limit: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            self.assertEqual(done.returncode, 5, f"{limit}: {done.stderr}")
+            self.assertIn("full.atlas: cannot be written: File too large", done.stderr)
+            self.assertFalse((self.folder / "full.atlas").exists())
+            self.assert_no_partial()
 
     def test_options_that_contradict_the_store(self):
         self.run_error(2, "extract", "noise.atlas", "--tau", "31", "--interpolant", "faces", "-o", "x.ply", says="built with")
