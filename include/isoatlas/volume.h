@@ -143,20 +143,26 @@ public:
     [[nodiscard]] double reported(std::int64_t index) const { return info.calibration.reported(value(index)); }
 };
 
+/// Calls function(T{}) with a value of the sample type.
+template <class Function>
+decltype(auto) visit_type(ValueType type, Function&& function) {
+    switch (type) {
+        case ValueType::u8: return function(std::uint8_t{});
+        case ValueType::i8: return function(std::int8_t{});
+        case ValueType::u16: return function(std::uint16_t{});
+        case ValueType::i16: return function(std::int16_t{});
+        case ValueType::u32: return function(std::uint32_t{});
+        case ValueType::i32: return function(std::int32_t{});
+        case ValueType::f32: return function(float{});
+        case ValueType::f64: break;
+    }
+    return function(double{});
+}
+
 /// Calls function(std::span<const T>) with the samples of the volume.
 template <class Function>
 decltype(auto) visit_samples(const Volume& volume, Function&& function) {
-    switch (volume.info.type) {
-        case ValueType::u8: return function(volume.samples<std::uint8_t>());
-        case ValueType::i8: return function(volume.samples<std::int8_t>());
-        case ValueType::u16: return function(volume.samples<std::uint16_t>());
-        case ValueType::i16: return function(volume.samples<std::int16_t>());
-        case ValueType::u32: return function(volume.samples<std::uint32_t>());
-        case ValueType::i32: return function(volume.samples<std::int32_t>());
-        case ValueType::f32: return function(volume.samples<float>());
-        case ValueType::f64: break;
-    }
-    return function(volume.samples<double>());
+    return visit_type(volume.info.type, [&]<class T>(T) -> decltype(auto) { return function(volume.samples<T>()); });
 }
 
 /// Reads everything, applies the policy for missing values, and makes superlevel sets mean what the user sees:

@@ -24,17 +24,7 @@ struct VolumeView {
 /// Calls function(std::span<const T>) with the samples.
 template <class Function>
 decltype(auto) visit_samples(const VolumeView& volume, Function&& function) {
-    switch (volume.info->type) {
-        case ValueType::u8: return function(volume.samples<std::uint8_t>());
-        case ValueType::i8: return function(volume.samples<std::int8_t>());
-        case ValueType::u16: return function(volume.samples<std::uint16_t>());
-        case ValueType::i16: return function(volume.samples<std::int16_t>());
-        case ValueType::u32: return function(volume.samples<std::uint32_t>());
-        case ValueType::i32: return function(volume.samples<std::int32_t>());
-        case ValueType::f32: return function(volume.samples<float>());
-        case ValueType::f64: break;
-    }
-    return function(volume.samples<double>());
+    return visit_type(volume.info->type, [&]<class T>(T) -> decltype(auto) { return function(volume.samples<T>()); });
 }
 
 }  // namespace isoatlas

@@ -12,21 +12,6 @@ namespace {
 constexpr const char* kBothOptions =
     "treat such samples as background with --missing below, or put a value in their place with --missing VALUE";
 
-template <class Function>
-decltype(auto) visit_type(ValueType type, Function&& function) {
-    switch (type) {
-        case ValueType::u8: return function(std::uint8_t{});
-        case ValueType::i8: return function(std::int8_t{});
-        case ValueType::u16: return function(std::uint16_t{});
-        case ValueType::i16: return function(std::int16_t{});
-        case ValueType::u32: return function(std::uint32_t{});
-        case ValueType::i32: return function(std::int32_t{});
-        case ValueType::f32: return function(float{});
-        case ValueType::f64: break;
-    }
-    return function(double{});
-}
-
 template <class T>
 std::span<const T> as_samples(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};

@@ -279,17 +279,8 @@ private:
 }  // namespace
 
 std::unique_ptr<StoredSamples> stored_samples(const store::Container& store) {
-    switch (store.contents().volume.type) {
-        case ValueType::u8: return std::make_unique<Samples<std::uint8_t>>(store);
-        case ValueType::i8: return std::make_unique<Samples<std::int8_t>>(store);
-        case ValueType::u16: return std::make_unique<Samples<std::uint16_t>>(store);
-        case ValueType::i16: return std::make_unique<Samples<std::int16_t>>(store);
-        case ValueType::u32: return std::make_unique<Samples<std::uint32_t>>(store);
-        case ValueType::i32: return std::make_unique<Samples<std::int32_t>>(store);
-        case ValueType::f32: return std::make_unique<Samples<float>>(store);
-        case ValueType::f64: break;
-    }
-    return std::make_unique<Samples<double>>(store);
+    return visit_type(store.contents().volume.type,
+                      [&]<class T>(T) -> std::unique_ptr<StoredSamples> { return std::make_unique<Samples<T>>(store); });
 }
 
 }  // namespace isoatlas
