@@ -15,9 +15,10 @@ namespace isoatlas::cli {
 /// "512x512x100", "512,512" or "512": 1 to 3 positive numbers; one number means a cube.
 [[nodiscard]] std::vector<std::int64_t> parse_dims(const std::string& word);
 
-/// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
 /// A number of at least 0, with or without % behind it (then 0..100).
 [[nodiscard]] double parse_height(const std::string& option, const std::string& word);
+
+/// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
 [[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& word, double rest);
 
 /// uint8, u8, uchar, ..., float, double.

@@ -42,9 +42,7 @@ template <class T>
 inline void HitWriter<T>::write_inner(const Stencil& from, std::int64_t x, const Stencil& to, std::int64_t other_x, int axis,
                                       const Vec3& start, std::int64_t point) const {
     const auto a = static_cast<double>(from.row[x]), b = static_cast<double>(to.row[other_x]);
-    double t = (tau_ - a) / (b - a);
-    if (!(t >= kHitMargin)) t = kHitMargin;
-    if (t > 1 - kHitMargin) t = 1 - kHitMargin;
+    const double t = hit_fraction(a, b, tau_);
     Vec3 position = start;
     position[axis] += t;
     surface_.points[point] = map_.point(position);

@@ -13,6 +13,14 @@ namespace isoatlas {
 /// A hit between a voxel and the padding lies this far outside the voxel.
 inline constexpr double kHitMargin = 1.0 / 1024;
 
+/// Where the hit lies between two samples a and b, 0..1.
+inline double hit_fraction(double a, double b, double tau) {
+    double t = (tau - a) / (b - a);
+    if (!(t >= kHitMargin)) t = kHitMargin;
+    if (t > 1 - kHitMargin) t = 1 - kHitMargin;
+    return t;
+}
+
 /// Writes points (and normals, unless empty) of the hits of row (y, z) of the lattice at their places.
 template <class T>
 class HitWriter {

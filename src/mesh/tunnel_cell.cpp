@@ -90,11 +90,6 @@ bool bounds_tunnel(const CellLoops& loops, int loop, int pattern, const OpenTunn
     return ((tunnel.a | tunnel.b) >> joined_end & 1) != 0 && (tunnel.ring >> ring_end & 1) != 0;
 }
 
-/// Distance of the hit on the edge from a corner, as HitWriter places it.
-double hit_distance(const std::array<double, 8>& value, int corner, int other, double tau) {
-    return std::clamp((tau - value[corner]) / (value[other] - value[corner]), kHitMargin, 1 - kHitMargin);
-}
-
 /// Does a point lie in the corner that a loop of three hits cuts off?
 bool is_cut_off(const Vec3& point, const CellLoops& loops, int loop, const std::array<double, 8>& value, double tau) {
     const std::uint8_t* hits = loops.edge.data() + loops.begin[loop];
@@ -102,7 +97,7 @@ bool is_cut_off(const Vec3& point, const CellLoops& loops, int loop, const std::
     while (std::any_of(hits, hits + 3, [&](int e) { return kEdgeCorners[e][0] != corner && kEdgeCorners[e][1] != corner; })) ++corner;
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        sum += std::abs(point[axis] - (corner >> axis & 1)) / hit_distance(value, corner, corner ^ 1 << axis, tau);
+        sum += std::abs(point[axis] - (corner >> axis & 1)) / hit_fraction(value[corner], value[corner ^ 1 << axis], tau);
     }
     return sum <= 1;
 }

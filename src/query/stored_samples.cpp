@@ -137,16 +137,8 @@ public:
         }
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
-        std::vector<BrickClass> classes;
-        std::vector<std::int64_t> divided;
-        for (std::int64_t b = 0; b < grid_.count(); ++b) {
-            classes.push_back(class_of(b, threshold));
-            if (classes.back() == BrickClass::divided) divided.push_back(b);
-        }
-        load(divided, context.threads, counters);
         HighBits high(info_.extent);
-        if (!threshold.none_high) fill(high, Part(grid_), classes, threshold.least, context.threads);
-        load(beside_surface(high, grid_, classes, context.threads), context.threads, counters);
+        (void)classify_part(Part(grid_), threshold, context.threads, high, counters);
         return high;
     }
 
@@ -158,21 +150,9 @@ public:
         const Part part(grid_, bricks);
         StoredWindow result{info_, {info_.extent, part.origin}, {}, HighBits(part.grid.extent)};
         result.info.extent = part.grid.extent;
-        std::vector<BrickClass> classes;
-        std::vector<std::int64_t> divided;
-        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
-            classes.push_back(class_of(part.number(b), threshold));
-            if (classes.back() == BrickClass::divided) divided.push_back(part.number(b));
-        }
-        load(divided, 1, counters);
-        if (!threshold.none_high) fill(result.high, part, classes, threshold.least, 1);
-        std::vector<std::int64_t> beside;
-        for (const std::int64_t b : beside_surface(result.high, part.grid, classes, 1)) beside.push_back(part.number(b));
-        load(beside, 1, counters);
+        const std::vector<std::int64_t> needed = classify_part(part, threshold, 1, result.high, counters);
         result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
-        for (const std::vector<std::int64_t>* list : {&divided, &beside}) {
-            for (const std::int64_t b : *list) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
-        }
+        for (const std::int64_t b : needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
         return result;
     }
 
@@ -226,6 +206,22 @@ private:
     [[nodiscard]] BrickClass class_of(std::int64_t brick, const Threshold<T>& threshold) const {
         if (threshold.none_high || bricks_.high(brick) < threshold.least) return BrickClass::low;
         return bricks_.low(brick) >= threshold.least ? BrickClass::high : BrickClass::divided;
+    }
+
+    /// Fills the classes of a part. Returns the bricks whose samples a surface with normals needs; they are present then.
+    std::vector<std::int64_t> classify_part(const Part& part, const Threshold<T>& threshold, int threads, HighBits& high,
+                                            IoCounters& counters) {
+        std::vector<BrickClass> classes;
+        std::vector<std::int64_t> needed;
+        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+            classes.push_back(class_of(part.number(b), threshold));
+            if (classes.back() == BrickClass::divided) needed.push_back(part.number(b));
+        }
+        load(needed, threads, counters);
+        if (!threshold.none_high) fill(high, part, classes, threshold.least, threads);
+        for (const std::int64_t b : beside_surface(high, part.grid, classes, threads)) needed.push_back(part.number(b));
+        load(needed, threads, counters);
+        return needed;
     }
 
     void copy_brick(std::int64_t brick, const Part& part, T* to) {

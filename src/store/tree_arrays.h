@@ -6,7 +6,7 @@
 //   events/of_element        per element: its event
 //   events/top, parent, kind, lows_out, contours, delta_chi, chi, voxels     the criticality tree (tree/criticality_tree.h)
 //
-// Ids are uint32, or uint64 where the engine needs them. Zones of voxels are not stored: zone(v) is found again from the tree.
+// Ids are uint32, or uint64 where the engine needs them. Zones of voxels are not stored.
 #pragma once
 
 #include <vector>
