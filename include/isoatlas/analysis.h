@@ -126,6 +126,7 @@ public:
     [[nodiscard]] std::int64_t zone(std::int64_t voxel) const;
 
     [[nodiscard]] const Data& data() const { return *data_; }
+    [[nodiscard]] Data& data() { return *data_; }
 
 private:
     std::unique_ptr<Data> data_;

@@ -159,7 +159,7 @@ Surface Atlas::extract(double tau, const ExtractOptions& options, const Context&
     return data_->at_level(tau, context, [&](const TauLevel& level) { return extract_level(level, own, context); });
 }
 
-Analysis Atlas::analysis() const { return store::analysis_of(data_->store); }
+Analysis Atlas::analysis() const { return store::analysis_of(data_->store, 0); }
 
 Volume Atlas::volume(const Context& context) const {
     Volume volume = make_volume(info().extent, info().type, info().geometry);

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <new>
 
+#include "base/memory_limit.h"
+
 namespace isoatlas {
 namespace {
 
@@ -51,6 +53,10 @@ public:
     void put(char* memory, std::size_t size) {
         const std::lock_guard lock(mutex_);
         used_ -= size;
+        if (memory_is_limited()) {
+            munmap(memory, size);
+            return;
+        }
         kept_ += size;
         auto piece = free_.emplace(memory, size).first;
         if (const auto next = std::next(piece); next != free_.end() && memory + size == next->first) {
@@ -106,18 +112,22 @@ Pool& pool() {
 }  // namespace
 
 void* allocate_big(std::size_t bytes) {
+    if (void* scratch = take_scratch(bytes)) return scratch;
     if (bytes < kSmall) return ::operator new(bytes);
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
     return pool().take(rounded(bytes));
 }
 
 void free_big(void* memory, std::size_t bytes) noexcept {
+    if (give_scratch(memory, bytes)) return;
     if (bytes < kSmall) {
         ::operator delete(memory);
     } else {
         pool().put(static_cast<char*>(memory), rounded(bytes));
     }
 }
+
+void forget(std::span<std::byte> part) noexcept { forget_scratch(part.data(), part.size()); }
 
 void return_big_memory() noexcept { pool().give_back(); }
 

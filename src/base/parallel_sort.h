@@ -80,10 +80,11 @@ void sort_by_steps(std::span<T> items, const Key& key, const Before& before) {
     }
 }
 
-/// All items of the chunks, sorted by before(p, q), which must agree with key (a double): key(p) < key(q) implies before(p, q).
-/// Consumes the chunks. Cost: O(n log n) time, a second copy of the items.
-template <class T, class Key, class Before>
-BigVector<T> sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before) {
+/// Hands all items of the chunks to put(place, item), sorted by before(p, q), which must agree with key (a double): key(p) < key(q) implies
+/// before(p, q). allocate(n) is called once, before the first put. Consumes the chunks. Cost: O(n log n) time, a second copy of the items.
+template <class T, class Key, class Before, class Allocate, class Put>
+void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
+                 const Put& put) {
     constexpr std::size_t kBucket = 1 << 10, kMostBuckets = 1 << 12, kSampled = 16;
     std::size_t n = 0;
     for (const BigVector<T>& chunk : chunks) n += chunk.size();
@@ -111,9 +112,13 @@ BigVector<T> sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Ke
         for (const T& item : chunks[c]) sorted[place[c * count + buckets.of(key(item))]++] = item;
         release(chunks[c]);
     });
-    for_each_block(threads, static_cast<std::int64_t>(count),
-                   [&](std::int64_t b) { sort_by_steps(std::span(sorted).subspan(first[b], first[b + 1] - first[b]), key, before); });
-    return sorted;
+    allocate(n);
+    for_each_block(threads, static_cast<std::int64_t>(count), [&](std::int64_t b) {
+        const std::span<T> bucket = std::span(sorted).subspan(first[b], first[b + 1] - first[b]);
+        sort_by_steps(bucket, key, before);
+        for (std::size_t i = 0; i < bucket.size(); ++i) put(first[b] + i, bucket[i]);
+        forget(std::as_writable_bytes(bucket));
+    });
 }
 
 }  // namespace isoatlas

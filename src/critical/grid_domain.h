@@ -6,10 +6,11 @@
 
 #include <array>
 #include <concepts>
+#include <utility>
 
 #include "critical/basins.h"
 #include "critical/critical_set.h"
-#include "critical/scan.h"
+#include "critical/grid_scan.h"
 #include "isoatlas/context.h"
 
 namespace isoatlas {
@@ -18,14 +19,14 @@ namespace isoatlas {
 template <class Id>
 struct Criticals {
     CriticalSet<Id> set;
-    BigVector<Id> basin;
+    BigVector<Id> basin;  ///< empty when it was not to be kept
 };
 
 template <class D>
-concept Domain = requires(const D& domain, const Context& context, std::uint64_t code, KeyedElement element) {
+concept Domain = requires(D& domain, const Context& context, std::uint64_t code, KeyedElement element) {
     typename D::Id;
     typename D::Sample;
-    { domain.critical(context) } -> std::same_as<Criticals<typename D::Id>>;
+    { domain.critical(true, context) } -> std::same_as<Criticals<typename D::Id>>;
     { domain.position(code) } -> std::same_as<std::array<double, 3>>;
     { domain.above(element, element) } -> std::same_as<bool>;  // the total order
     { domain.vertices() } -> std::same_as<std::int64_t>;
@@ -38,11 +39,11 @@ public:
     using Id = IdType;
     using Sample = T;
 
-    /// tunnel_height: of tunnel_height_of (critical/bodies.h).
-    GridDomain(GridView<T> grid, double tunnel_height) : grid_(grid), above_{GridSteps(grid.extent)}, tunnel_height_(tunnel_height) {}
+    GridDomain(GridView<T> grid, GridScan scan) : grid_(grid), above_{GridSteps(grid.extent)}, scan_(std::move(scan)) {}
 
-    /// Scans, resolves basins, sorts. Cost: O(voxels + c log c); memory 9 bytes a voxel and 64 a critical element while it runs.
-    [[nodiscard]] Criticals<Id> critical(const Context& context) const;
+    /// Resolves basins and sorts; consumes the scan. Cost: O(voxels + c log c); 5 bytes a voxel and 64 a critical element while it runs
+    /// with 32-bit ids, 4 bytes a voxel more when the basins are kept.
+    [[nodiscard]] Criticals<Id> critical(bool keep_basins, const Context& context);
     [[nodiscard]] std::array<double, 3> position(std::uint64_t code) const { return element_position(ElementCode{code}, grid_.extent); }
     [[nodiscard]] bool above(const KeyedElement& p, const KeyedElement& q) const { return above_(p, q); }
     [[nodiscard]] std::int64_t vertices() const { return grid_.extent.voxels(); }
@@ -51,10 +52,11 @@ public:
 private:
     GridView<T> grid_;
     Above above_;
-    double tunnel_height_;
+    GridScan scan_;
 };
 
-/// Slices per slab: what the context asks for, or enough slabs to keep every thread busy.
-[[nodiscard]] std::int64_t slab_height(const Extent& extent, const Context& context);
+/// The basins of critical(), made anew. Cost: O(voxels), 5 bytes a voxel with 32-bit ids.
+template <class T, class Id>
+[[nodiscard]] BigVector<Id> basins_of_maxima(const GridView<T>& grid, const Context& context);
 
 }  // namespace isoatlas

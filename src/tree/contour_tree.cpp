@@ -91,10 +91,10 @@ ContourTree<Id> contour_tree(std::span<const Id> join_parents, BigVector<Id> spl
     }
 
     std::size_t arcs = 0;
-    Id last = static_cast<Id>(nodes - 1);
-    for (std::size_t seed = 0; seed < nodes; ++seed) {
+    const std::size_t outside = nodes - 1;
+    for (std::size_t seed = 0; seed < outside; ++seed) {
         // Follow the chain of leaves that this one uncovers; earlier seeds that become leaves are taken by the chain itself.
-        for (std::size_t x = seed; count[x] == kUpperLeaf || count[x] == kLowerLeaf;) {
+        for (std::size_t x = seed; x != outside && (count[x] == kUpperLeaf || count[x] == kLowerLeaf);) {
             const bool upper = count[x] == kUpperLeaf;
             const Id y = upper ? remove<Id>(x, join, split) : remove<Id>(x, split, join);
             tree.other[x] = y;
@@ -108,13 +108,12 @@ ContourTree<Id> contour_tree(std::span<const Id> join_parents, BigVector<Id> spl
             }
             count[x] = kGone;
             ++arcs;
-            last = y;
             x = y;
         }
     }
-    ISOATLAS_CHECK(arcs + 1 == nodes);
-    tree.other[last] = last;
-    ISOATLAS_CHECK(tree.half_chi[last] == 0);
+    ISOATLAS_CHECK(arcs == outside);
+    tree.other[outside] = static_cast<Id>(outside);
+    ISOATLAS_CHECK(tree.half_chi[outside] == 0);
     return tree;
 }
 

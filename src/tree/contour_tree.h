@@ -1,9 +1,9 @@
 // Contour tree and the genus of every contour (theory.md T4).
 //
 // Merge of join and split tree by leaf removal (Carr, Snoeyink, Axen 2003). Nodes are the critical elements 0..n-1 in descending order and
-// the outside n. Each removed node leaves exactly one arc, so arcs are indexed by the node whose removal made them: n arcs, one node
-// without. half_chi of an arc = half the Euler number of its contour = 1 - genus (3D). At every node: sum(below) = sum(above) + delta_chi,
-// so the same removal order that finds the arcs finds their Euler numbers.
+// the outside n, which is never removed. Each removed node leaves exactly one arc, so arcs are indexed by the node whose removal made them,
+// and the tree is rooted at the outside. half_chi of an arc = half the Euler number of its contour = 1 - genus (3D). At every node:
+// sum(below) = sum(above) + delta_chi, so the same removal order that finds the arcs finds their Euler numbers.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace isoatlas {
 template <class Id>
 struct ContourTree {
     using Signed = std::make_signed_t<Id>;
-    BigVector<Id> other;             ///< per node x: the other end of its arc; x itself for the last node, which has none
+    BigVector<Id> other;             ///< per node x: the other end of its arc, the one towards the outside; the outside has none: itself
     BigVector<Signed> half_chi;      ///< per node x: of its arc
     BigVector<std::uint8_t> degree;  ///< per node: how many arcs it has above (low two bits) and below
 
@@ -37,5 +37,14 @@ struct ContourTree {
 /// Cost: O(n) time; 18 bytes a node beyond input and output for 32-bit ids.
 template <class Id>
 ContourTree<Id> contour_tree(std::span<const Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
+
+/// Fills in degree and half_chi of a tree that has `other` only. Returns false when it is no tree rooted at the last node, or a node has
+/// more arcs than an element can have. Cost: O(n).
+template <class Id>
+[[nodiscard]] bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> delta_chi);
+
+/// The join tree of the scalar field is that of its contour tree. Cost: O(n alpha); 12 bytes a node while it runs.
+template <class Id>
+[[nodiscard]] BigVector<Id> join_tree_of(const ContourTree<Id>& tree);
 
 }  // namespace isoatlas

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct AnalysisArrays {
     CriticalityTree<Id> tree;
     EventMeasures<Id> measures;
     BigVector<Id> voxels;  ///< per event, of its zone; empty without zones
-    BigVector<Id> zone;    ///< per voxel; empty without zones
+    BigVector<Id> zone;    ///< per voxel; empty without zones; its basin until there are zones (zones/analyse.h)
 };
 
 /// Compressed lists: the items of i are item[first[i]] .. item[first[i + 1]].
@@ -64,7 +65,11 @@ struct Analysis::Data {
 
     template <class Function>
     decltype(auto) visit(Function&& function) const {
-        return std::visit([&](const auto& held) -> decltype(auto) { return function(*held); }, arrays);
+        return std::visit([&](const auto& held) -> decltype(auto) { return function(std::as_const(*held)); }, arrays);
+    }
+    template <class Function>
+    decltype(auto) visit(Function&& function) {
+        return std::visit([&](auto& held) -> decltype(auto) { return function(*held); }, arrays);
     }
 };
 

@@ -1,0 +1,45 @@
+// Arrays larger than memory: while a limit holds, large arrays lie in a scratch file, and what is resident of them stays within the limit.
+//
+// The file is mapped, so that code for arrays in memory works on it unchanged; its name is removed at once, so that nothing stays behind
+// when the program dies. A watcher unmaps pages from the process whenever the resident memory comes close to the limit: they stay in the
+// system's cache as long as there is room, and are on the disk otherwise. What is fast then is what runs through memory in order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace isoatlas {
+
+class MemoryLimit {
+public:
+    /// bytes: of the whole process; 0: no limit. folder: of the scratch file; it takes as much disk as the arrays need.
+    /// Arrays that exist already stay where they are. One limit at a time.
+    MemoryLimit(std::int64_t bytes, const std::string& folder);
+    ~MemoryLimit();
+    MemoryLimit(const MemoryLimit&) = delete;
+    MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+private:
+    bool holds_;
+};
+
+/// The smallest limit that leaves room for the program itself and some pages of every array.
+inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
+
+/// Memory that this process may use: of the machine, or less when a control group says so.
+[[nodiscard]] std::int64_t available_memory();
+
+/// The most memory that was ever resident, in bytes.
+[[nodiscard]] std::int64_t peak_memory();
+
+/// For the allocator of BigVector. take_scratch: null when no limit holds or memory will do; throws Error{resource} when the disk is full.
+/// give_scratch: false: not from here.
+[[nodiscard]] void* take_scratch(std::size_t bytes);
+[[nodiscard]] bool give_scratch(void* memory, std::size_t bytes) noexcept;
+/// Frees the pages of a part of an array, where it lies in the file.
+void forget_scratch(void* memory, std::size_t bytes) noexcept;
+/// Is a limit in force? Then nothing is kept for reuse.
+[[nodiscard]] bool memory_is_limited() noexcept;
+
+}  // namespace isoatlas

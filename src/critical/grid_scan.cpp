@@ -1,0 +1,69 @@
+#include "critical/grid_scan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
+#include "critical/links.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas {
+namespace {
+
+std::int64_t slab_count(const Extent& extent, std::int64_t height) { return (extent.size[2] + height - 1) / height; }
+
+}  // namespace
+
+std::int64_t slab_height(const Extent& extent, const Context& context) {
+    if (context.slab_slices > 0) return std::min(context.slab_slices, extent.size[2]);
+    const std::int64_t slabs = std::int64_t{4} * thread_count(context.threads);
+    return std::max<std::int64_t>({1, std::min<std::int64_t>(8, extent.size[2]), (extent.size[2] + slabs - 1) / slabs});
+}
+
+template <class T>
+GridScan scan_grid(const GridView<T>& grid, double tunnel_height, const Context& context) {
+    const Extent& extent = grid.extent;
+    GridScan scan;
+    scan.height = slab_height(extent, context);
+    scan.links.resize(static_cast<std::size_t>(extent.voxels()));
+    std::vector<SlabScan> slabs(static_cast<std::size_t>(slab_count(extent, scan.height)));
+    for_each_block(context.threads, static_cast<std::int64_t>(slabs.size()), [&](std::int64_t i) {
+        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        const Slab slab = slab_at(i, scan.height, extent.size[2]);
+        const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
+        slabs[i] = scan_slab(grid, slab, std::span<std::uint8_t>(scan.links).subspan(first, count), tunnel_height);
+    });
+    for (SlabScan& slab : slabs) {
+        scan.first_maximum.push_back(std::exchange(scan.maxima, scan.maxima + slab.maxima));
+        scan.first_minimum.push_back(std::exchange(scan.minima, scan.minima + slab.minima));
+        for (BigVector<KeyedElement>& chunk : slab.chunks) {
+            scan.elements += static_cast<std::int64_t>(chunk.size());
+            scan.chunks.push_back(std::move(chunk));
+        }
+    }
+    return scan;
+}
+
+template <class T>
+BigVector<std::uint8_t> links_of_grid(const GridView<T>& grid, const Context& context) {
+    const std::int64_t slice = grid.extent.slice();
+    BigVector<std::uint8_t> links(static_cast<std::size_t>(grid.extent.voxels()));
+    for_each_block(context.threads, grid.extent.size[2],
+                   [&](std::int64_t z) { links_of_slice(grid, z, std::span<std::uint8_t>(links).subspan(z * slice, slice)); });
+    return links;
+}
+
+#define ISOATLAS_SCAN(T)                                                     \
+    template GridScan scan_grid(const GridView<T>&, double, const Context&); \
+    template BigVector<std::uint8_t> links_of_grid(const GridView<T>&, const Context&);
+ISOATLAS_SCAN(std::uint8_t)
+ISOATLAS_SCAN(std::int8_t)
+ISOATLAS_SCAN(std::uint16_t)
+ISOATLAS_SCAN(std::int16_t)
+ISOATLAS_SCAN(std::uint32_t)
+ISOATLAS_SCAN(std::int32_t)
+ISOATLAS_SCAN(float)
+ISOATLAS_SCAN(double)
+#undef ISOATLAS_SCAN
+
+}  // namespace isoatlas

@@ -1,0 +1,70 @@
+#include "zones/trees.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
+#include "critical/scan.h"
+#include "tree/contour_tree.h"
+#include "tree/criticality_tree.h"
+#include "tree/levels.h"
+#include "tree/merge_tree.h"
+
+namespace isoatlas {
+namespace {
+
+/// Per element. Empty in 2D, where contours are circles whatever happens.
+BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
+    BigVector<std::int8_t> delta(code.size());
+    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
+    return delta;
+}
+
+/// Levels, events and their measures. join: parents of the join tree.
+template <class Id>
+void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank, int threads) {
+    BigVector<std::int8_t> delta = rank == 3 ? delta_chis(arrays.code, 3) : BigVector<std::int8_t>();
+    BigVector<Id> group;
+    run_both(
+        threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); },
+        [&] { group = join_groups<Id>(join, arrays.value); });
+    const BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, delta);
+    arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, kind);
+    if (rank != 3) delta = delta_chis(arrays.code, rank);
+    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, delta, threads);
+}
+
+}  // namespace
+
+template <class Id>
+void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
+    BigVector<Id> join, split;
+    run_both(threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
+    for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) release(*field);
+    const bool is_3d = set.rank == 3;
+    arrays.contours = contour_tree<Id>(join, std::move(split), is_3d ? delta_chis(set.code, 3) : BigVector<std::int8_t>(), threads);
+    if (!is_3d) std::fill(arrays.contours.half_chi.begin(), arrays.contours.half_chi.end(), 1);
+    arrays.value = std::move(set.value);
+    arrays.code = std::move(set.code);
+    make_events<Id>(join, arrays, set.rank, threads);
+}
+
+template <class Id>
+bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads) {
+    const bool is_3d = rank == 3;
+    if (arrays.contours.other.size() != arrays.value.size() + 1) return false;
+    if (!complete_contour_tree<Id>(arrays.contours, is_3d ? delta_chis(arrays.code, 3) : BigVector<std::int8_t>())) return false;
+    if (!is_3d) std::fill(arrays.contours.half_chi.begin(), arrays.contours.half_chi.end(), 1);
+    const BigVector<Id> join = join_tree_of(arrays.contours);
+    make_events<Id>(join, arrays, rank, threads);
+    return true;
+}
+
+#define ISOATLAS_TREES(Id)                                               \
+    template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, int); \
+    template bool restore_trees(AnalysisArrays<Id>&, int, int);
+ISOATLAS_TREES(std::uint32_t)
+ISOATLAS_TREES(std::uint64_t)
+#undef ISOATLAS_TREES
+
+}  // namespace isoatlas

@@ -1,0 +1,18 @@
+// The trees of an analysis: from critical elements, or again from the contour tree alone.
+#pragma once
+
+#include "critical/critical_set.h"
+#include "zones/analysis_data.h"
+
+namespace isoatlas {
+
+/// Fills in everything but the zones. Cost: O(n alpha).
+template <class Id>
+void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
+
+/// The same from value, code and contours.other, all else follows from them. Returns false when these are no contour tree: a damaged
+/// store. Cost: O(n alpha).
+template <class Id>
+[[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads);
+
+}  // namespace isoatlas
