@@ -22,7 +22,7 @@ namespace {
 /// Options as typed; converted after the parse so that every message is ours.
 struct Typed {
     std::string dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all", style = "compact",
-                                                              boundary = "closed", detail = "events";
+                                                              boundary = "closed", detail = "events", memory;
     double no_data = 0;
     double tau = 0;
     std::int64_t skip = 0, time_step = 0;
@@ -112,6 +112,10 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "build") {
         add_output(app, arguments, ".atlas", true);
+        app.add_option("--memory", typed.memory, "Use at most this much memory, such as 1G or 500M; default: half of what there is")
+            ->type_name("SIZE");
+        app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
+        app.add_flag("--restart", arguments.restart, "Forget the finished phases of an interrupted build");
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
         app.add_option("--size", arguments.phantom.size, "Samples per axis")
@@ -197,6 +201,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
         if (arguments.interpolant != Interpolant::trilinear)
             usage("--tunnel-height means nothing with --interpolant faces", "leave out --interpolant faces: trilinear is the default");
     }
+    if (given("--memory")) arguments.memory = parse_bytes("--memory", typed.memory);
     arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
                                                 {{"all", ShellChoice::all}, {"outer", ShellChoice::outer}, {"inner", ShellChoice::inner}});
     arguments.style =

@@ -29,6 +29,10 @@ struct Arguments {
     bool json = false, quiet = false, no_color = false;
     int verbose = 0;
 
+    // Building a store
+    std::int64_t memory = 0;  ///< bytes; 0: not given
+    bool dry_run = false, restart = false;
+
     // Choosing
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;

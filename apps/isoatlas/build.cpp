@@ -1,41 +1,132 @@
 // isoatlas build: a volume, its trees and its bricks in one file that serves any surface without reading the rest.
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "document.h"
 #include "interrupt.h"
-#include "source.h"
+#include "session.h"
+#include "suggest.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
 
 namespace isoatlas::cli {
+namespace {
+
+/// Lowest and highest sample, read slab by slab: a tunnel height in percent needs them before anything else.
+ValueRange range_of(VolumeReader& reader) {
+    const VolumeInfo& info = reader.info();
+    ValueRange range{INFINITY, -INFINITY};
+    std::vector<std::byte> slice(static_cast<std::size_t>(info.extent.slice()) * size_of(info.type));
+    for (std::int64_t z = 0; z < info.extent.size[2]; ++z) {
+        stop_if_interrupted();
+        reader.read(z, z + 1, slice);
+        visit_type(info.type, [&]<class T>(T) {
+            const std::span<const T> samples(reinterpret_cast<const T*>(slice.data()), slice.size() / sizeof(T));
+            for (const T sample : samples) {
+                if (!std::isfinite(static_cast<double>(sample))) continue;
+                range.low = std::min(range.low, static_cast<double>(sample));
+                range.high = std::max(range.high, static_cast<double>(sample));
+            }
+        });
+    }
+    return range;
+}
+
+BuildOptions options_of(const Arguments& arguments, VolumeReader& reader) {
+    BuildOptions options;
+    options.analysis.interpolant = arguments.interpolant;
+    options.missing = arguments.missing;
+    options.memory = arguments.memory;
+    options.restart = arguments.restart;
+    if (arguments.voxel_units) options.geometry = voxel_geometry();
+    if (arguments.tunnel_height > 0 && !arguments.tunnel_height_in_percent) {
+        options.analysis.tunnel_height = arguments.tunnel_height / std::abs(reader.info().calibration.slope);
+    } else if (arguments.tunnel_height > 0) {
+        const ValueRange range = range_of(reader);
+        options.analysis.tunnel_height = arguments.tunnel_height / 100 * (range.high - range.low);
+    }
+    return options;
+}
+
+Json estimate_json(const BuildEstimate& estimate) {
+    Json json;
+    json["critical_elements"] = estimate.critical_elements;
+    json["memory"] = estimate.memory;
+    json["memory_least"] = estimate.memory_least;
+    json["budget"] = estimate.budget;
+    json["uses_scratch"] = estimate.uses_scratch;
+    json["disk"] = estimate.disk;
+    json["disk_free"] = estimate.disk_free;
+    json["store_bytes"] = estimate.store_bytes;
+    json["seconds"] = estimate.seconds;
+    return json;
+}
+
+/// Prints what a build would take, and fails as it would.
+int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader, const BuildOptions& options) {
+    const BuildEstimate estimate = estimate_build(reader, arguments.output, options, arguments.threads);
+    if (arguments.json) {
+        Json json = document("build", reader.info(), options.analysis.interpolant, options.analysis.tunnel_height);
+        json["estimate"] = estimate_json(estimate);
+        print(terminal, json);
+    } else {
+        const auto bytes = [](std::int64_t count) { return bytes_text(static_cast<double>(count)); };
+        terminal.out() << "critical elements  about " << count_text(estimate.critical_elements) << '\n'
+                       << "memory             " << bytes(std::min(estimate.memory, estimate.budget)) << " of a budget of "
+                       << bytes(estimate.budget) << " (at least " << bytes(estimate.memory_least) << ")"
+                       << (estimate.uses_scratch ? ", the rest in a scratch file" : "") << '\n'
+                       << "disk               " << bytes(estimate.disk) << " while it runs, " << bytes(estimate.store_bytes)
+                       << " in the end; " << bytes(estimate.disk_free) << " are free\n"
+                       << "time               " << seconds_text(estimate.seconds) << '\n';
+    }
+    check_estimate(estimate, reader.info().path, arguments.output);
+    return 0;
+}
+
+void print_report(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const BuildReport& report) {
+    const Atlas atlas(arguments.output);
+    const auto voxels = static_cast<double>(info.extent.voxels()), bytes = static_cast<double>(report.bytes);
+    const double raw = voxels * static_cast<double>(size_of(info.type));
+    if (arguments.json) {
+        Json json = document("build", atlas.info(), atlas.interpolant(), atlas.tunnel_height());
+        json["output"] = arguments.output;
+        json["bytes"] = report.bytes;
+        json["sample_bytes"] = static_cast<std::int64_t>(raw);
+        json["resumed"] = report.resumed;
+        json["peak_memory"] = report.peak_memory;
+        print(terminal, json);
+        return;
+    }
+    terminal.out() << arguments.output << ": " << bytes_text(bytes) << ", " << fmt::format("{:.3g}", bytes / voxels) << " bytes a voxel ("
+                   << bytes_text(raw) << " of samples), " << interpolant_text(atlas.info(), atlas.interpolant(), atlas.tunnel_height())
+                   << '\n';
+    terminal.next("isoatlas objects " + shell_word(arguments.output));
+}
+
+}  // namespace
 
 int run_build(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".atlas"});
-    Source source(arguments, terminal);
-    if (source.is_store()) {
+    if (is_atlas(arguments.file)) {
         throw Error(ErrorKind::usage,
                     {.file = arguments.file, .what = "is a store already", .expected = "a volume", .next = "name the volume file"});
     }
+    const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+    const BuildOptions options = options_of(arguments, *reader);
+    if (arguments.dry_run) return dry_run(arguments, terminal, *reader, options);
+    BuildReport report;
     {
-        const WritingGuard guard(arguments.output);
-        build_atlas(arguments.output, source.volume(), source.analysis_options(), source.context());
+        Session session(arguments, terminal);
+        const WritingGuard guard(arguments.output,
+                                 "stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
+        report = build_atlas(arguments.output, *reader, options, session.context());
     }
-    const Atlas atlas(arguments.output);
-    const auto voxels = static_cast<double>(source.info().extent.voxels()), bytes = static_cast<double>(atlas.file_bytes());
-    const double raw = voxels * static_cast<double>(size_of(source.info().type));
-    if (arguments.json) {
-        Json json = document("build", source.info(), atlas.interpolant(), atlas.tunnel_height());
-        json["output"] = arguments.output;
-        json["bytes"] = atlas.file_bytes();
-        json["sample_bytes"] = static_cast<std::int64_t>(raw);
-        print(terminal, json);
-        return 0;
-    }
-    terminal.out() << arguments.output << ": " << bytes_text(bytes) << ", " << fmt::format("{:.3g}", bytes / voxels) << " bytes a voxel ("
-                   << bytes_text(raw) << " of samples), " << interpolant_text(source.info(), atlas.interpolant(), atlas.tunnel_height())
-                   << '\n';
-    terminal.next("isoatlas objects " + shell_word(arguments.output));
+    for (const std::string& note : reader->info().notes) terminal.say("note: " + note);
+    for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
+    print_report(arguments, terminal, reader->info(), report);
     return 0;
 }
 

@@ -14,10 +14,10 @@ namespace isoatlas::cli {
 namespace {
 
 constexpr int kExitCode = static_cast<int>(ErrorKind::cancelled);
-constexpr char kMessage[] = "\nstopped: the unfinished output was removed\n";
 
 std::atomic<int> signals{0};
 std::atomic<bool> writing{false};
+std::atomic<const char*> last_words{"stopped"};
 std::array<char, 4096> partial{};  // a fixed buffer: the handler may not allocate
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
@@ -25,7 +25,8 @@ void on_signal(int) {
     const bool again = signals.fetch_add(1) > 0;
     if (!writing && !again) return;
     if (writing && partial[0] != '\0') ::unlink(partial.data());
-    [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+    for (const char* text : {"\n", last_words.load(), "\n"}) [[maybe_unused]]
+        const ssize_t said = ::write(STDERR_FILENO, text, std::strlen(text));
     ::_exit(kExitCode);
 }
 
@@ -48,13 +49,14 @@ void stop_if_interrupted() {
     if (interrupted()) throw Error(ErrorKind::cancelled, {.what = "stopped by the user; nothing was written"});
 }
 
-WritingGuard::WritingGuard(const std::string& path) {
+WritingGuard::WritingGuard(const std::string& path, const char* message) {
     stop_if_interrupted();
     std::error_code ignored;
     const std::filesystem::path target = std::filesystem::weakly_canonical(path, ignored);  // writers follow links
     const std::string name = (target.empty() ? path : target.string()) + ".partial";
     partial[0] = '\0';
     if (name.size() < partial.size()) std::memcpy(partial.data(), name.c_str(), name.size() + 1);
+    last_words = message;
     writing = true;
 }
 

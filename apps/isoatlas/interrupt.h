@@ -13,10 +13,10 @@ void catch_signals();
 /// Throws Error{cancelled} when interrupted.
 void stop_if_interrupted();
 
-/// While it lives, `path`.partial is what an interrupt must remove.
+/// While it lives, `path`.partial is what an interrupt must remove. message: said then; it must live as long as the program.
 class WritingGuard {
 public:
-    explicit WritingGuard(const std::string& path);
+    explicit WritingGuard(const std::string& path, const char* message = "stopped: the unfinished output was removed");
     ~WritingGuard();
     WritingGuard(const WritingGuard&) = delete;
     WritingGuard& operator=(const WritingGuard&) = delete;

@@ -1,5 +1,6 @@
 #include "words.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -83,6 +84,25 @@ double parse_height(const std::string& option, const std::string& word) {
     if (!is_number || height < 0 || (percent && height > 100))
         bad_word(option, word, "a number of at least 0, or a percentage such as 0.5%");
     return height;
+}
+
+std::int64_t parse_bytes(const std::string& option, const std::string& word) {
+    static const std::map<std::string, double> units{{"", 1}, {"k", 0x1p10}, {"m", 0x1p20}, {"g", 0x1p30}, {"t", 0x1p40}};
+    std::string unit;
+    std::size_t digits = 0;
+    while (digits < word.size() && (std::isdigit(static_cast<unsigned char>(word[digits])) || word[digits] == '.')) ++digits;
+    for (const char c : word.substr(digits)) {
+        if (c != ' ') unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    for (const std::string end : {"ib", "b"}) {
+        if (unit.ends_with(end)) unit.resize(unit.size() - end.size());
+    }
+    double number = 0;
+    constexpr double kLeast = 0x1p26, kMost = 0x1p62;
+    const auto factor = units.find(unit);
+    const bool good = factor != units.end() && read(word.substr(0, digits), number) && number * factor->second < kMost;
+    if (!good || number * factor->second < kLeast) bad_word(option, word, "a size of at least 64M, such as 500M or 2G");
+    return static_cast<std::int64_t>(number * factor->second);
 }
 
 MissingPolicy parse_missing(const std::string& word) {

@@ -18,6 +18,9 @@ namespace isoatlas::cli {
 /// A number of at least 0, with or without % behind it (then 0..100).
 [[nodiscard]] double parse_height(const std::string& option, const std::string& word);
 
+/// "1G", "500M", "1.5 GiB": K, M, G, T are powers of 1024. At least 64 MiB.
+[[nodiscard]] std::int64_t parse_bytes(const std::string& option, const std::string& word);
+
 /// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
 [[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& word, double rest);
 

@@ -20,10 +20,6 @@ struct AtlasReads {
     std::int64_t bricks = 0;   ///< of 16 samples a side
 };
 
-/// Analyses a volume and writes the store PATH. The same volume and options give the same bytes. PATH appears when it is complete.
-/// Throws Error: resource (cannot be written), cancelled, usage (tunnel height). Cost: analyse(), two passes over the samples.
-void build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
-
 /// Does a file begin like a store? False for files that cannot be read.
 [[nodiscard]] bool is_atlas(const std::string& path);
 

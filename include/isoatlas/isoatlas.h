@@ -18,6 +18,7 @@
 
 #include "isoatlas/analysis.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/build.h"
 #include "isoatlas/context.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/error.h"

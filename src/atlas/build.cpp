@@ -1,21 +1,136 @@
-// Building a store: analyse, then pack bricks and trees.
-#include "isoatlas/atlas.h"
+// Building a store: trees, zones, pack. Every phase leaves a file that the next one, or the next process, goes on from.
+#include "isoatlas/build.h"
+
+#include <filesystem>
+
+#include "atlas/build_folder.h"
+#include "base/big_vector.h"
+#include "base/check.h"
+#include "base/memory_limit.h"
+#include "field/volume_view.h"
+#include "io/load_samples.h"
+#include "isoatlas/error.h"
 #include "store/brick_writer.h"
 #include "store/checksum.h"
+#include "store/pack.h"
 #include "store/tree_arrays.h"
+#include "zones/analyse.h"
 
 namespace isoatlas {
+namespace {
 
-void build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
-    const Analysis analysis = analyse(volume, options, context);
+constexpr int kPhases = 7;  // read, the five of analyse(), pack
+constexpr const char* kTrees = "trees";
+constexpr const char* kZones = "zones";
+
+/// Progress of a part of the build, numbered as phases of the whole.
+Context shifted(const Context& context, int by) {
+    Context part = context;
+    if (!context.progress) return part;
+    part.progress = [&context, by](const Progress& progress) {
+        context.progress({progress.phase, progress.phase_index + by, kPhases, progress.fraction});
+    };
+    return part;
+}
+
+store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& options) {
     store::Contents contents;
-    contents.volume = volume.info;
-    const std::size_t slash = volume.info.path.rfind('/');
-    if (slash != std::string::npos) contents.volume.path = volume.info.path.substr(slash + 1);  // where it lay does not matter
-    contents.parameters = {options.interpolant, options.tunnel_height, store::checksum(volume.bytes)};
-    std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context);
-    for (store::PackedArray& array : store::tree_arrays(analysis)) arrays.push_back(std::move(array));
-    store::pack_store(path, contents, arrays);
+    contents.volume = *volume.info;
+    const std::size_t slash = volume.info->path.rfind('/');
+    if (slash != std::string::npos) contents.volume.path = volume.info->path.substr(slash + 1);  // where it lay does not matter
+    const std::size_t bytes = static_cast<std::size_t>(volume.info->extent.voxels()) * size_of(volume.info->type);
+    contents.parameters = {options.interpolant, options.tunnel_height, store::checksum({volume.bytes, bytes})};
+    return contents;
+}
+
+/// Counts bytes of the arrays as they are written.
+void report_packing(std::vector<store::PackedArray>& arrays, const Context& context) {
+    double total = 0;
+    for (const store::PackedArray& array : arrays) total += static_cast<double>(array.bytes());
+    const auto done = std::make_shared<double>(0);
+    for (store::PackedArray& array : arrays) {
+        array.feed = [feed = std::move(array.feed), done, total, context](const store::Put& put) {
+            feed([&](std::span<const std::byte> bytes) {
+                if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+                put(bytes);
+                *done += static_cast<double>(bytes.size());
+                context.report("pack", 6, kPhases, total > 0 ? *done / total : 1);
+            });
+        };
+    }
+}
+
+class Build {
+public:
+    Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {}
+
+    [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
+
+    BuildReport run(const VolumeView& volume, const AnalysisOptions& options) {
+        const store::Contents contents = contents_of(volume, options);
+        std::optional<Analysis> analysis;
+        std::unique_ptr<store::Container> trees = folder_.finished(kTrees, contents);
+        if (trees) {
+            report_.resumed.emplace_back(kTrees);
+        } else {
+            analysis = analyse_trees(volume, options, shifted(context_, 1));
+            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
+            trees = std::make_unique<store::Container>(folder_.file(kTrees));
+        }
+        std::unique_ptr<store::Container> zones = folder_.finished(kZones, contents);
+        if (zones) {
+            report_.resumed.emplace_back(kZones);
+        } else {
+            if (!analysis) analysis = store::trees_of(*trees, context_.threads);
+            add_zones(*analysis, volume, false, shifted(context_, 1));
+            store::pack_store(folder_.file(kZones), contents, store::zone_arrays(*analysis));
+            zones = std::make_unique<store::Container>(folder_.file(kZones));
+        }
+        analysis.reset();
+        return_big_memory();
+        pack(volume, contents, {trees.get(), zones.get()});
+        return report_;
+    }
+
+private:
+    void pack(const VolumeView& volume, const store::Contents& contents, const std::vector<const store::Container*>& phases) {
+        std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context_);
+        for (const store::Container* phase : phases) {
+            for (store::PackedArray& array : store::copied_arrays(*phase)) arrays.push_back(std::move(array));
+        }
+        report_packing(arrays, context_);
+        store::pack_store(path_, contents, arrays);
+        folder_.remove();
+        report_.bytes = static_cast<std::int64_t>(std::filesystem::file_size(path_));
+        report_.peak_memory = peak_memory();
+    }
+
+    std::string path_;
+    BuildFolder folder_;
+    const Context& context_;
+    BuildReport report_;
+};
+
+}  // namespace
+
+BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
+    const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
+    check_estimate(estimate, reader.info().path, path);
+    Build build(path, options.restart, context);
+    const MemoryLimit limit(estimate.uses_scratch ? estimate.budget : 0, build.scratch_folder());
+    BigVector<std::byte> samples;
+    const io::Allocate allocate = [&samples](std::size_t bytes) {
+        samples.resize(bytes);
+        return std::span<std::byte>(samples);
+    };
+    VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0));
+    if (options.geometry) info.geometry = *options.geometry;
+    return build.run({info, samples.data()}, options.analysis);
+}
+
+BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
+    ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
+    return Build(path, false, context).run(volume, options);
 }
 
 }  // namespace isoatlas

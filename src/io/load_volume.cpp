@@ -3,10 +3,12 @@
 #include <new>
 #include <string>
 
+#include "io/load_samples.h"
 #include "io/missing.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
+namespace io {
 namespace {
 
 constexpr std::int64_t kSlabBytes = 16 * 1024 * 1024;  // enough for full disk speed, little enough to cancel at once
@@ -23,9 +25,9 @@ std::int64_t slab_slices(const VolumeInfo& info, const Context& context) {
                                       .next = "free some memory, or crop or downsample the volume"});
 }
 
-void allocate(std::vector<std::byte>& bytes, std::size_t count, const VolumeInfo& info) {
+std::span<std::byte> room_for(std::size_t count, const Allocate& allocate, const VolumeInfo& info) {
     try {
-        bytes.resize(count);
+        return allocate(count);
     } catch (const std::bad_alloc&) {
         not_enough_memory(info, count);
     } catch (const std::length_error&) {
@@ -35,18 +37,17 @@ void allocate(std::vector<std::byte>& bytes, std::size_t count, const VolumeInfo
 
 /// Calls use(z_begin, z_end, samples) for slab after slab; the samples lie in `whole` when it is given, else in one slab of memory.
 template <class Use>
-void for_each_slab(VolumeReader& reader, const Context& context, std::vector<std::byte>* whole, const Use& use) {
+void for_each_slab(VolumeReader& reader, const Context& context, std::span<std::byte> whole, const Use& use) {
     const VolumeInfo& info = reader.info();
     const std::int64_t slices = info.extent.size[2], step = slab_slices(info, context);
     const std::size_t slice_bytes = static_cast<std::size_t>(info.extent.slice()) * size_of(info.type);
-    std::vector<std::byte> slab;
-    if (whole == nullptr) allocate(slab, static_cast<std::size_t>(step) * slice_bytes, info);
+    std::vector<std::byte> slab(whole.empty() ? static_cast<std::size_t>(step) * slice_bytes : 0);
     for (std::int64_t z = 0; z < slices; z += step) {
         if (context.cancelled && context.cancelled())
             throw Error(ErrorKind::cancelled, {.file = info.path, .what = "reading was cancelled"});
         context.report("read", 0, 1, static_cast<double>(z) / static_cast<double>(slices));
         const std::int64_t end = std::min(slices, z + step);
-        std::byte* begin = whole == nullptr ? slab.data() : whole->data() + static_cast<std::size_t>(z) * slice_bytes;
+        std::byte* begin = whole.empty() ? slab.data() : whole.data() + static_cast<std::size_t>(z) * slice_bytes;
         const std::span<std::byte> samples(begin, static_cast<std::size_t>(end - z) * slice_bytes);
         reader.read(z, end, samples);
         use(z, samples);
@@ -55,44 +56,53 @@ void for_each_slab(VolumeReader& reader, const Context& context, std::vector<std
 }
 
 /// Reads with the samples as they are. Missing ones are only looked at here; they are replaced when all are known.
-Volume load_stored(VolumeReader& reader, io::MissingScan& scan, const Context& context) {
-    Volume volume;
+VolumeInfo load_stored(VolumeReader& reader, MissingScan& scan, const Allocate& allocate, const Context& context) {
     const VolumeInfo& info = reader.info();
-    allocate(volume.bytes, static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type), info);
-    for_each_slab(reader, context, &volume.bytes,
+    const std::span<std::byte> all = room_for(static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type), allocate, info);
+    for_each_slab(reader, context, all,
                   [&](std::int64_t z, std::span<std::byte> samples) { scan.look(info.type, samples, z * info.extent.slice()); });
-    volume.info = reader.info();  // behind the reading: notes about the end of the file are there now
-    return volume;
+    VolumeInfo loaded = reader.info();  // behind the reading: notes about the end of the file are there now
+    scan.replace(loaded, all);
+    return loaded;
 }
 
 /// Reads with the calibration applied: a negative slope turns high stored values into low ones, so superlevel sets must be of the
 /// reported values.
-Volume load_calibrated(VolumeReader& reader, io::MissingScan& scan, const Context& context) {
-    Volume volume;
+VolumeInfo load_calibrated(VolumeReader& reader, MissingScan& scan, const Allocate& allocate, const Context& context) {
     const VolumeInfo& info = reader.info();
-    allocate(volume.bytes, static_cast<std::size_t>(info.extent.voxels()) * sizeof(double), info);
-    const std::span<double> all(reinterpret_cast<double*>(volume.bytes.data()), static_cast<std::size_t>(info.extent.voxels()));
-    for_each_slab(reader, context, nullptr, [&](std::int64_t z, std::span<std::byte> samples) {
+    const std::span<std::byte> bytes = room_for(static_cast<std::size_t>(info.extent.voxels()) * sizeof(double), allocate, info);
+    const std::span<double> all(reinterpret_cast<double*>(bytes.data()), static_cast<std::size_t>(info.extent.voxels()));
+    for_each_slab(reader, context, {}, [&](std::int64_t z, std::span<std::byte> samples) {
         const std::int64_t first = z * info.extent.slice();
         const std::span<double> out = all.subspan(static_cast<std::size_t>(first), samples.size() / size_of(info.type));
         scan.calibrate(info.type, samples, info.calibration, out);
         scan.look(ValueType::f64, std::as_writable_bytes(out), first);
     });
-    volume.info = reader.info();
-    volume.info.type = ValueType::f64;
-    volume.info.calibration = {};
-    volume.info.notes.push_back("the calibration slope is negative: it was applied to the samples, which are float64 now");
-    return volume;
+    VolumeInfo loaded = reader.info();
+    loaded.type = ValueType::f64;
+    loaded.calibration = {};
+    loaded.notes.push_back("the calibration slope is negative: it was applied to the samples, which are float64 now");
+    scan.replace(loaded, bytes);
+    return loaded;
 }
 
 }  // namespace
 
+VolumeInfo load_samples(VolumeReader& reader, const MissingPolicy& missing, const Allocate& allocate, const Context& context) {
+    const bool calibrate = reader.info().calibration.slope < 0;
+    MissingScan scan(reader.info(), missing, calibrate);
+    return calibrate ? load_calibrated(reader, scan, allocate, context) : load_stored(reader, scan, allocate, context);
+}
+
+}  // namespace io
+
 Volume load_volume(VolumeReader& reader, const MissingPolicy& missing, const Context& context) {
-    const VolumeInfo& info = reader.info();
-    const bool calibrate = info.calibration.slope < 0;
-    io::MissingScan scan(info, missing, calibrate);
-    Volume volume = calibrate ? load_calibrated(reader, scan, context) : load_stored(reader, scan, context);
-    scan.replace(volume);
+    Volume volume;
+    const io::Allocate allocate = [&volume](std::size_t bytes) {
+        volume.bytes.resize(bytes);
+        return std::span<std::byte>(volume.bytes);
+    };
+    volume.info = io::load_samples(reader, missing, allocate, context);
     return volume;
 }
 

@@ -152,13 +152,13 @@ void MissingScan::replace_in(std::span<T> samples) const {
     }
 }
 
-void MissingScan::replace(Volume& volume) const {
+void MissingScan::replace(VolumeInfo& info, std::span<std::byte> samples) const {
     if (count_ == 0) return;
-    visit_type(volume.info.type, [&](auto zero) {
+    visit_type(info.type, [&](auto zero) {
         using T = decltype(zero);
         const T value = replacement<T>();
-        replace_in(volume.samples<T>());
-        volume.info.notes.push_back(std::to_string(count_) + " missing samples were replaced by " + text_of(static_cast<double>(value)));
+        replace_in(std::span(reinterpret_cast<T*>(samples.data()), samples.size() / sizeof(T)));
+        info.notes.push_back(std::to_string(count_) + " missing samples were replaced by " + text_of(static_cast<double>(value)));
     });
 }
 

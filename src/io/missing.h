@@ -25,7 +25,7 @@ public:
 
     /// Puts the replacement for every missing sample and notes how many there were.
     /// Throws Error{input} under Action::below when every sample is missing or the type has nothing below the smallest one.
-    void replace(Volume& volume) const;
+    void replace(VolumeInfo& info, std::span<std::byte> samples) const;
 
 private:
     template <class T>

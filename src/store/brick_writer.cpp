@@ -78,10 +78,10 @@ struct Bricks {
 
 }  // namespace
 
-std::vector<PackedArray> brick_arrays(const Volume& volume, const Context& context) {
+std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context) {
     std::vector<PackedArray> arrays;
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
-        const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info.extent, context.threads);
+        const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info->extent, context.threads);
         const auto add = [&]<class N>(const char* name, const char* type, const std::vector<N>& numbers) {
             const std::vector<std::int64_t> shape{bricks->grid.size[2], bricks->grid.size[1], bricks->grid.size[0]};
             arrays.push_back({name, type, shape, kBlock, [bricks, &numbers](const Put& put) { put(std::as_bytes(std::span(numbers))); }});
@@ -89,8 +89,8 @@ std::vector<PackedArray> brick_arrays(const Volume& volume, const Context& conte
         arrays.push_back({"volume/data", "uint8", {bricks->bytes}, 0, [bricks](const Put& put) { bricks->feed(put); }});
         add("volume/offset", "uint64", bricks->offset);
         add("volume/bits", "uint8", bricks->bits);
-        add("volume/low", name_of(volume.info.type), bricks->low);
-        add("volume/high", name_of(volume.info.type), bricks->high);
+        add("volume/low", name_of(volume.info->type), bricks->low);
+        add("volume/high", name_of(volume.info->type), bricks->high);
         add("volume/checksum", "uint64", bricks->sums);
     });
     return arrays;

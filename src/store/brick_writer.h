@@ -10,13 +10,14 @@
 #include <memory>
 #include <vector>
 
+#include "field/volume_view.h"
 #include "isoatlas/context.h"
 #include "store/pack.h"
 
 namespace isoatlas::store {
 
-/// The arrays of a volume, to be packed in this order. The volume must live until then; their numbers live as long as the arrays.
+/// The arrays of a volume, to be packed in this order. Samples and info must live until then; their numbers live as long as the arrays.
 /// Cost: two passes over the samples, 26 bytes a brick and a few bricks for each thread.
-[[nodiscard]] std::vector<PackedArray> brick_arrays(const Volume& volume, const Context& context);
+[[nodiscard]] std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas::store

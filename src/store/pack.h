@@ -19,6 +19,8 @@ struct PackedArray {
     std::vector<std::int64_t> shape;
     std::int64_t block = 0;
     std::function<void(const Put& put)> feed;
+
+    [[nodiscard]] std::int64_t bytes() const { return StoredArray{name, type, shape, 0, block, 0, 0}.bytes(); }
 };
 
 inline constexpr std::int64_t kBlock = std::int64_t{1} << 16;

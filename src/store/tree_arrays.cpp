@@ -28,8 +28,8 @@ void for_arrays(Arrays& a, Visit&& visit) {
     visit("elements/value", a.value);
     visit("elements/code", a.code);
     visit("elements/towards_outside", a.contours.other);
-    visit("events/voxels", a.voxels);
 }
+constexpr const char* kVoxels = "events/voxels";
 
 [[noreturn]] void contradiction(const Container& store, const char* what) {
     throw Error(ErrorKind::input,
@@ -50,18 +50,20 @@ void check(const AnalysisArrays<Id>& a, const Extent& extent, const Container& s
     }
 }
 
+template <class N>
+void read_array(const Container& store, const char* name, BigVector<N>& numbers) {
+    const StoredArray& array = store.contents().array(name, type_name<N>());
+    numbers.resize(static_cast<std::size_t>(array.count()));
+    store.read(array, 0, std::as_writable_bytes(std::span<N>(numbers)));
+}
+
 template <class Id>
-std::unique_ptr<IndexedArrays<Id>> read_arrays(const Container& store, int threads) {
+std::unique_ptr<IndexedArrays<Id>> read_trees(const Container& store, int threads) {
     auto result = std::make_unique<IndexedArrays<Id>>();
-    for_arrays(result->arrays, [&]<class N>(const char* name, BigVector<N>& numbers) {
-        const StoredArray& array = store.contents().array(name, type_name<N>());
-        numbers.resize(static_cast<std::size_t>(array.count()));
-        store.read(array, 0, std::as_writable_bytes(std::span<N>(numbers)));
-    });
     AnalysisArrays<Id>& arrays = result->arrays;
+    for_arrays(arrays, [&](const char* name, auto& numbers) { read_array(store, name, numbers); });
     check(arrays, store.contents().volume.extent, store);
     if (!restore_trees(arrays, store.contents().volume.extent.rank, threads)) contradiction(store, "the contour tree is none");
-    if (arrays.voxels.size() != arrays.tree.size()) contradiction(store, "not every event has its number of voxels");
     return result;
 }
 
@@ -77,7 +79,28 @@ std::vector<PackedArray> tree_arrays(const Analysis& analysis) {
     return packs;
 }
 
-Analysis analysis_of(const Container& store, int threads) {
+std::vector<PackedArray> zone_arrays(const Analysis& analysis) {
+    return analysis.data().visit([]<class Id>(const IndexedArrays<Id>& held) -> std::vector<PackedArray> {
+        return {packed<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.voxels))};
+    });
+}
+
+std::vector<PackedArray> copied_arrays(const Container& store) {
+    std::vector<PackedArray> packs;
+    for (const StoredArray& array : store.contents().arrays) {
+        packs.push_back({array.name, array.type, array.shape, array.block, [&store, &array](const Put& put) {
+                             std::vector<std::byte> part;
+                             for (std::int64_t first = 0; first < array.bytes(); first += array.block) {
+                                 part.resize(static_cast<std::size_t>(std::min(array.block, array.bytes() - first)));
+                                 store.read(array, first, part);
+                                 put(part);
+                             }
+                         }});
+    }
+    return packs;
+}
+
+Analysis trees_of(const Container& store, int threads) {
     const Contents& contents = store.contents();
     auto data = std::make_unique<Analysis::Data>();
     data->extent = contents.volume.extent;
@@ -86,11 +109,20 @@ Analysis analysis_of(const Container& store, int threads) {
     const bool is_wide = std::any_of(contents.arrays.begin(), contents.arrays.end(),
                                      [](const StoredArray& a) { return a.name == "elements/towards_outside" && a.type == "uint64"; });
     if (is_wide) {
-        data->arrays = read_arrays<std::uint64_t>(store, threads);
+        data->arrays = read_trees<std::uint64_t>(store, threads);
     } else {
-        data->arrays = read_arrays<std::uint32_t>(store, threads);
+        data->arrays = read_trees<std::uint32_t>(store, threads);
     }
     return Analysis(std::move(data));
+}
+
+Analysis analysis_of(const Container& store, int threads) {
+    Analysis analysis = trees_of(store, threads);
+    analysis.data().visit([&](auto& held) {
+        read_array(store, kVoxels, held.arrays.voxels);
+        if (held.arrays.voxels.size() != held.arrays.tree.size()) contradiction(store, "not every event has its number of voxels");
+    });
+    return analysis;
 }
 
 }  // namespace isoatlas::store

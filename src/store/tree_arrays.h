@@ -16,11 +16,16 @@
 
 namespace isoatlas::store {
 
-/// The analysis must live until the arrays are packed.
+/// The arrays of the trees, and the one of the zones. The analysis must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis);
+[[nodiscard]] std::vector<PackedArray> zone_arrays(const Analysis& analysis);
 
-/// The analysis of a store, without zones of voxels. Throws Error{input} when arrays contradict each other. Cost: reads all
-/// of them, O(n alpha).
+/// All arrays of another store, which must live until they are packed.
+[[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
+
+/// The analysis of a store: its trees alone, or with the sizes of zones. Throws Error{input} when arrays contradict each other.
+/// Cost: reads all of them, O(n alpha).
+[[nodiscard]] Analysis trees_of(const Container& store, int threads);
 [[nodiscard]] Analysis analysis_of(const Container& store, int threads);
 
 }  // namespace isoatlas::store

@@ -1,0 +1,34 @@
+// PATH.build: where the finished phases of a build lie until the store is there.
+//
+// A phase is a file of arrays with checksums (store/container.h), present as a whole or not at all; it tells the volume and the parameters
+// it belongs to. While somebody builds, the folder is locked.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "store/container.h"
+
+namespace isoatlas {
+
+class BuildFolder {
+public:
+    /// Makes the folder or takes over what is there. Throws Error{resource}: another process builds, the folder cannot be made.
+    BuildFolder(const std::string& store_path, bool restart);
+    ~BuildFolder();
+    BuildFolder(const BuildFolder&) = delete;
+    BuildFolder& operator=(const BuildFolder&) = delete;
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::string file(const std::string& phase) const { return path_ + "/" + phase; }
+    /// A finished phase of this volume and these parameters; null: there is none. Others, and damaged ones, are removed.
+    [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& wanted) const;
+    /// The store is there: removes everything.
+    void remove();
+
+private:
+    std::string path_;
+    int lock_ = -1;
+};
+
+}  // namespace isoatlas

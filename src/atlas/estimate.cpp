@@ -1,0 +1,96 @@
+// What a build will take: critical elements are counted in a few slabs, all else is proportional to them or to the samples.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "critical/bodies.h"
+#include "critical/scan.h"
+#include "field/volume_view.h"
+#include "isoatlas/build.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr double kNoise = 0.95;                            // critical elements a voxel of white noise
+constexpr std::int64_t kProgram = std::int64_t{40} << 20;  // code, libraries, heap
+constexpr std::int64_t kSlabs = 5, kSlabSlices = 3;
+
+/// Critical elements of one slab that stands for itself, without those of its first and last slice.
+std::int64_t count_elements(const VolumeView& slab, double tunnel_height) {
+    return visit_samples(slab, [&]<class T>(std::span<const T> samples) {
+        const Extent& extent = slab.info->extent;
+        const std::int64_t middle = extent.size[2] > 2 ? 1 : 0;
+        std::vector<std::uint8_t> links(static_cast<std::size_t>(extent.slice()));
+        std::int64_t elements = 0;
+        for (const auto& chunk : scan_slab(GridView<T>{samples.data(), extent}, {middle, middle + 1}, links, tunnel_height).chunks)
+            elements += static_cast<std::int64_t>(chunk.size());
+        return elements;
+    });
+}
+
+/// Critical elements a voxel.
+double sampled_density(VolumeReader& reader, const AnalysisOptions& options) {
+    VolumeInfo info = reader.info();
+    const std::int64_t slices = info.extent.size[2], thick = std::min(kSlabSlices, slices);
+    const bool is_small = info.extent.voxels() < std::int64_t{1} << 20;
+    if (!info.slab_readable || is_small) return kNoise;  // the most there can be: small volumes need no better answer
+    info.extent.size[2] = thick;
+    std::vector<std::byte> samples(static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type));
+    const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
+    double elements = 0;
+    for (std::int64_t i = 0; i < kSlabs; ++i) {
+        const std::int64_t z = (slices - thick) * (2 * i + 1) / (2 * kSlabs);
+        reader.read(z, z + thick, samples);
+        elements += static_cast<double>(count_elements({info, samples.data()}, height));
+    }
+    return std::min(1.0, elements / static_cast<double>(kSlabs * info.extent.slice()));
+}
+
+std::int64_t rounded(double bytes) { return static_cast<std::int64_t>(std::llround(bytes)); }
+
+}  // namespace
+
+BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, const BuildOptions& options, int threads) {
+    const VolumeInfo& info = reader.info();
+    const auto voxels = static_cast<double>(info.extent.voxels());
+    const double sample = static_cast<double>(info.calibration.slope < 0 ? sizeof(double) : size_of(info.type));
+    const double elements = sampled_density(reader, options.analysis) * voxels;
+    const double id = voxels < 0x1p31 && elements < 0x1p30 ? 4 : 8;
+    const int workers = thread_count(threads);
+    BuildEstimate estimate;
+    estimate.critical_elements = rounded(elements);
+    estimate.memory = kProgram + rounded(voxels * (sample + 1 + id) + elements * (32 + 8 * id));
+    estimate.memory_least = std::max(kLeastMemory, kProgram + workers * 8 * info.extent.slice() + rounded(voxels / 64));
+    estimate.budget = options.memory > 0 ? options.memory : available_memory() / 2;
+    estimate.uses_scratch = estimate.memory > estimate.budget / 5 * 3;
+    estimate.store_bytes = rounded(voxels * sample + elements * 6);
+    std::error_code ignored;
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    const std::filesystem::space_info space = std::filesystem::space(folder.empty() ? "." : folder, ignored);
+    estimate.disk_free = static_cast<std::int64_t>(std::min<std::uintmax_t>(space.available, INT64_MAX));
+    estimate.disk = estimate.store_bytes + rounded(elements * 6) + (estimate.uses_scratch ? estimate.memory : 0);
+    estimate.seconds = (voxels * 4e-8 + elements * 8e-7) / std::min(workers, 8) + static_cast<double>(estimate.disk) / 1e9;
+    return estimate;
+}
+
+void check_estimate(const BuildEstimate& estimate, const std::string& volume_path, const std::string& path) {
+    if (estimate.budget < estimate.memory_least) {
+        throw Error(ErrorKind::resource, {.file = volume_path,
+                                          .what = "a memory budget of " + std::to_string(estimate.budget >> 20) + " MiB is too small",
+                                          .expected = std::to_string((estimate.memory_least >> 20) + 1) + " MiB or more",
+                                          .next = "give a larger --memory, or fewer --threads"});
+    }
+    if (estimate.disk > estimate.disk_free) {
+        throw Error(ErrorKind::resource, {.file = path,
+                                          .what = "the disk has " + std::to_string(estimate.disk_free >> 20) + " MiB left",
+                                          .expected = "about " + std::to_string(estimate.disk >> 20) + " MiB for store and scratch file",
+                                          .next = "free some space, choose another folder with -o, or allow more --memory"});
+    }
+}
+
+}  // namespace isoatlas
