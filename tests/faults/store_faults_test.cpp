@@ -7,6 +7,7 @@
 
 #include "io/file_access.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/build.h"
 #include "isoatlas/error.h"
 #include "isoatlas/phantom.h"
 

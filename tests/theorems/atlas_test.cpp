@@ -1,5 +1,6 @@
 // From a store come the same answers as from the volume, to the last byte, whatever was read before; and only what is needed is read.
 #include "isoatlas/atlas.h"
+#include "isoatlas/build.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
