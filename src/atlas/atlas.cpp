@@ -126,7 +126,7 @@ struct Atlas::Data {
 };
 
 bool is_atlas(const std::string& path) try {
-    const std::unique_ptr<io::FileHandle> file = io::open_file(path);
+    const std::unique_ptr<File> file = io::open_file(path);
     std::array<std::byte, sizeof store::kMagic> first{};
     const std::size_t got = io::read_available(*file, path, 0, first);
     return store::begins_like_a_store(std::span(first).first(got));

@@ -123,7 +123,7 @@ private:
     }
 
     std::string path_;
-    std::unique_ptr<FileHandle> file_;
+    std::unique_ptr<File> file_;
     std::int64_t begin_, end_;
     std::int64_t next_;  ///< offset in the file behind the text decoded so far
     std::vector<std::byte> text_;

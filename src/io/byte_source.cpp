@@ -51,7 +51,7 @@ private:
     }
 
     std::string path_;
-    std::unique_ptr<FileHandle> file_;
+    std::unique_ptr<File> file_;
     std::int64_t offset_, length_;
     std::int64_t position_ = 0;
 };
@@ -107,7 +107,7 @@ std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan) { return std::make
 std::int64_t file_size(const std::string& path) { return open_file(path)->size(); }
 
 std::vector<std::byte> read_header_bytes(const std::string& path, std::int64_t max) {
-    const std::unique_ptr<FileHandle> file = open_file(path);
+    const std::unique_ptr<File> file = open_file(path);
     std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(max, file->size())));
     bytes.resize(read_available(*file, path, 0, bytes));
     return bytes;

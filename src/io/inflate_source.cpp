@@ -160,7 +160,7 @@ private:
     }
 
     std::string path_;
-    std::unique_ptr<FileHandle> file_;
+    std::unique_ptr<File> file_;
     std::int64_t begin_ = 0, end_ = 0;  // of the compressed bytes in the file
     std::int64_t next_read_ = 0;        // offset in the file behind the buffer
     std::int64_t position_ = 0;         // in the decompressed stream

@@ -23,7 +23,7 @@ constexpr std::size_t kLongestMessage = 400;
 /// What libtiff reads from and talks to. No exception may pass through its frames.
 struct Client {
     std::string path;
-    std::unique_ptr<FileHandle> file;
+    std::unique_ptr<File> file;
     std::int64_t position = 0;
     std::string messages;  ///< what libtiff said since the last clear
 

@@ -49,7 +49,7 @@ private:
     }
 
     std::string path_;
-    std::unique_ptr<FileHandle> file_;
+    std::unique_ptr<File> file_;
     std::vector<std::byte> buffer_;
     std::int64_t start_ = 0;  ///< offset of the buffer in the file
     std::size_t filled_ = 0, cursor_ = 0;

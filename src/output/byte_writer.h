@@ -12,7 +12,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "output/atomic_file.h"
+#include "base/atomic_file.h"
 
 namespace isoatlas::output {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "output/atomic_file.h"
+#include "base/atomic_file.h"
 
 namespace isoatlas::output {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "isoatlas/surface.h"
-#include "output/atomic_file.h"
 
 namespace isoatlas::output {
 

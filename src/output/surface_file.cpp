@@ -60,7 +60,7 @@ Mesh read_mesh(const std::string& path) {
     const MeshFormat& format = format_of(path);
     std::string bytes;
     {
-        const std::unique_ptr<io::FileHandle> file = io::open_file(path);
+        const std::unique_ptr<File> file = io::open_file(path);
         bytes.resize(static_cast<std::size_t>(file->size()));
         io::read_fully(*file, path, 0, std::as_writable_bytes(std::span(bytes.data(), bytes.size())));
     }

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "isoatlas/output.h"
-#include "output/atomic_file.h"
 #include "output/connectivity.h"
 #include "output/json_stream.h"
 

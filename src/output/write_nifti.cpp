@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "output/atomic_file.h"
+#include "base/atomic_file.h"
 #include "output/byte_writer.h"
 #include "output/gzip_stream.h"
 #include "output/volume_file.h"

@@ -1,7 +1,7 @@
 // NRRD, attached header. Format: http://teem.sourceforge.net/nrrd/format.html
 #include <bit>
 
-#include "output/atomic_file.h"
+#include "base/atomic_file.h"
 #include "output/byte_writer.h"
 #include "output/generator.h"
 #include "output/gzip_stream.h"

@@ -2,8 +2,8 @@
 #include <bit>
 #include <filesystem>
 
+#include "base/atomic_file.h"
 #include "io/raw_description.h"
-#include "output/atomic_file.h"
 #include "output/byte_writer.h"
 #include "output/json_stream.h"
 #include "output/volume_file.h"

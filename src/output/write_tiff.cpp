@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "output/atomic_file.h"
+#include "base/atomic_file.h"
 #include "output/byte_writer.h"
 #include "output/volume_file.h"
 
@@ -224,9 +224,9 @@ private:
         const auto wide = static_cast<std::uint64_t>(offset);
         const auto narrow = static_cast<std::uint32_t>(offset);
         if (big_)
-            file_.overwrite(link_, std::as_bytes(std::span(&wide, 1)));
+            file_.write_at(link_, std::as_bytes(std::span(&wide, 1)));
         else
-            file_.overwrite(link_, std::as_bytes(std::span(&narrow, 1)));
+            file_.write_at(link_, std::as_bytes(std::span(&narrow, 1)));
     }
 
     AtomicFile file_;

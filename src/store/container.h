@@ -59,7 +59,7 @@ private:
     [[noreturn]] void damaged(const std::string& where, const std::string& what) const;
 
     std::string path_;
-    std::unique_ptr<io::FileHandle> file_;
+    std::unique_ptr<File> file_;
     std::int64_t file_size_ = 0;
     Contents contents_;
 };

@@ -1,5 +1,5 @@
 // AtomicFile: the whole file or no change, whatever fails.
-#include "output/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,6 +11,7 @@
 #include <iterator>
 #include <string>
 
+#include "faults/faulty_files.h"
 #include "isoatlas/error.h"
 
 namespace {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 using isoatlas::AtomicFile;
 using isoatlas::Error;
 using isoatlas::ErrorKind;
-using isoatlas::WriteFault;
+using isoatlas::test::FullDisk;
 
 class AtomicFileTest : public testing::Test {
 protected:
@@ -65,8 +66,8 @@ TEST_F(AtomicFileTest, NothingBeforeCommitEverythingAfter) {
         expected += large + "end";
         EXPECT_EQ(file.size(), static_cast<std::int64_t>(expected.size()));
         EXPECT_FALSE(fs::exists(path_));
-        file.overwrite(5, std::as_bytes(std::span("ZZZ", 3)));
-        file.overwrite(0, std::as_bytes(std::span("L", 1)));
+        file.write_at(5, std::as_bytes(std::span("ZZZ", 3)));
+        file.write_at(0, std::as_bytes(std::span("L", 1)));
         expected.replace(5, 3, "ZZZ");
         expected[0] = 'L';
         file.commit();
@@ -88,7 +89,7 @@ TEST_F(AtomicFileTest, WithoutCommitTheOldFileStays) {
 TEST_F(AtomicFileTest, FullDiskAtAnyByteLeavesTheOldFileAndNoPartial) {
     std::ofstream(path_) << "old";
     for (const std::int64_t after : {0, 1, 1000, 262144, 300000, 599999}) {
-        const WriteFault fault(after, ENOSPC);
+        const FullDisk fault(after, ENOSPC);
         const auto work = [&] {
             AtomicFile file(path_);
             for (int i = 0; i < 600; ++i) file.write(std::string(1000, 'a'));

@@ -1,12 +1,11 @@
-// A store on a failing disk: every read may fail, come short or be interrupted; the answer is right or the error says which file.
+// A store on a failing disk: every operation may fail, come short or be interrupted; the answer is right or the error says which file.
 #include <gtest/gtest.h>
 
 #include <cerrno>
-#include <filesystem>
-#include <fstream>
 
-#include "io/file_access.h"
-#include "isoatlas/atlas.h"
+#include "faults/faulty_files.h"
+#include "faults/memory_files.h"
+#include "faults/store_questions.h"
 #include "isoatlas/build.h"
 #include "isoatlas/error.h"
 #include "isoatlas/phantom.h"
@@ -14,95 +13,115 @@
 namespace isoatlas {
 namespace {
 
-namespace fs = std::filesystem;
+using test::Question;
 
-/// What happens to a read: its number is counted over all files.
-struct Disk {
-    int reads = 0;
-    int failing = -1;      ///< number of the read that fails
-    int error = EIO;       ///< with which error
-    std::size_t most = 0;  ///< bytes of a read; 0: all
-};
-
-class FailingFile final : public io::FileHandle {
-public:
-    FailingFile(std::unique_ptr<io::FileHandle> file, Disk& disk) : file_(std::move(file)), disk_(disk) {}
-    std::int64_t size() const override { return file_->size(); }
-    std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
-        if (disk_.reads++ == disk_.failing) return -disk_.error;
-        return file_->read_at(offset, disk_.most > 0 && out.size() > disk_.most ? out.first(disk_.most) : out);
-    }
-
-private:
-    std::unique_ptr<io::FileHandle> file_;
-    Disk& disk_;
-};
+constexpr const char* kPath = "noise.atlas";
+constexpr double kTau = 24.5;
 
 class StoreFaults : public testing::Test {
 protected:
-    StoreFaults() : path_((fs::temp_directory_path() / ("isoatlas_faults_" + std::to_string(::getpid()) + ".atlas")).string()) {
-        volume_ = make_phantom("noise", {.size = 24, .quantise = 32});
-        build_atlas(path_, volume_);
-        io::replace_file_opener(
-            [this](const std::string& path) { return std::make_unique<FailingFile>(io::open_system_file(path), disk_); });
-    }
-    ~StoreFaults() override {
-        io::replace_file_opener({});
-        fs::remove(path_);
-    }
-    StoreFaults(const StoreFaults&) = delete;
-    StoreFaults& operator=(const StoreFaults&) = delete;
-
-    /// Opens the store and asks everything. Returns whether the answers are right; throws what the store throws.
-    bool answers() const {
-        Context context;
-        context.threads = 1;
-        const Atlas atlas(path_);
-        const Surface actual = atlas.extract(15, {}, context), expected = extract(volume_, 15, {}, context);
-        const Analysis analysis = atlas.analysis();
-        return actual.points == expected.points && actual.triangles == expected.triangles && actual.object == expected.object &&
-               analysis.event_count() > 0 && atlas.volume(context).bytes == volume_.bytes;
+    StoreFaults() {
+        const ReplacedFileSystem in_use(memory_);
+        build_atlas(kPath, make_phantom("noise", {.size = 34, .quantise = 32}));
+        const Atlas atlas(kPath);
+        questions_ = test::questions(kTau, atlas.cut(kTau).objects.at(3).id);
+        for (const Question& question : questions_) right_.push_back(question.ask(atlas));
     }
 
-    std::string path_;
-    Volume volume_;
-    mutable Disk disk_;
+    test::MemoryFiles memory_;
+    std::vector<Question> questions_;
+    std::vector<std::string> right_;
 };
 
-TEST_F(StoreFaults, ShortReadsAndInterruptionsDoNotMatter) {
-    disk_ = {.most = 97};
-    EXPECT_TRUE(answers());
-    const int reads = disk_.reads;
-    for (int at = 0; at < reads; at += 1 + reads / 50) {
-        disk_ = {.failing = at, .error = EINTR, .most = 97};
-        EXPECT_TRUE(answers()) << at;
+void expect_says_where(const Error& error, std::int64_t at) {
+    EXPECT_EQ(error.kind(), ErrorKind::input) << at;
+    EXPECT_EQ(error.text().file, kPath) << at;
+    EXPECT_NE(error.text().what.find("Input/output error"), std::string::npos) << at << ": " << error.what();
+    EXPECT_FALSE(error.text().next.empty()) << at;
+}
+
+TEST_F(StoreFaults, ShortAndInterruptedReadsDoNotMatter) {
+    for (const std::size_t most : {std::size_t{7}, std::size_t{97}, std::size_t{4096}}) {
+        test::FaultyFiles disk({.most = most}, memory_);
+        const ReplacedFileSystem in_use(disk);
+        const Atlas atlas(kPath);
+        for (std::size_t q = 0; q < questions_.size(); ++q) EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;
+        EXPECT_GT(disk.operations(), 100);
     }
 }
 
-TEST_F(StoreFaults, EveryReadThatFailsIsTold) {
-    disk_ = {};
-    EXPECT_TRUE(answers());
-    const int reads = disk_.reads;
-    ASSERT_GT(reads, 20);
-    for (int at = 0; at < reads; ++at) {
-        disk_ = {.failing = at};
-        try {
-            (void)answers();
-            ADD_FAILURE() << "read " << at << " failed and nobody said so";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::input) << at;
-            EXPECT_EQ(error.text().file, path_) << at;
+TEST_F(StoreFaults, EveryOperationThatFailsIsTold) {
+    for (std::size_t q = 0; q < questions_.size(); ++q) {
+        std::int64_t at = 0;
+        for (bool failed = true; failed; ++at) {
+            test::FaultyFiles disk({.at = at}, memory_);
+            const ReplacedFileSystem in_use(disk);
+            try {
+                const Atlas atlas(kPath);
+                EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;
+                EXPECT_FALSE(disk.has_failed()) << questions_[q].name << ": operation " << at << " failed and nobody said so";
+            } catch (const Error& error) {
+                expect_says_where(error, at);
+            }
+            failed = disk.has_failed();
         }
+        EXPECT_GT(at, 10) << questions_[q].name;
     }
 }
 
 TEST_F(StoreFaults, AfterAFailureTheSameStoreAnswersAgain) {
-    disk_ = {};
-    const Atlas atlas(path_);
-    disk_ = {.failing = 0};
-    EXPECT_THROW((void)atlas.extract(15), Error);
-    disk_ = {};
-    EXPECT_EQ(atlas.extract(15).points, extract(volume_, 15).points);
+    for (std::size_t q = 1; q < questions_.size(); ++q) {
+        bool failed = true;
+        for (std::int64_t at = 0; failed; ++at) {
+            test::FaultyFiles disk({}, memory_);
+            const ReplacedFileSystem in_use(disk);
+            const Atlas atlas(kPath);
+            disk.restart({.at = at});
+            try {
+                (void)questions_[q].ask(atlas);
+                EXPECT_FALSE(disk.has_failed()) << questions_[q].name << " " << at;
+            } catch (const Error& error) {
+                expect_says_where(error, at);
+            }
+            failed = disk.has_failed();
+            disk.restart({});
+            EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name << " after operation " << at << " failed";
+        }
+    }
+}
+
+TEST_F(StoreFaults, AFileThatBecomesShorterIsTold) {
+    const ReplacedFileSystem in_use(memory_);
+    const Atlas atlas(kPath);
+    memory_.content(kPath).resize(3000);
+    for (std::size_t q = 1; q < questions_.size(); ++q) EXPECT_THROW((void)questions_[q].ask(atlas), Error) << questions_[q].name;
+}
+
+// Nothing may be written beside a store that is read, nor to it.
+TEST_F(StoreFaults, QueriesWriteNothing) {
+    class ReadOnlyDisk final : public FileSystem {  // every other operation is refused
+    public:
+        explicit ReadOnlyDisk(FileSystem& below) : below_(below) {}
+        FileStatus status(const std::string& path) override { return below_.status(path); }
+        OpenedFile open(const std::string& path) override { return below_.open(path); }
+
+    private:
+        FileSystem& below_;
+    } disk(memory_);
+    const ReplacedFileSystem in_use(disk);
+    const std::string before = memory_.content(kPath);
+    EXPECT_TRUE(is_atlas(kPath));
+    const Atlas atlas(kPath);
+    for (std::size_t q = 0; q < questions_.size(); ++q) EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;
+    EXPECT_TRUE(memory_.content(kPath) == before);
+    EXPECT_EQ(memory_.count(), 1U);
+    try {
+        build_atlas("new.atlas", atlas.volume());
+        ADD_FAILURE() << "built on a disk that is read-only";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::resource);
+        EXPECT_NE(error.text().next.find("read-only"), std::string::npos) << error.what();
+    }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "io/raw_description.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    fuzz::use_content(std::as_bytes(std::span(data, size)));
+    const fuzz::OnlyContent in_use(std::as_bytes(std::span(data, size)));
     const std::string name(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 200));
     for (const bool sidecar : {true, false}) {
         try {
@@ -18,6 +18,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             fuzz::require_volume(error.kind() == isoatlas::ErrorKind::input);
         }
     }
-    isoatlas::io::replace_file_opener({});
     return 0;
 }

@@ -86,7 +86,7 @@ void ask(const Ask& question) {
 }
 
 void query(std::span<const std::byte> content) {
-    fuzz::use_content(content);
+    const fuzz::OnlyContent in_use(content);
     isoatlas::Context context;
     context.threads = 1;
     ask([&] {
@@ -111,7 +111,6 @@ void query(std::span<const std::byte> content) {
             analysis.visit_object_contours([](std::int64_t, std::span<const isoatlas::GenusCount>) {});
         });
     });
-    isoatlas::io::replace_file_opener({});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file_access.h"
+#include "base/file_system.h"
 #include "isoatlas/volume.h"
 
 namespace fuzz {
@@ -22,8 +23,7 @@ inline void require_volume(bool condition) {
     if (!condition) std::abort();
 }
 
-/// One content behind every path, for at most so many openings: a series of a billion data files exists on no real disk.
-class OnlyFile final : public isoatlas::io::FileHandle {
+class OnlyFile final : public isoatlas::File {
 public:
     explicit OnlyFile(std::span<const std::byte> content) : content_(content) {}
     std::int64_t size() const override { return static_cast<std::int64_t>(content_.size()); }
@@ -39,13 +39,21 @@ private:
     std::span<const std::byte> content_;
 };
 
-inline void use_content(std::span<const std::byte> content) {
-    isoatlas::io::replace_file_opener([content, left = 200](const std::string& path) mutable -> std::unique_ptr<isoatlas::io::FileHandle> {
-        if (left-- == 0)
-            throw isoatlas::Error(isoatlas::ErrorKind::input, {.file = path, .what = "no such file", .next = "check the path"});
-        return std::make_unique<OnlyFile>(content);
-    });
-}
+/// While it lives, one content is behind every path, for at most so many openings: a series of a billion data files exists on no real disk.
+class OnlyContent final : public isoatlas::FileSystem {
+public:
+    explicit OnlyContent(std::span<const std::byte> content) : content_(content), in_use_(*this) {}
+    isoatlas::FileStatus status(const std::string&) override { return {.kind = isoatlas::FileStatus::Kind::regular}; }
+    isoatlas::OpenedFile open(const std::string&) override {
+        if (left_-- == 0) return {nullptr, -ENOENT};
+        return {std::make_unique<OnlyFile>(content_), 0};
+    }
+
+private:
+    std::span<const std::byte> content_;
+    int left_ = 200;
+    isoatlas::ReplacedFileSystem in_use_;
+};
 
 inline void check_info(const isoatlas::VolumeInfo& info) {
     require_volume(info.extent.rank == 2 || info.extent.rank == 3);
@@ -78,7 +86,7 @@ inline void read_twice(isoatlas::VolumeReader& reader) {
 
 template <class Open>
 int open_and_read(const Open& open, const std::uint8_t* data, std::size_t size) {
-    use_content(std::as_bytes(std::span(data, size)));
+    const OnlyContent in_use(std::as_bytes(std::span(data, size)));
     for (const int step : {-1, 1}) {
         try {
             isoatlas::OpenOptions options;
@@ -92,7 +100,6 @@ int open_and_read(const Open& open, const std::uint8_t* data, std::size_t size) 
             require_volume(!error.text().file.empty() && !error.text().what.empty());
         }
     }
-    isoatlas::io::replace_file_opener({});
     return 0;
 }
 

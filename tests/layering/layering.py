@@ -19,7 +19,7 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/query/slab_work\.cpp",  # the last asks which thread it is on
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/analysis_data\.h|src/query/stored_samples\.(h|cpp)|src/atlas/atlas\.cpp",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/analysis_data\.h|src/store/hdf5_layout\.cpp|src/query/stored_samples\.(h|cpp)|src/atlas/atlas\.cpp",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"src/dist/.*",
     r"tiff.*\.h": r"src/io/tiff.*|src/output/.*|tests/.*",
     r"pugixml\.hpp": r"src/io/.*|src/output/.*|tests/.*",
@@ -28,7 +28,8 @@ DOORS = {
     r"cassert|assert\.h": r"(?!)",
     r"CLI/.*|fmt/.*": r"apps/.*",
     r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/io/.*|src/output/.*|src/store/contents\.cpp",
-    r"hdf5\.h": r"src/store/pack\.cpp",
+    r"fcntl\.h|unistd\.h|sys/(stat|file)\.h|fstream": r"src/base/system_files\.cpp|(apps|tests|bench)/.*",
+    r"hdf5\.h": r"src/store/hdf5_layout\.cpp",
     r"xxhash\.h": r"src/store/checksum\.h",
     r"gtest/.*|gmock/.*|rapidcheck.*": r"tests/.*",
     r"benchmark/.*": r"bench/.*",
@@ -162,6 +163,8 @@ SNIPPETS = [
     ("src/tree/a.cpp", "int x;\n" * MAX_LINES, 0),
     ("src/other/a.cpp", "int x;\n", 1),
     ("src/tree/a.cpp", '#include <gtest/gtest.h>\n', 1),
+    ("src/output/a.cpp", "#include <fstream>\n#include <fcntl.h>\n", 2),
+    ("src/base/system_files.cpp", "#include <fcntl.h>\n", 0),
 ]
 
 

@@ -17,9 +17,9 @@ using test::expect_helpful;
 using test::failure_of;
 
 /// A disk that gives few bytes at a time, and fails from an offset on.
-class BadDisk final : public io::FileHandle {
+class BadDisk final : public File {
 public:
-    BadDisk(std::unique_ptr<io::FileHandle> file, std::size_t most, std::int64_t fails_at, int error)
+    BadDisk(std::unique_ptr<File> file, std::size_t most, std::int64_t fails_at, int error)
         : file_(std::move(file)), most_(most), fails_at_(fails_at), error_(error) {}
     std::int64_t size() const override { return file_->size(); }
     std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
@@ -29,22 +29,26 @@ public:
     }
 
 private:
-    std::unique_ptr<io::FileHandle> file_;
+    std::unique_ptr<File> file_;
     std::size_t most_;
     std::int64_t fails_at_;
     int error_;
     int calls_ = 0;
 };
 
-class WithBadDisk {
+class WithBadDisk final : public test::ForwardingFiles {
 public:
-    explicit WithBadDisk(std::size_t most, std::int64_t fails_at = INT64_MAX, int error = 0) {
-        io::replace_file_opener(
-            [=](const std::string& path) { return std::make_unique<BadDisk>(io::open_system_file(path), most, fails_at, error); });
+    explicit WithBadDisk(std::size_t most, std::int64_t fails_at = INT64_MAX, int error = 0)
+        : most_(most), fails_at_(fails_at), error_(error), in_use_(*this) {}
+    OpenedFile open(const std::string& path) override {
+        return {std::make_unique<BadDisk>(ForwardingFiles::open(path).file, most_, fails_at_, error_), 0};
     }
-    WithBadDisk(const WithBadDisk&) = delete;
-    WithBadDisk& operator=(const WithBadDisk&) = delete;
-    ~WithBadDisk() { io::replace_file_opener({}); }
+
+private:
+    std::size_t most_;
+    std::int64_t fails_at_;
+    int error_;
+    ReplacedFileSystem in_use_;
 };
 
 std::string read_text(ByteSource& source, std::size_t count) {

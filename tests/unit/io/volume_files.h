@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file_access.h"
+#include "faults/forwarding_files.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas::test {
@@ -48,7 +48,7 @@ private:
 };
 
 /// A file whose content is in memory: for tests that read many thousand variants of it. The name must exist on disk as well.
-class FileInMemory final : public io::FileHandle {
+class FileInMemory final : public File {
 public:
     explicit FileInMemory(const std::string& content) : content_(content) {}
     std::int64_t size() const override { return static_cast<std::int64_t>(content_.size()); }
@@ -64,17 +64,17 @@ private:
 };
 
 /// While it lives, `path` has this content; other files are what they are.
-class Replaced {
+class Replaced final : public ForwardingFiles {
 public:
-    Replaced(const std::string& path, const std::string& content) {
-        io::replace_file_opener([=](const std::string& opened) -> std::unique_ptr<io::FileHandle> {
-            if (opened == path) return std::make_unique<FileInMemory>(content);
-            return io::open_system_file(opened);
-        });
+    Replaced(std::string path, std::string content) : path_(std::move(path)), content_(std::move(content)), in_use_(*this) {}
+    OpenedFile open(const std::string& path) override {
+        if (path == path_) return {std::make_unique<FileInMemory>(content_), 0};
+        return ForwardingFiles::open(path);
     }
-    Replaced(const Replaced&) = delete;
-    Replaced& operator=(const Replaced&) = delete;
-    ~Replaced() { io::replace_file_opener({}); }
+
+private:
+    std::string path_, content_;
+    ReplacedFileSystem in_use_;
 };
 
 /// zlib's windowBits: 15 for zlib, 31 for gzip.

@@ -5,8 +5,8 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "faults/faulty_files.h"
 #include "isoatlas/output.h"
-#include "output/atomic_file.h"
 #include "unit/io/volume_files.h"
 #include "unit/output/external.h"
 
@@ -149,7 +149,7 @@ TEST(Labels, FullDiskAndMissingFolderLeaveNothing) {
     const auto labels = labels_up_to(extent.voxels(), 1000000);
     for (const std::string& name : kNames) {
         for (const std::int64_t after : {0, 5, 400, 2000, 20000}) {
-            const WriteFault fault(after, ENOSPC);
+            const FullDisk fault(after, ENOSPC);
             expect_helpful(failure_of([&] { write_labels(folder / name, info_of(extent), labels); }), ErrorKind::resource, "No space left");
             ASSERT_TRUE(std::filesystem::is_empty(folder / ".")) << name << " " << after;
         }

@@ -3,7 +3,7 @@
 
 #include <cerrno>
 
-#include "output/atomic_file.h"
+#include "faults/faulty_files.h"
 #include "unit/output/mesh_samples.h"
 
 using namespace isoatlas;
@@ -31,13 +31,13 @@ TEST_P(Faults, full_disk_leaves_what_was_there) {
     write_surface(path, two_objects());
     const std::string before = read_bytes(path);
     for (std::size_t after = 0; after < before.size(); after += 97) {
-        const WriteFault fault(static_cast<std::int64_t>(after), ENOSPC);
+        const test::FullDisk fault(static_cast<std::int64_t>(after), ENOSPC);
         expect_resource_error(path);
         EXPECT_EQ(read_bytes(path), before);
         EXPECT_EQ(folder_.files(), 1U) << "a partial file stays behind";
     }
     std::filesystem::remove(path);
-    const WriteFault fault(100, EIO);
+    const test::FullDisk fault(100, EIO);
     expect_resource_error(path);
     EXPECT_EQ(folder_.files(), 0U);
 }

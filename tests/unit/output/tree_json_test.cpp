@@ -6,9 +6,9 @@
 #include <limits>
 #include <sstream>
 
+#include "faults/faulty_files.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
-#include "output/atomic_file.h"
 #include "output/json_stream.h"
 #include "unit/output/json_schema.h"
 #include "unit/output/mesh_samples.h"
@@ -184,7 +184,7 @@ TEST(TreeJson, a_failing_stream_or_disk_is_an_error) {
     EXPECT_THROW(write_tree_json(closed, volume, analysis), Error);
     const Folder folder;
     for (const char* extension : {".json", ".csv", ".graphml", ".vtu"}) {
-        const WriteFault fault(200, ENOSPC);
+        const test::FullDisk fault(200, ENOSPC);
         try {
             write_tree(folder / (std::string("tree") + extension), volume, analysis);
             FAIL() << extension;

@@ -4,8 +4,8 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "faults/faulty_files.h"
 #include "isoatlas/output.h"
-#include "output/atomic_file.h"
 #include "unit/io/volume_files.h"
 #include "unit/output/external.h"
 
@@ -122,7 +122,7 @@ TEST(WriteVolume, WrongUseAndFullDisk) {
     expect_helpful(failure_of([&] { write_volume(folder / "v.xyz", volume); }), ErrorKind::usage, "format");
     for (const std::string& name : kNames) {
         for (const std::int64_t after : {0, 100, 5000}) {
-            const WriteFault fault(after, ENOSPC);
+            const FullDisk fault(after, ENOSPC);
             expect_helpful(failure_of([&] { write_volume(folder / name, volume); }), ErrorKind::resource, "No space left");
             ASSERT_TRUE(std::filesystem::is_empty(folder / ".")) << name << " " << after;
         }

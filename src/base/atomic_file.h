@@ -7,10 +7,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/file_system.h"
 
 namespace isoatlas {
 
@@ -26,27 +29,35 @@ public:
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
-    /// Replaces bytes already written, e.g. a length in a header. offset + bytes.size() <= size(). Not possible on devices and pipes.
-    void overwrite(std::int64_t offset, std::span<const std::byte> bytes);
-    /// Number of bytes written so far: the offset of the next one.
+    /// Writes anywhere: over what is there, e.g. a length in a header, or behind it; a hole reads as zeros. Not possible on devices and
+    /// pipes.
+    void write_at(std::int64_t offset, std::span<const std::byte> bytes);
+    /// Takes room on the disk for a file of that size, where the system can: a full disk is better told before the work than after it.
+    void reserve(std::int64_t size);
+    /// Lengthens the file by zeros. size >= size().
+    void extend(std::int64_t size);
+    /// End of the bytes written so far: the offset of the next write().
     [[nodiscard]] std::int64_t size() const { return size_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Nothing may be written afterwards.
     void commit();
 
 private:
-    [[noreturn]] void fail(const char* action, int error_number) const;
-    void open_partial();
+    [[noreturn]] void fail(const char* action, int error) const;
+    void require(int error, const char* action) const;
+    void open();
     void flush();
-    void put(const std::byte* data, std::size_t count, std::int64_t offset);
+    void put(std::int64_t offset, std::span<const std::byte> bytes);
     void discard() noexcept;
 
     std::string path_;     ///< as the caller gave it, for messages
     std::string target_;   ///< where it goes: path_ with links resolved
     std::string partial_;  ///< empty when the target is written directly
-    int descriptor_ = -1;
+    std::unique_ptr<File> file_;
     std::int64_t size_ = 0;
-    std::vector<std::byte> buffer_;  ///< the last bytes of size_
+    std::int64_t written_ = 0;  ///< of a device or pipe: bytes it has taken
+    std::int64_t buffer_begin_ = 0;
+    std::vector<std::byte> buffer_;  ///< bytes from buffer_begin_ on that are still to be written
 };
 
 /// Bytes of trivially copyable values, to write them.
@@ -58,14 +69,5 @@ template <class T>
 [[nodiscard]] std::span<const std::byte> bytes_of(const std::vector<T>& values) {
     return std::as_bytes(std::span<const T>(values));
 }
-
-/// For tests: while it lives, every AtomicFile fails with `error_number` (ENOSPC, EIO, ...) at the byte `after` of its file.
-class WriteFault {
-public:
-    WriteFault(std::int64_t after, int error_number);
-    ~WriteFault();
-    WriteFault(const WriteFault&) = delete;
-    WriteFault& operator=(const WriteFault&) = delete;
-};
 
 }  // namespace isoatlas

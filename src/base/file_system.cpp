@@ -1,0 +1,49 @@
+#include "base/file_system.h"
+
+#include <cerrno>
+#include <utility>
+
+namespace isoatlas {
+namespace {
+
+FileSystem*& in_use() {
+    static FileSystem* files = &system_files();
+    return files;
+}
+
+}  // namespace
+
+File::~File() = default;
+std::ptrdiff_t File::read_at(std::int64_t, std::span<std::byte>) { return -EBADF; }
+std::ptrdiff_t File::write_at(std::int64_t, std::span<const std::byte>) { return -EBADF; }
+int File::resize(std::int64_t) { return -EBADF; }
+int File::reserve(std::int64_t) { return -EBADF; }
+int File::sync() { return -EBADF; }
+int File::close() { return 0; }
+
+FileSystem::~FileSystem() = default;
+std::string FileSystem::link(const std::string&) { return {}; }
+OpenedFile FileSystem::open_stream(const std::string&) { return {nullptr, -EROFS}; }
+OpenedFile FileSystem::create(const std::string&) { return {nullptr, -EROFS}; }
+int FileSystem::set_mode(const std::string&, unsigned) { return -EROFS; }
+int FileSystem::rename(const std::string&, const std::string&) { return -EROFS; }
+int FileSystem::remove(const std::string&) { return -EROFS; }
+int FileSystem::sync_folder(const std::string&) { return -EROFS; }
+
+FileSystem& file_system() { return *in_use(); }
+
+ReplacedFileSystem::ReplacedFileSystem(FileSystem& files) : before_(std::exchange(in_use(), &files)) {}
+ReplacedFileSystem::~ReplacedFileSystem() { in_use() = before_; }
+
+int write_fully(File& file, std::int64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const std::ptrdiff_t done = file.write_at(offset, bytes);
+        if (done == -EINTR) continue;
+        if (done <= 0) return done < 0 ? static_cast<int>(done) : -EIO;
+        offset += done;
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+    }
+    return 0;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,94 @@
+// The door to files: all that is written and all that is read by offsets goes through a FileSystem. The system's is the default; tests put
+// another one behind the door, which fails, loses what was not synced, or lives in memory.
+//
+// Nothing here throws: numbers below zero are -errno. Turning them into errors that name file and next step is the callers' business
+// (io/file_access.h for what is read, base/atomic_file.h for what is written).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace isoatlas {
+
+/// An open file, closed by its destructor. Offsets are absolute; nothing is buffered. What a kind of file does not offer, it refuses.
+class File {
+public:
+    File() = default;
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    virtual ~File();
+    /// Bytes when it was opened.
+    [[nodiscard]] virtual std::int64_t size() const = 0;
+    /// Reads at most out.size() bytes at offset; the number read (0 at the end of the file), or -errno. May be called by several threads.
+    [[nodiscard]] virtual std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out);
+    /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
+    [[nodiscard]] virtual std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes);
+    /// Cuts the file, or lengthens it by zeros. 0 or -errno, as all that follow.
+    [[nodiscard]] virtual int resize(std::int64_t size);
+    /// Takes room on the disk for the bytes [0, size). Systems that cannot do so say that it went well.
+    [[nodiscard]] virtual int reserve(std::int64_t size);
+    /// Returns when all that was written would survive a power failure.
+    [[nodiscard]] virtual int sync();
+    /// The last word about what was written. Called at most once, and nothing after it.
+    [[nodiscard]] virtual int close();
+};
+
+struct FileStatus {
+    enum class Kind { missing, regular, folder, other };
+    Kind kind = Kind::missing;
+    int error = 0;      ///< why it is missing: -errno
+    unsigned mode = 0;  ///< permissions
+};
+
+struct OpenedFile {
+    std::unique_ptr<File> file;  ///< null: it cannot be opened
+    int error = 0;               ///< -errno then
+};
+
+class FileSystem {
+public:
+    FileSystem() = default;
+    FileSystem(const FileSystem&) = delete;
+    FileSystem& operator=(const FileSystem&) = delete;
+    virtual ~FileSystem();
+    /// What a path names; links are followed.
+    [[nodiscard]] virtual FileStatus status(const std::string& path) = 0;
+    /// Opens a regular file to read it.
+    [[nodiscard]] virtual OpenedFile open(const std::string& path) = 0;
+    /// What a symbolic link contains; empty: the path names no link.
+    [[nodiscard]] virtual std::string link(const std::string& path);
+    /// Opens a device or pipe to write to it: its write_at takes the next bytes, whatever the offset.
+    [[nodiscard]] virtual OpenedFile open_stream(const std::string& path);
+    /// Makes an empty file, or empties the one that is there, and locks it until it is closed: -EWOULDBLOCK when somebody else holds it.
+    [[nodiscard]] virtual OpenedFile create(const std::string& path);
+    [[nodiscard]] virtual int set_mode(const std::string& path, unsigned mode);
+    [[nodiscard]] virtual int rename(const std::string& from, const std::string& to);
+    [[nodiscard]] virtual int remove(const std::string& path);
+    /// Returns when the names in a folder would survive a power failure. Systems that cannot promise it say that it went well.
+    [[nodiscard]] virtual int sync_folder(const std::string& path);
+};
+
+/// The one in use.
+[[nodiscard]] FileSystem& file_system();
+/// That of the operating system.
+[[nodiscard]] FileSystem& system_files();
+
+/// For tests: while it lives, `files` is in use. Not thread safe.
+class ReplacedFileSystem {
+public:
+    explicit ReplacedFileSystem(FileSystem& files);
+    ~ReplacedFileSystem();
+    ReplacedFileSystem(const ReplacedFileSystem&) = delete;
+    ReplacedFileSystem& operator=(const ReplacedFileSystem&) = delete;
+
+private:
+    FileSystem* before_;
+};
+
+/// Writes all bytes, repeating short and interrupted writes. 0 or -errno.
+[[nodiscard]] int write_fully(File& file, std::int64_t offset, std::span<const std::byte> bytes);
+
+}  // namespace isoatlas

@@ -1,0 +1,39 @@
+// The frame of an HDF5 file: where its arrays lie, and the bytes of HDF5's own structures around them. Nothing is written here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isoatlas::store {
+
+/// Contiguous arrays with their room taken, behind a user block of kHeaderBytes; no times, so that the same arrays give the same bytes.
+/// Memory: what HDF5 keeps of every array, not the arrays. Throws Error{resource} when HDF5 has no memory for that.
+class Hdf5Layout {
+public:
+    /// path: for messages.
+    explicit Hdf5Layout(std::string path);
+    ~Hdf5Layout();
+    Hdf5Layout(const Hdf5Layout&) = delete;
+    Hdf5Layout& operator=(const Hdf5Layout&) = delete;
+
+    /// Takes room for an array, with its groups. Returns the offset of its first byte; 0 when it has none.
+    [[nodiscard]] std::int64_t add(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape);
+    /// Bytes of the file so far; after finish() those of the whole file.
+    [[nodiscard]] std::int64_t size() const;
+
+    struct Piece {
+        std::int64_t offset;
+        std::vector<std::byte> bytes;
+    };
+    /// HDF5's structures, to be written in this order (later pieces replace earlier ones). No array can be added afterwards.
+    [[nodiscard]] const std::vector<Piece>& finish();
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace isoatlas::store

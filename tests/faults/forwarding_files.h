@@ -1,0 +1,25 @@
+// A file system that passes everything on to another one: tests override what they want to change.
+#pragma once
+
+#include "base/file_system.h"
+
+namespace isoatlas::test {
+
+class ForwardingFiles : public FileSystem {
+public:
+    explicit ForwardingFiles(FileSystem& below = system_files()) : below_(below) {}
+    FileStatus status(const std::string& path) override { return below_.status(path); }
+    OpenedFile open(const std::string& path) override { return below_.open(path); }
+    std::string link(const std::string& path) override { return below_.link(path); }
+    OpenedFile open_stream(const std::string& path) override { return below_.open_stream(path); }
+    OpenedFile create(const std::string& path) override { return below_.create(path); }
+    int set_mode(const std::string& path, unsigned mode) override { return below_.set_mode(path, mode); }
+    int rename(const std::string& from, const std::string& to) override { return below_.rename(from, to); }
+    int remove(const std::string& path) override { return below_.remove(path); }
+    int sync_folder(const std::string& path) override { return below_.sync_folder(path); }
+
+protected:
+    FileSystem& below_;
+};
+
+}  // namespace isoatlas::test

@@ -1,0 +1,93 @@
+// Everything that a store can be asked, with answers as bytes that can be compared.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isoatlas/atlas.h"
+#include "store/contents.h"
+#include "store/tree_arrays.h"
+
+namespace isoatlas::test {
+
+struct Question {
+    const char* name;
+    std::function<std::string(const Atlas&)> ask;
+};
+
+/// Bytes of numbers, one behind the other.
+class Answer {
+public:
+    template <class N>
+    Answer& add(const std::vector<N>& numbers) {
+        return add_bytes(std::as_bytes(std::span<const N>(numbers)));
+    }
+    template <class... N>
+    Answer& add_numbers(const N&... numbers) {
+        (add_bytes(std::as_bytes(std::span<const N, 1>(&numbers, 1))), ...);
+        return *this;
+    }
+    Answer& add_bytes(std::span<const std::byte> bytes) {
+        text_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size()) += '|';
+        return *this;
+    }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+inline std::string bytes_of_cut(const Cut& cut) {
+    Answer answer;
+    answer.add_numbers(cut.tau, cut.tunnel_height, cut.active_cells).add(cut.label);
+    for (const CutObject& o : cut.objects)
+        answer.add_numbers(o.id, o.chi, o.b1, o.b2, o.voxels, o.measure, o.box_low, o.box_high, o.first_contour, o.contour_count);
+    for (const CutContour& c : cut.contours) answer.add_numbers(c.id, c.object, c.shell, c.genus, c.hits);
+    return answer.text();
+}
+
+inline std::string bytes_of_surface(const Surface& s) {
+    Answer answer;
+    answer.add(s.points).add(s.normals).add(s.triangles).add(s.segments).add(s.object).add(s.contour);
+    answer.add_numbers(s.tau, s.reported_tau, s.closed, s.interpolant, s.tunnel_height, s.reported_tunnel_height);
+    return answer.text() + s.space + s.unit;
+}
+
+inline std::string bytes_of_analysis(const Analysis& analysis) {
+    Answer answer;
+    for (const store::PackedArray& array : store::tree_arrays(analysis))
+        array.feed([&](std::span<const std::byte> bytes) { answer.add_bytes(bytes); });
+    return answer.text();
+}
+
+/// The questions, for isovalue tau and the object that contains a voxel.
+inline std::vector<Question> questions(double tau, std::int64_t voxel) {
+    Context context;
+    context.threads = 1;
+    ExtractOptions one;
+    one.objects = {voxel};
+    return {{"what is in it",
+             [](const Atlas& atlas) {
+                 store::Contents contents;
+                 contents.volume = atlas.info();
+                 return to_json(contents) + Answer().add_numbers(atlas.range(), atlas.file_bytes(), atlas.tunnel_height()).text();
+             }},
+            {"cut", [=](const Atlas& atlas) { return bytes_of_cut(atlas.cut(tau, {.label = true}, context)); }},
+            {"surface", [=](const Atlas& atlas) { return bytes_of_surface(atlas.extract(tau, {}, context)); }},
+            {"one object", [=](const Atlas& atlas) { return bytes_of_surface(atlas.extract(tau, one, context)); }},
+            {"trees", [](const Atlas& atlas) { return bytes_of_analysis(atlas.analysis()); }},
+            {"samples",
+             [=](const Atlas& atlas) {
+                 const Volume volume = atlas.volume(context);
+                 return Answer().add(std::vector<std::byte>(volume.bytes.begin(), volume.bytes.end())).text();
+             }},
+            {"check", [=](const Atlas& atlas) {
+                 atlas.check(context);
+                 return std::string("sound");
+             }}};
+}
+
+}  // namespace isoatlas::test
