@@ -3,26 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <numeric>
 
+#include "faults/memory_files.h"
 #include "isoatlas/error.h"
 #include "store/pack.h"
 
 namespace isoatlas::store {
 namespace {
 
-namespace fs = std::filesystem;
-
 class Store : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() / ("isoatlas_store_" + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-        path_ = (folder_ / "small.atlas").string();
-    }
-    void TearDown() override { fs::remove_all(folder_); }
+    Store() : in_use_(disk_) {}
 
     static Contents contents() {
         Contents contents;
@@ -43,11 +35,6 @@ protected:
                    {packed<std::uint32_t>("tree/numbers", "uint32", numbers), packed<double>("tree/values", "float64", values),
                     packed<double>("empty", "float64", {})});
     }
-    static std::string bytes_of(const std::string& path) {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-    void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
 
     /// Opens and reads everything. True: it was refused.
     bool is_refused() const {
@@ -65,13 +52,14 @@ protected:
         }
     }
 
-    fs::path folder_;
-    std::string path_;
+    test::MemoryFiles disk_;
+    ReplacedFileSystem in_use_;
+    std::string path_ = "small.atlas";
 };
 
 TEST_F(Store, IsReadAsItWasWritten) {
     write(path_);
-    EXPECT_FALSE(fs::exists(path_ + ".partial"));
+    EXPECT_EQ(disk_.count(), 1U);
     const Container store(path_);
     const VolumeInfo& volume = store.contents().volume;
     EXPECT_EQ(volume.extent.size, (std::array<std::int64_t, 3>{3, 4, 5}));
@@ -91,40 +79,40 @@ TEST_F(Store, IsReadAsItWasWritten) {
 
 TEST_F(Store, TheSameArraysGiveTheSameBytes) {
     write(path_);
-    const std::string first = bytes_of(path_);
+    const std::string first = disk_.content(path_);
     write(path_ + "2");
-    EXPECT_TRUE(first == bytes_of(path_ + "2"));
+    EXPECT_TRUE(first == disk_.content(path_ + "2"));
 }
 
 TEST_F(Store, EveryPrefixIsRefused) {
     write(path_);
-    const std::string whole = bytes_of(path_);
+    const std::string whole = disk_.content(path_);
     for (std::size_t size = 0; size < whole.size(); size += size < 2048 ? 1 : 997) {
-        put(whole.substr(0, size));
+        disk_.content(path_) = whole.substr(0, size);
         ASSERT_TRUE(is_refused()) << size;
     }
-    put(whole + "x");
+    disk_.content(path_) = whole + "x";
     EXPECT_TRUE(is_refused());
 }
 
 TEST_F(Store, EveryFlippedByteIsRefusedOrDoesNotMatter) {
     write(path_);
-    const std::string whole = bytes_of(path_);
+    const std::string whole = disk_.content(path_);
     std::int64_t refused = 0, tried = 0;
     for (std::size_t at = 0; at < whole.size(); at += at < 600 || at + 6000 > whole.size() ? 1 : 89) {
-        std::string damaged = whole;
-        damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
-        put(damaged);
+        char& byte = disk_.content(path_)[at];
+        byte = static_cast<char>(byte ^ (1 << at % 8));
         refused += is_refused();  // what only HDF5 reads does not matter; is_refused compares the numbers
+        byte = whole[at];
         ++tried;
     }
     EXPECT_GT(refused, tried / 2);
 }
 
 TEST_F(Store, AnUnwritableFolderIsToldAndNothingIsLeft) {
-    const std::string path = (folder_ / "missing" / "x.atlas").string();
+    const ReplacedFileSystem in_use(system_files());
     try {
-        write(path);
+        write("no/such/folder/x.atlas");
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::resource);
