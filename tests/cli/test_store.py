@@ -1,7 +1,11 @@
 """Stores on the command line: what a store answers is what its volume answers."""
+import os
 import resource
+import shutil
 
 import harness
+
+NOBODY = 65534
 
 
 class Stores(harness.CliTest):
@@ -60,6 +64,36 @@ class Stores(harness.CliTest):
             self.assertIn("full.atlas: cannot be written: File too large", done.stderr)
             self.assertFalse((self.folder / "full.atlas").exists())
             self.assert_no_partial()
+
+    def test_a_store_in_a_folder_that_is_read_only(self):
+        media, outside = self.folder / "media", self.folder / "outside"
+        for folder in (media, outside):
+            folder.mkdir()
+        shutil.copy(self.folder / "noise.atlas", media)
+        self.run_ok("extract", "noise.nrrd", "--tau", "31", "-o", "volume.ply")
+        is_root = os.geteuid() == 0
+        identity = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if is_root else {}  # root may write everywhere
+        self.folder.chmod(0o755)
+        outside.chmod(0o777)
+        (media / "noise.atlas").chmod(0o444)
+        media.chmod(0o555)
+        try:
+            for arguments in (["info", "media/noise.atlas"], ["tree", "media/noise.atlas"], ["objects", "media/noise.atlas", "--tau", "31"],
+                              ["verify", "media/noise.atlas", "--levels", "2"],
+                              ["label", "media/noise.atlas", "--tau", "31", "-o", "outside/labels.nrrd"],
+                              ["extract", "media/noise.atlas", "--tau", "31", "-o", "outside/surface.ply"]):
+                try:
+                    done = self.start(arguments, **identity)
+                except PermissionError:
+                    self.skipTest("the program lies where only root may go")
+                self.assertEqual(done.returncode, 0, f"{arguments}: {done.stderr}")
+            self.assertEqual(self.read("outside/surface.ply"), self.read("volume.ply"))
+            self.assertEqual(os.listdir(media), ["noise.atlas"])
+            done = self.start(["extract", "media/noise.atlas", "--tau", "31", "-o", "media/surface.ply"], **identity)
+            self.assertEqual(done.returncode, 5, done.stderr)
+            self.assertIn("may not be written to", done.stderr)
+        finally:
+            media.chmod(0o755)
 
     def test_options_that_contradict_the_store(self):
         self.run_error(2, "extract", "noise.atlas", "--tau", "31", "--interpolant", "faces", "-o", "x.ply", says="built with")
