@@ -34,7 +34,7 @@ lint: ## clang-tidy over src and apps
 	@cmake --preset dev >/dev/null
 	@scripts/lint.sh
 
-bench: ## measure: analysis against a sort, extraction against Flying Edges; writes build/bench/*.json and docs/performance.md
+bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges; writes build/bench/*.json and docs/performance.md
 	@scripts/bench.sh
 
 fuzz: ## every fuzz target for SECONDS_PER_TARGET (60)

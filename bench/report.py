@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
-    report.py FOLDER [PAGE]   FOLDER holds engine.json and, if measured, extract.json; PAGE defaults to docs/performance.md
+    report.py FOLDER [PAGE]   FOLDER holds engine.json and, if measured, extract.json and store.json; PAGE defaults to docs/performance.md
 """
 import json
 import platform
@@ -82,9 +82,8 @@ def growth_table(engine):
     return table(header, rows) if rows else None
 
 
-def generic_table(document):
-    """A list of flat records, as bench/extract writes it: the keys are the columns."""
-    records = document["results"]
+def generic_table(records):
+    """A list of flat records, as bench/extract and bench/store write it: the keys are the columns."""
     header = list(records[0])
     rows = [[f"{r[key]:.4g}" if isinstance(r.get(key), float) else r.get(key, "") for key in header] for r in records]
     return table([name.replace("_", " ") for name in header], rows)
@@ -108,7 +107,11 @@ def main():
     page = replace(page, "phases", phases_table(engine))
     page = replace(page, "growth", growth_table(engine))
     if (folder / "extract.json").exists():
-        page = replace(page, "extract", generic_table(json.loads((folder / "extract.json").read_text())))
+        page = replace(page, "extract", generic_table(json.loads((folder / "extract.json").read_text())["results"]))
+    if (folder / "store.json").exists():
+        store = json.loads((folder / "store.json").read_text())
+        for part in ("builds", "surfaces", "objects"):
+            page = replace(page, f"store-{part}", generic_table(store[part]))
     path.write_text(page)
     print(f"report: {path} is up to date")
 

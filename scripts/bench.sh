@@ -11,4 +11,5 @@ options=(--cache "$out/volumes" --json "$out/engine.json" --growth)
 if [[ -d $data ]]; then options+=(--data "$data"); fi
 "$out/bin/bench_engine" "${options[@]}"
 /usr/bin/python3 bench/extract/compare_vtk.py "$out/bin/bench_extract" --cache "$out/volumes" --json "$out/extract.json"
+/usr/bin/python3 bench/store/compare_vtk.py "$out/bin/bench_store" --cache "$out/volumes" --json "$out/store.json"
 /usr/bin/python3 bench/report.py "$out"

@@ -18,31 +18,13 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk
 
-
-def crossed(high):
-    """Crossed grid edges and active cells of the volume itself (no padding)."""
-    edges = sum(int(np.count_nonzero(np.diff(high, axis=axis))) for axis in range(3))
-    total = high.astype(np.uint8)
-    for axis in range(3):
-        first, second = [slice(None)] * 3, [slice(None)] * 3
-        first[axis], second[axis] = slice(None, -1), slice(1, None)
-        total = total[tuple(first)] + total[tuple(second)]
-    return edges, int(np.count_nonzero((total > 0) & (total < 8)))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from flying_edges import crossed, flying_edges
 
 
 def ours(program, raw, size, tau, *options):
     command = [program, str(raw), str(size), repr(tau), *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-
-
-def flying_edges(image, tau):
-    edges = vtk.vtkFlyingEdges3D()
-    edges.SetInputData(image)
-    edges.SetValue(0, tau)
-    edges.ComputeNormalsOn()
-    edges.ComputeGradientsOff()
-    edges.ComputeScalarsOff()
-    return edges
 
 
 def vtk_components(surface):

@@ -1,0 +1,15 @@
+// Files that are not in memory: the system is asked to forget its pages of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace bench {
+
+/// Writes back what is not on the disk yet and drops the pages. Systems may refuse silently: bytes_from_disk() tells.
+void drop_pages(const std::string& path);
+
+/// Bytes that this process has caused to be read from disks so far (/proc/self/io); -1: unknown.
+[[nodiscard]] std::int64_t bytes_from_disk();
+
+}  // namespace bench

@@ -1,0 +1,199 @@
+// bench_store: what do a store and its queries cost?
+//
+//   bench_store build VOLUME STORE [--cache FOLDER] [--threads N]     VOLUME: as in bench_engine, e.g. smooth-256
+//   bench_store surface STORE TAU [--threads N] [--repeats N]         the whole isosurface: warm, again, cold
+//   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
+//   bench_store check STORE TAU VOLUME [--cache FOLDER]               is the surface that of the volume, byte for byte?
+//
+// Each prints one JSON document. Seconds are those of every repeat:
+//   open   opening the store, the file's pages in memory     warm   the query of an open store that holds no bricks
+//   again  the same query once more                          cold   opening and first query, the file's pages dropped before
+// compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
+#include <isoatlas/isoatlas.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cold.h"
+#include "volumes.h"
+
+namespace bench {
+namespace {
+
+using isoatlas::Atlas;
+using isoatlas::Surface;
+using nlohmann::ordered_json;
+
+struct Arguments {
+    std::vector<std::string> words;
+    Sources sources{"build/bench/volumes", ""};
+    isoatlas::Context context;
+    int repeats = 5;
+    std::int64_t voxels = 1000;
+
+    [[nodiscard]] const std::string& word(std::size_t i) const {
+        if (i >= words.size()) throw std::runtime_error("too few arguments; the head of main.cpp lists them");
+        return words[i];
+    }
+    [[nodiscard]] double tau() const { return std::stod(word(2)); }
+};
+
+Arguments parse(int argc, char** argv) {
+    Arguments arguments;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const auto value = [&]() -> std::string {
+            if (++i == argc) throw std::runtime_error(word + " needs a value");
+            return argv[i];
+        };
+        if (word == "--cache")
+            arguments.sources.cache = value();
+        else if (word == "--threads")
+            arguments.context.threads = std::stoi(value());
+        else if (word == "--repeats")
+            arguments.repeats = std::stoi(value());
+        else if (word == "--voxels")
+            arguments.voxels = std::stoll(value());
+        else if (word.starts_with("--"))
+            throw std::runtime_error("unknown option " + word);
+        else
+            arguments.words.push_back(word);
+    }
+    return arguments;
+}
+
+template <class Work>
+double seconds_of(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A query of an open store, with the file's pages in memory: without bricks, then with those that it needs.
+ordered_json measure_warm(const Arguments& arguments, const isoatlas::ExtractOptions& options) {
+    ordered_json result{{"open", ordered_json::array()}, {"warm", ordered_json::array()}, {"again", ordered_json::array()}};
+    Surface surface;
+    const auto extract = [&](const Atlas& atlas) { surface = atlas.extract(arguments.tau(), options, arguments.context); };
+    for (int i = 0; i < arguments.repeats; ++i) result["open"].push_back(seconds_of([&] { const Atlas atlas(arguments.word(1)); }));
+    const Atlas atlas(arguments.word(1));
+    extract(atlas);  // what a store reads once
+    for (int i = 0; i < arguments.repeats; ++i) {
+        surface = {};
+        atlas.clear_cache();
+        const isoatlas::AtlasReads before = atlas.reads();
+        result["warm"].push_back(seconds_of([&] { extract(atlas); }));
+        const isoatlas::AtlasReads after = atlas.reads();
+        result["bytes"] = after.bytes - before.bytes;
+        result["extents"] = after.extents - before.extents;
+        result["bricks"] = after.bricks - before.bricks;
+        surface = {};
+        result["again"].push_back(seconds_of([&] { extract(atlas); }));
+    }
+    result["points"] = surface.points.size();
+    result["triangles"] = surface.triangles.size();
+    return result;
+}
+
+/// Opening and the first query, the file's pages dropped.
+void measure_cold(const Arguments& arguments, const isoatlas::ExtractOptions& options, ordered_json& result) {
+    for (int i = 0; i < arguments.repeats; ++i) {
+        drop_pages(arguments.word(1));
+        const std::int64_t before = bytes_from_disk();
+        std::unique_ptr<Atlas> atlas;
+        const double opening = seconds_of([&] { atlas = std::make_unique<Atlas>(arguments.word(1)); });
+        const double query = seconds_of([&] { (void)atlas->extract(arguments.tau(), options, arguments.context); });
+        result["cold_open"].push_back(opening);
+        result["cold"].push_back(opening + query);
+        result["cold_disk_bytes"] = bytes_from_disk() - before;
+    }
+}
+
+ordered_json measure(const Arguments& arguments, const isoatlas::ExtractOptions& options) {
+    ordered_json result = measure_warm(arguments, options);
+    measure_cold(arguments, options, result);
+    return result;
+}
+
+ordered_json build(const Arguments& arguments) {
+    const isoatlas::Volume volume = make(arguments.word(1), arguments.sources);
+    const double seconds = seconds_of([&] { isoatlas::build_atlas(arguments.word(2), volume, {}, arguments.context); });
+    const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.word(2)));
+    const std::int64_t voxels = volume.info.extent.voxels();
+    return {{"volume", arguments.word(1)},
+            {"size", volume.info.extent.size},
+            {"type", isoatlas::name_of(volume.info.type)},
+            {"voxels", voxels},
+            {"seconds", seconds},
+            {"ns_per_voxel", 1e9 * seconds / static_cast<double>(voxels)},
+            {"bytes", bytes},
+            {"bytes_per_voxel", static_cast<double>(bytes) / static_cast<double>(voxels)},
+            {"sample_bytes", isoatlas::size_of(volume.info.type)}};
+}
+
+isoatlas::ExtractOptions without_ids() {
+    isoatlas::ExtractOptions options;
+    options.ids = false;
+    return options;
+}
+
+ordered_json surface(const Arguments& arguments) {
+    ordered_json result = measure(arguments, without_ids());
+    result["active_cells"] = Atlas(arguments.word(1)).cut(arguments.tau(), {}, arguments.context).active_cells;
+    return result;
+}
+
+ordered_json object(const Arguments& arguments) {
+    const isoatlas::Cut cut = Atlas(arguments.word(1)).cut(arguments.tau(), {}, arguments.context);
+    if (cut.objects.empty()) throw std::runtime_error("there is no object at this isovalue");
+    const auto distance = [&](const isoatlas::CutObject& o) { return std::abs(o.voxels - arguments.voxels); };
+    const isoatlas::CutObject& chosen =
+        *std::min_element(cut.objects.begin(), cut.objects.end(), [&](const auto& p, const auto& q) { return distance(p) < distance(q); });
+    isoatlas::ExtractOptions options = without_ids();
+    options.objects = {chosen.id};
+    ordered_json result = measure(arguments, options);
+    result["object_voxels"] = chosen.voxels;
+    return result;
+}
+
+ordered_json check(const Arguments& arguments) {
+    const isoatlas::Volume volume = make(arguments.word(3), arguments.sources);
+    const Atlas atlas(arguments.word(1));
+    bool same = true;
+    for (const isoatlas::Boundary boundary : {isoatlas::Boundary::closed, isoatlas::Boundary::open}) {
+        isoatlas::ExtractOptions options = without_ids();
+        options.boundary = boundary;
+        const Surface own = atlas.extract(arguments.tau(), options, arguments.context);
+        const Surface other = isoatlas::extract(volume, arguments.tau(), options, arguments.context);
+        same = same && own.points == other.points && own.triangles == other.triangles && own.normals == other.normals;
+    }
+    return {{"same_as_the_volume", same}};
+}
+
+ordered_json run(const Arguments& arguments) {
+    const std::string& verb = arguments.word(0);
+    if (verb == "build") return build(arguments);
+    if (verb == "surface") return surface(arguments);
+    if (verb == "object") return object(arguments);
+    if (verb == "check") return check(arguments);
+    throw std::runtime_error("unknown verb " + verb);
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) try {
+    std::puts(bench::run(bench::parse(argc, argv)).dump().c_str());
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_store: %s\n", error.what());
+    return 1;
+}
