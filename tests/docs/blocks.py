@@ -1,6 +1,7 @@
 """Runs the marked blocks of a Markdown file.
 
     <!-- run -->       before ```sh:   run by bash in one empty folder for the whole file, `isoatlas` on the PATH; must succeed
+    <!-- run with h5py -->  before ```python: run in the same folder; left out, and said so, where h5py is not installed
     <!-- prints -->    before ```text: exactly what the block before it printed on standard output
     <!-- program -->   before ```cpp:  printed by `blocks.py program FILE`
 """
@@ -11,19 +12,35 @@ import subprocess
 import sys
 import tempfile
 
-BLOCK = re.compile(r"<!-- (run|prints|program) -->\n+```(\w+)\n(.*?)^```$", re.S | re.M)
-LANGUAGE = {"run": "sh", "prints": "text", "program": "cpp"}
+MARK = r"<!-- (run with h5py|run|prints|program) -->"
+BLOCK = re.compile(MARK + r"\n+```(\w+)\n(.*?)^```$", re.S | re.M)
+LANGUAGE = {"run": "sh", "run with h5py": "python", "prints": "text", "program": "cpp"}
+PYTHON = "/usr/bin/python3"   # the one that Debian's packages are for
 
 
 def blocks_of(text):
     found = [(match[1], match[2], match[3]) for match in BLOCK.finditer(text)]
-    marks = len(re.findall(r"<!-- (?:run|prints|program) -->", text))
+    marks = len(re.findall(MARK, text))
     if len(found) != marks:
         raise SystemExit(f"{marks} marks but {len(found)} blocks: a mark stands right before its fence")
     for mark, language, _ in found:
         if LANGUAGE[mark] != language:
             raise SystemExit(f"a block marked {mark} is {language}, not {LANGUAGE[mark]}")
     return found
+
+
+def start(mark, body, folder, environment):
+    """Runs a block. Returns what it prints, None where it cannot run; raises AssertionError when it fails."""
+    if mark == "run":
+        command = ["bash", "-euo", "pipefail", "-c", body]
+    else:
+        command = [PYTHON, "-c", body]
+        if subprocess.run([PYTHON, "-c", "import h5py"], capture_output=True).returncode != 0:
+            print("a block is left out: h5py is not installed")
+            return None
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, f"exit code {done.returncode}:\n{body}\n{done.stderr}"
+    return done.stdout
 
 
 def run(text):
@@ -37,12 +54,10 @@ def run(text):
         (bin_folder / "isoatlas").symlink_to(os.environ["ISOATLAS_CLI"])
         environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
         for mark, _, body in blocks_of(text):
-            if mark == "run":
-                done = subprocess.run(["bash", "-euo", "pipefail", "-c", body], cwd=work, env=environment, capture_output=True, text=True)
-                assert done.returncode == 0, f"exit code {done.returncode}:\n{body}\n{done.stderr}"
-                printed = done.stdout
+            if mark.startswith("run"):
+                printed = start(mark, body, work, environment)
                 count += 1
-            elif mark == "prints":
+            elif mark == "prints" and printed is not None:
                 assert printed == body, f"the document shows\n{body}\nbut the command prints\n{printed}"
     return count
 
