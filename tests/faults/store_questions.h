@@ -9,7 +9,6 @@
 
 #include "isoatlas/atlas.h"
 #include "store/contents.h"
-#include "store/tree_arrays.h"
 
 namespace isoatlas::test {
 
@@ -58,8 +57,24 @@ inline std::string bytes_of_surface(const Surface& s) {
 
 inline std::string bytes_of_analysis(const Analysis& analysis) {
     Answer answer;
-    for (const store::PackedArray& array : store::tree_arrays(analysis))
-        array.feed([&](std::span<const std::byte> bytes) { answer.add_bytes(bytes); });
+    answer.add_numbers(analysis.interpolant(), analysis.tunnel_height());
+    for (std::int64_t i = 0; i < analysis.element_count(); ++i) {
+        const Element e = analysis.element(i);
+        answer.add_numbers(e.value, e.position, e.h0, e.l0, e.kind);
+    }
+    for (std::int64_t i = 0; i < analysis.contour_arc_count(); ++i) {
+        const ContourArc a = analysis.contour_arc(i);
+        answer.add_numbers(a.upper, a.lower, a.value_high, a.value_low, a.genus);
+    }
+    for (std::int64_t i = 0; i < analysis.level_count(); ++i) {
+        const Level l = analysis.level(i);
+        answer.add_numbers(l.value, l.event).add(l.in).add(l.out);
+    }
+    for (std::int64_t i = 0; i < analysis.event_count(); ++i) {
+        const Event e = analysis.event(i);
+        answer.add_numbers(e.value, e.position, e.kind, e.parent, e.objects_in, e.lows_out, e.delta_chi, e.chi, e.b1, e.b2, e.contours);
+        answer.add_numbers(e.zone.tau_low, e.zone.tau_high, e.zone.voxels, e.object_voxels);
+    }
     return answer.text();
 }
 
