@@ -60,7 +60,12 @@ BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(st
     if (restart) remove_contents(path_);
 }
 
-BuildFolder::~BuildFolder() { ::close(lock_); }
+BuildFolder::~BuildFolder() {
+    std::error_code ignored;
+    const auto entries = std::distance(fs::directory_iterator(path_, ignored), fs::directory_iterator());
+    if (entries == 1) fs::remove_all(path_, ignored);  // the lock alone: nothing was finished
+    ::close(lock_);
+}
 
 std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted) const {
     std::error_code ignored;

@@ -34,12 +34,13 @@ std::int64_t count_elements(const VolumeView& slab, double tunnel_height) {
 }
 
 /// Critical elements a voxel.
-double sampled_density(VolumeReader& reader, const AnalysisOptions& options) {
+double sampled_density(VolumeReader& reader, const AnalysisOptions& options, std::int64_t budget) {
     VolumeInfo info = reader.info();
     const std::int64_t slices = info.extent.size[2], thick = std::min(kSlabSlices, slices);
     const bool is_small = info.extent.voxels() < std::int64_t{1} << 20;
-    if (!info.slab_readable || is_small) return kNoise;  // the most there can be: small volumes need no better answer
     info.extent.size[2] = thick;
+    const bool is_too_large = info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) > budget / 4;
+    if (!info.slab_readable || is_small || is_too_large) return kNoise;  // about the most there can be
     std::vector<std::byte> samples(static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type));
     const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
     double elements = 0;
@@ -59,14 +60,14 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const VolumeInfo& info = reader.info();
     const auto voxels = static_cast<double>(info.extent.voxels());
     const double sample = static_cast<double>(info.calibration.slope < 0 ? sizeof(double) : size_of(info.type));
-    const double elements = sampled_density(reader, options.analysis) * voxels;
+    BuildEstimate estimate;
+    estimate.budget = options.memory > 0 ? options.memory : available_memory() / 2;
+    const double elements = sampled_density(reader, options.analysis, estimate.budget) * voxels;
     const double id = voxels < 0x1p31 && elements < 0x1p30 ? 4 : 8;
     const int workers = thread_count(threads);
-    BuildEstimate estimate;
     estimate.critical_elements = rounded(elements);
     estimate.memory = kProgram + rounded(voxels * (sample + 1 + id) + elements * (32 + 8 * id));
     estimate.memory_least = std::max(kLeastMemory, kProgram + workers * 8 * info.extent.slice() + rounded(voxels / 64));
-    estimate.budget = options.memory > 0 ? options.memory : available_memory() / 2;
     estimate.uses_scratch = estimate.memory > estimate.budget / 5 * 3;
     estimate.store_bytes = rounded(voxels * sample + elements * 6);
     std::error_code ignored;
