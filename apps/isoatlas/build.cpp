@@ -68,6 +68,7 @@ Json estimate_json(const BuildEstimate& estimate) {
 /// Prints what a build would take, and fails as it would.
 int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader, const BuildOptions& options) {
     const BuildEstimate estimate = estimate_build(reader, arguments.output, options, arguments.threads);
+    check_estimate(estimate, reader.info().path, arguments.output);
     if (arguments.json) {
         Json json = document("build", reader.info(), options.analysis.interpolant, options.analysis.tunnel_height);
         json["estimate"] = estimate_json(estimate);
@@ -82,7 +83,6 @@ int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader
                        << " in the end; " << bytes(estimate.disk_free) << " are free\n"
                        << "time               " << seconds_text(estimate.seconds) << '\n';
     }
-    check_estimate(estimate, reader.info().path, arguments.output);
     return 0;
 }
 
