@@ -18,6 +18,7 @@ demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores
 demo|libxxhash-dev|checksums of stores
+demo|libdeflate-dev|compressed trees in stores
 demo|libcli11-dev|command line
 demo|libfmt-dev|text output of the command line
 demo|nlohmann-json3-dev|JSON output of the command line

@@ -1,6 +1,7 @@
 // Chunks of arrays, compressed as HDF5's filters "shuffle" and "deflate" would: any HDF5 reader opens them.
 //
-// Shuffle puts the first bytes of all numbers in front, then the second bytes, ...: ids and sorted values have high bytes that hardly change.
+// Shuffle puts the first bytes of all numbers in front, then the second bytes, ...: ids and sorted values have high bytes that hardly
+// change.
 #pragma once
 
 #include <cstddef>

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/parallel.h"
 #include "isoatlas/error.h"
 #include "store/checksum.h"
+#include "store/chunk_codec.h"
 
 namespace isoatlas::store {
 namespace {
@@ -83,6 +85,7 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
     const auto size = static_cast<std::int64_t>(out.size());
     if (first < 0 || first > array.bytes() - size || array.block == 0) damaged(array.name, "bytes outside the array are asked for");
     if (size == 0) return;
+    if (array.chunk > 0) return read_chunks(array, first, out);
     const std::int64_t begin = first / array.block, end = (first + size + array.block - 1) / array.block;
     const std::vector<std::uint64_t> sums = checksums_of(array, begin, end);
     std::vector<std::byte> edge(static_cast<std::size_t>(array.block));
@@ -99,6 +102,45 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
     }
 }
 
+std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
+    std::vector<StoredChunk> chunks(static_cast<std::size_t>(last - first));
+    io::read_fully(*file_, path_, array.checksums + 24 * first, std::as_writable_bytes(std::span(chunks)));
+    const auto size = static_cast<std::uint64_t>(file_size_);
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        if (chunks[i].offset > size || chunks[i].bytes > size - chunks[i].offset)
+            damaged(array.name + ", chunk " + std::to_string(first + static_cast<std::int64_t>(i)), "it lies outside the file");
+    }
+    return chunks;
+}
+
+std::vector<std::byte> Container::read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const {
+    std::vector<std::byte> packed(static_cast<std::size_t>(chunk.bytes));
+    io::read_fully(*file_, path_, static_cast<std::int64_t>(chunk.offset), packed);
+    if (checksum(packed) != chunk.checksum) damaged(array.name + ", chunk " + std::to_string(number), "its checksum is wrong");
+    return packed;
+}
+
+void Container::read_chunks(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
+    const auto size = static_cast<std::int64_t>(out.size());
+    const std::int64_t begin = first / array.block, end = (first + size + array.block - 1) / array.block;
+    const std::vector<StoredChunk> chunks = chunks_of(array, begin, end);
+    for_each_block(0, end - begin, [&](std::int64_t i) {
+        const std::int64_t start = (begin + i) * array.block, from = std::max(start, first);
+        const std::int64_t to = std::min(start + array.block, first + size);
+        const std::span<std::byte> wanted = out.subspan(static_cast<std::size_t>(from - first), static_cast<std::size_t>(to - from));
+        const std::vector<std::byte> packed = read_chunk(array, begin + i, chunks[static_cast<std::size_t>(i)]);
+        std::vector<std::byte> raw(static_cast<std::size_t>(to - from == array.block ? 0 : array.block));
+        if (!decode_chunk(packed, size_of_type(array.type), raw.empty() ? wanted : std::span(raw)))
+            damaged(array.name + ", chunk " + std::to_string(begin + i), "it cannot be decompressed");
+        if (!raw.empty()) std::memcpy(wanted.data(), raw.data() + (from - start), wanted.size());
+    });
+}
+
+void Container::for_each_chunk(const StoredArray& array, const std::function<void(std::span<const std::byte>)>& use) const {
+    const std::vector<StoredChunk> chunks = chunks_of(array, 0, array.blocks());
+    for (std::size_t i = 0; i < chunks.size(); ++i) use(read_chunk(array, static_cast<std::int64_t>(i), chunks[i]));
+}
+
 void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
     const auto size = static_cast<std::int64_t>(out.size());
     if (first < 0 || first > array.bytes() - size) damaged(array.name, "bytes outside the array are asked for");
@@ -108,8 +150,9 @@ void Container::read_unchecked(const StoredArray& array, std::int64_t first, std
 void Container::check_all() const {
     for (const StoredArray& array : contents_.arrays) {
         if (array.block == 0) continue;
-        const std::vector<std::uint64_t> sums = checksums_of(array, 0, array.blocks());
-        if (checksum(std::as_bytes(std::span(sums))) != array.sum) damaged(array.name, "the checksum of its checksums is wrong");
+        std::vector<std::byte> index(static_cast<std::size_t>(array.index_bytes()));
+        io::read_fully(*file_, path_, array.checksums, index);
+        if (checksum(index) != array.sum) damaged(array.name, "the checksum of its checksums is wrong");
         std::vector<std::byte> block(static_cast<std::size_t>(std::min(array.block, array.bytes())));
         for (std::int64_t first = 0; first < array.bytes(); first += array.block)
             read(array, first, std::span(block).first(static_cast<std::size_t>(std::min(array.block, array.bytes() - first))));

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,12 +51,18 @@ public:
         return numbers;
     }
 
+    /// The compressed chunks of an array one after the other, checked.
+    void for_each_chunk(const StoredArray& array, const std::function<void(std::span<const std::byte>)>& use) const;
+
     /// Reads every array that has checksums; throws Error{input} for the first that is damaged.
     void check_all() const;
 
 private:
     void read_header();
     [[nodiscard]] std::vector<std::uint64_t> checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
+    [[nodiscard]] std::vector<StoredChunk> chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
+    [[nodiscard]] std::vector<std::byte> read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const;
+    void read_chunks(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
     [[noreturn]] void damaged(const std::string& where, const std::string& what) const;
 
     std::string path_;

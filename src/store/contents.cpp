@@ -97,6 +97,7 @@ StoredArray array_of(const Json& json) {
     array.block = integer(json.at("block"));
     array.checksums = integer(json.at("checksums"));
     array.sum = unsigned_integer(json.at("sum"));
+    array.chunk = integer(json.at("chunk"));
     return array;
 }
 
@@ -106,14 +107,18 @@ bool lies_inside(std::int64_t offset, std::int64_t bytes, std::int64_t file_size
 
 /// A product of sizes that cannot overflow silently.
 bool is_sound(const StoredArray& array, std::int64_t file_size) {
+    constexpr std::int64_t kLargestChunk = 1 << 24, kBestCompression = 1 << 11;  // deflate: 1032 at most
     const std::int64_t size = size_of_type(array.type);
     if (size == 0 || array.block < 0 || array.shape.empty()) return false;
+    if (array.chunk < 0 || array.chunk > kLargestChunk || (array.chunk > 0 && array.block != array.chunk * size)) return false;
+    const std::int64_t most = array.chunk == 0 ? file_size : file_size * kBestCompression;
     std::int64_t bytes = size;
     for (const std::int64_t n : array.shape) {
-        if (n < 0 || (n > 0 && bytes > file_size / n)) return false;
+        if (n < 0 || (n > 0 && bytes > most / n)) return false;
         bytes *= n;
     }
-    return lies_inside(array.offset, bytes, file_size) && lies_inside(array.checksums, 8 * array.blocks(), file_size);
+    return lies_inside(array.offset, array.chunk == 0 ? bytes : 0, file_size) &&
+           lies_inside(array.checksums, array.index_bytes(), file_size);
 }
 
 bool is_sound(const Extent& extent) {
@@ -162,7 +167,8 @@ std::string to_json(const Contents& contents) {
                           {"offset", a.offset},
                           {"block", a.block},
                           {"checksums", a.checksums},
-                          {"sum", a.sum}});
+                          {"sum", a.sum},
+                          {"chunk", a.chunk}});
     }
     return json.dump(1);
 }

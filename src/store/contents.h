@@ -25,10 +25,20 @@ struct StoredArray {
     std::int64_t block = 0;           ///< bytes under one checksum (the last block may be shorter); 0: the array checks its parts itself
     std::int64_t checksums = 0;       ///< offset of its checksums, 8 bytes a block; they lie under the checksum `sum`
     std::uint64_t sum = 0;
+    /// 0, or numbers in a chunk: the array is compressed chunk by chunk (store/chunk_codec.h), a block is a chunk, and `checksums` is the
+    /// offset of a StoredChunk per chunk instead.
+    std::int64_t chunk = 0;
 
     [[nodiscard]] std::int64_t count() const;  ///< of numbers
     [[nodiscard]] std::int64_t bytes() const;
     [[nodiscard]] std::int64_t blocks() const { return block == 0 ? 0 : (bytes() + block - 1) / block; }
+    /// Of what is needed to check and to find its blocks.
+    [[nodiscard]] std::int64_t index_bytes() const { return blocks() * (chunk == 0 ? 8 : 24); }
+};
+
+/// Where a compressed chunk lies.
+struct StoredChunk {
+    std::uint64_t offset, bytes, checksum;
 };
 
 /// How a store was made. The same volume and parameters give the same bytes.

@@ -13,6 +13,7 @@
 
 #include "base/check.h"
 #include "isoatlas/error.h"
+#include "store/chunk_codec.h"
 #include "store/container.h"
 
 namespace isoatlas::store {
@@ -25,6 +26,7 @@ struct Memory {
     std::vector<Piece> pieces;
     haddr_t end_of_allocation = 0;  ///< where HDF5 would put the next thing
     haddr_t end_of_file = 0;        ///< end of what was written
+    haddr_t last_chunk = 0;         ///< where HDF5 would have written the last bytes of an array
 
     void write(haddr_t offset, std::span<const std::byte> bytes) {
         pieces.push_back({static_cast<std::int64_t>(offset), {bytes.begin(), bytes.end()}});
@@ -76,7 +78,12 @@ struct Driver {
         memory_of(file).read(offset, {static_cast<std::byte*>(out), size});
         return 0;
     }
-    static herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t size, const void* bytes) try {
+    static herr_t write(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t offset, std::size_t size, const void* bytes) try {
+        if (kind == H5FD_MEM_DRAW) {  // of arrays only the place is wanted
+            memory_of(file).last_chunk = offset;
+            memory_of(file).end_of_file = std::max<haddr_t>(memory_of(file).end_of_file, offset + size);
+            return 0;
+        }
         memory_of(file).write(offset, {static_cast<const std::byte*>(bytes), size});
         return 0;
     } catch (const std::bad_alloc&) {
@@ -165,7 +172,13 @@ struct Hdf5Layout::Data {
     std::string path;
     Memory memory;
     hid_t file = -1;
+    hid_t chunked = -1;  ///< the array that gets chunks
+    hsize_t next_chunk = 0, chunk = 0;
+    std::vector<std::byte> blank;  ///< HDF5 wants to be given some bytes
 
+    void end_chunks() {
+        if (chunked >= 0) H5Dclose(std::exchange(chunked, -1));
+    }
     [[noreturn]] void no_memory(const std::string& what) const {
         throw Error(
             ErrorKind::resource,
@@ -193,12 +206,14 @@ Hdf5Layout::Hdf5Layout(std::string path) : data_(std::make_unique<Data>()) {
 
 Hdf5Layout::~Hdf5Layout() {
     const std::lock_guard lock(hdf5_mutex());
+    data_->end_chunks();
     if (data_->file >= 0) H5Fclose(data_->file);
 }
 
 std::int64_t Hdf5Layout::add(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape) {
     const std::lock_guard lock(hdf5_mutex());
     const std::vector<hsize_t> dims(shape.begin(), shape.end());
+    data_->end_chunks();
     const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     data_->add_groups(name);
@@ -212,10 +227,37 @@ std::int64_t Hdf5Layout::add(const std::string& name, const std::string& type, c
     return address == HADDR_UNDEF ? 0 : static_cast<std::int64_t>(address);
 }
 
+void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, std::int64_t count, std::int64_t chunk) {
+    const std::lock_guard lock(hdf5_mutex());
+    data_->end_chunks();
+    const auto all = static_cast<hsize_t>(count);
+    data_->chunk = static_cast<hsize_t>(chunk), data_->next_chunk = 0;
+    const Handle space(H5Screate_simple(1, &all, nullptr), H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    data_->add_groups(name);
+    H5Pset_chunk(creation, 1, &data_->chunk);
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, kDeflateLevel);
+    H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+    H5Pset_obj_track_times(creation, 0);
+    data_->chunked = H5Dcreate2(data_->file, name.c_str(), hdf5_type(type), space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    if (data_->chunked < 0) data_->no_memory("the array " + name);
+}
+
+std::int64_t Hdf5Layout::add_chunk(std::int64_t bytes) {
+    const std::lock_guard lock(hdf5_mutex());
+    if (static_cast<std::int64_t>(data_->blank.size()) < bytes) data_->blank.resize(static_cast<std::size_t>(bytes));
+    const hsize_t first = std::exchange(data_->next_chunk, data_->next_chunk + data_->chunk);
+    const herr_t done = H5Dwrite_chunk(data_->chunked, H5P_DEFAULT, 0, &first, static_cast<std::size_t>(bytes), data_->blank.data());
+    if (done < 0) data_->no_memory("a chunk of an array");
+    return static_cast<std::int64_t>(data_->memory.last_chunk);
+}
+
 std::int64_t Hdf5Layout::size() const { return static_cast<std::int64_t>(data_->memory.end_of_allocation); }
 
 const std::vector<Hdf5Layout::Piece>& Hdf5Layout::finish() {
     const std::lock_guard lock(hdf5_mutex());
+    data_->end_chunks();
     if (H5Fclose(std::exchange(data_->file, -1)) < 0) data_->no_memory("its structures");
     return data_->memory.pieces;
 }

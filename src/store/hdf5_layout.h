@@ -21,6 +21,10 @@ public:
 
     /// Takes room for an array, with its groups. Returns the offset of its first byte; 0 when it has none.
     [[nodiscard]] std::int64_t add(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape);
+    /// The same for an array of one dimension that is compressed chunk by chunk: chunks follow by add_chunk(), before anything else.
+    void begin_chunks(const std::string& name, const std::string& type, std::int64_t count, std::int64_t chunk);
+    /// Takes room for the next chunk. Returns its offset.
+    [[nodiscard]] std::int64_t add_chunk(std::int64_t bytes);
     /// Bytes of the file so far; after finish() those of the whole file.
     [[nodiscard]] std::int64_t size() const;
 

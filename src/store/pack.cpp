@@ -7,7 +7,9 @@
 
 #include "base/atomic_file.h"
 #include "base/check.h"
+#include "base/parallel.h"
 #include "store/checksum.h"
+#include "store/chunk_codec.h"
 #include "store/container.h"
 #include "store/hdf5_layout.h"
 
@@ -54,6 +56,64 @@ private:
     std::vector<std::uint64_t> sums_;
 };
 
+/// Compresses an array as it comes, some chunks at once, and writes them one behind the other.
+class ChunkWriter {
+public:
+    ChunkWriter(AtomicFile& file, Hdf5Layout& layout, const StoredArray& array) : file_(file), layout_(layout), array_(array) {}
+    void put(std::span<const std::byte> bytes) {
+        while (!bytes.empty()) {
+            const std::size_t part = std::min(bytes.size(), kTogether * static_cast<std::size_t>(array_.block) - raw_.size());
+            raw_.insert(raw_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(part));
+            bytes = bytes.subspan(part);
+            if (raw_.size() == kTogether * static_cast<std::size_t>(array_.block)) compress();
+        }
+    }
+    void put_chunk(std::span<const std::byte> packed) {
+        const std::int64_t offset = layout_.add_chunk(static_cast<std::int64_t>(packed.size()));
+        file_.write_at(offset, packed);
+        chunks_.push_back({static_cast<std::uint64_t>(offset), packed.size(), checksum(packed)});
+    }
+    [[nodiscard]] const std::vector<StoredChunk>& finish() {
+        compress();
+        ISOATLAS_CHECK(static_cast<std::int64_t>(chunks_.size()) == array_.blocks());
+        return chunks_;
+    }
+
+private:
+    static constexpr std::size_t kTogether = 16;
+
+    void compress() {
+        const auto block = static_cast<std::size_t>(array_.block), count = (raw_.size() + block - 1) / block;
+        raw_.resize(count * block);  // the last chunk is full, too
+        std::vector<std::vector<std::byte>> packed(count);
+        for_each_block(0, static_cast<std::int64_t>(count), [&](std::int64_t i) {
+            packed[i] = encode_chunk(std::span(raw_).subspan(static_cast<std::size_t>(i) * block, block), size_of_type(array_.type));
+        });
+        for (const std::vector<std::byte>& chunk : packed) put_chunk(chunk);
+        raw_.clear();
+    }
+
+    AtomicFile& file_;
+    Hdf5Layout& layout_;
+    const StoredArray& array_;
+    std::vector<std::byte> raw_;
+    std::vector<StoredChunk> chunks_;
+};
+
+void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& source, StoredArray& array) {
+    layout.begin_chunks("/" + source.name, source.type, array.count(), source.chunk);
+    ChunkWriter writer(file, layout, array);
+    if (source.feed_chunks) {
+        source.feed_chunks([&](std::span<const std::byte> packed) { writer.put_chunk(packed); });
+    } else {
+        source.feed([&](std::span<const std::byte> bytes) { writer.put(bytes); });
+    }
+    const std::span<const std::byte> index = std::as_bytes(std::span(writer.finish()));
+    array.checksums = layout.add("/chunks/" + source.name, "uint64", {array.blocks(), 3});
+    file.write_at(array.checksums, index);
+    array.sum = checksum(index);
+}
+
 void write_array(AtomicFile& file, const PackedArray& source, StoredArray& array) {
     ArrayWriter writer(file, array);
     source.feed([&](std::span<const std::byte> bytes) { writer.put(bytes); });
@@ -70,13 +130,23 @@ void pack_store(const std::string& path, Contents contents, const std::vector<Pa
     Hdf5Layout layout(path);
     contents.arrays.clear();
     for (const PackedArray& source : arrays) {
-        StoredArray array{source.name, source.type, source.shape, 0, source.block, 0, 0};
+        StoredArray array{source.name, source.type, source.shape, 0, source.block, 0, 0, source.chunk};
+        if (source.chunk > 0) {  // laid out when it is known how large its chunks are
+            contents.arrays.push_back(std::move(array));
+            continue;
+        }
         array.offset = layout.add("/" + source.name, source.type, source.shape);
         if (array.blocks() > 0) array.checksums = layout.add("/checksums/" + source.name, "uint64", {array.blocks()});
         contents.arrays.push_back(std::move(array));
     }
     file.reserve(layout.size());
-    for (std::size_t i = 0; i < arrays.size(); ++i) write_array(file, arrays[i], contents.arrays[i]);
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        if (arrays[i].chunk > 0) {
+            write_chunks(file, layout, arrays[i], contents.arrays[i]);
+        } else {
+            write_array(file, arrays[i], contents.arrays[i]);
+        }
+    }
     Header header;
     const std::string text = to_json(contents);
     const std::span<const std::byte> bytes = std::as_bytes(std::span(text));

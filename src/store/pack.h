@@ -1,11 +1,13 @@
 // Writing a store in one go: all arrays are known, nothing is left to be found out.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "store/chunk_codec.h"
 #include "store/contents.h"
 
 namespace isoatlas::store {
@@ -19,8 +21,10 @@ struct PackedArray {
     std::vector<std::int64_t> shape;
     std::int64_t block = 0;
     std::function<void(const Put& put)> feed;
+    std::int64_t chunk = 0;                                ///< as in StoredArray
+    std::function<void(const Put& put)> feed_chunks = {};  ///< instead of feed: calls put with one compressed chunk after the other
 
-    [[nodiscard]] std::int64_t bytes() const { return StoredArray{name, type, shape, 0, block, 0, 0}.bytes(); }
+    [[nodiscard]] std::int64_t bytes() const { return StoredArray{name, type, shape, 0, block, 0, 0, chunk}.bytes(); }
 };
 
 inline constexpr std::int64_t kBlock = std::int64_t{1} << 16;
@@ -31,6 +35,17 @@ template <class T>
     return {std::move(name), std::move(type), {static_cast<std::int64_t>(numbers.size())}, block, [numbers](const Put& put) {
                 put(std::as_bytes(numbers));
             }};
+}
+
+/// The same, compressed. Few numbers are left as they are.
+template <class T>
+[[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::span<const T> numbers) {
+    constexpr std::size_t kFew = 1024;
+    PackedArray array = packed(std::move(name), std::move(type), numbers);
+    if (numbers.size() < kFew) return array;
+    array.chunk = std::min(kChunk, static_cast<std::int64_t>(numbers.size()));
+    array.block = array.chunk * static_cast<std::int64_t>(sizeof(T));
+    return array;
 }
 
 /// Writes PATH.partial, syncs it and renames it to PATH. contents: volume and parameters; its arrays are filled in.

@@ -73,7 +73,7 @@ std::vector<PackedArray> tree_arrays(const Analysis& analysis) {
     std::vector<PackedArray> packs;
     analysis.data().visit([&](const auto& held) {
         for_arrays(held.arrays, [&]<class N>(const char* name, const BigVector<N>& numbers) {
-            packs.push_back(packed<N>(name, type_name<N>(), std::span<const N>(numbers)));
+            packs.push_back(packed_chunks<N>(name, type_name<N>(), std::span<const N>(numbers)));
         });
     });
     return packs;
@@ -81,7 +81,7 @@ std::vector<PackedArray> tree_arrays(const Analysis& analysis) {
 
 std::vector<PackedArray> zone_arrays(const Analysis& analysis) {
     return analysis.data().visit([]<class Id>(const IndexedArrays<Id>& held) -> std::vector<PackedArray> {
-        return {packed<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.voxels))};
+        return {packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.voxels))};
     });
 }
 
@@ -96,6 +96,9 @@ std::vector<PackedArray> copied_arrays(const Container& store) {
                                  put(part);
                              }
                          }});
+        if (array.chunk == 0) continue;
+        packs.back().chunk = array.chunk;
+        packs.back().feed_chunks = [&store, &array](const Put& put) { store.for_each_chunk(array, put); };
     }
     return packs;
 }
