@@ -18,7 +18,9 @@ struct Arguments {
     // Reading
     OpenOptions open;
     MissingPolicy missing;
-    bool voxel_units = false;  ///< lengths in voxels, whatever the file says
+    std::optional<SampleBox> box;    ///< only this part of the volume
+    std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
+    bool voxel_units = false;        ///< lengths in voxels, whatever the file says
 
     // Running and talking
     Interpolant interpolant = Interpolant::trilinear;

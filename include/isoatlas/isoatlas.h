@@ -22,6 +22,7 @@
 #include "isoatlas/context.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/error.h"
+#include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"

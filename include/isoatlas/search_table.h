@@ -6,9 +6,10 @@
 // belong to none. A cell is *active* at tau when its lowest sample < tau <= its highest.
 // Two ways to find the active cells:
 //   zone files  the dissertation's (sections 10.1 and 11.2). A zone is *active* at tau when tau lies in (value of its parent, its value].
-//               The points of its file are its voxels, and the voxels beside its object (grid edges) when it ends, which wait to be flooded.
-//               Cells with such a point at a corner are in the file, sorted by their highest sample. *Loaded*: the cells in the files of all
-//               active zones. *Visited*: in each file those from the highest down to the first whose highest sample is below tau, included.
+//               The points of its file are its voxels, and the voxels beside its object (grid edges) when it ends, which wait to be
+//               flooded. Cells with such a point at a corner are in the file, sorted by their highest sample. *Loaded*: the cells in the
+//               files of all active zones. *Visited*: in each file those from the highest down to the first whose highest sample is below
+//               tau, included.
 //   bricks      ours (docs/decisions/0009). A brick of 16 samples a side is read when it, or the two samples around it, are divided by tau;
 //               outside the volume everything is Low. Loaded and visited: the cells whose first corner lies in a brick that is read.
 // Load utility: active / loaded; travel utility: active / visited, in percent.

@@ -112,11 +112,10 @@ double percent(std::int64_t part, std::int64_t whole) {
     return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-SearchWay way_of(const std::vector<SearchCost>& costs, std::int64_t SearchCost::*loaded, std::int64_t SearchCost::*visited,
+SearchWay way_of(const std::vector<SearchCost>& costs, std::int64_t SearchCost::* loaded, std::int64_t SearchCost::* visited,
                  std::int64_t cells) {
     const std::size_t n = costs.size();
-    return {spread_of(n, [&](std::size_t i) { return costs[i].*visited; }),
-            spread_of(n, [&](std::size_t i) { return costs[i].*loaded; }),
+    return {spread_of(n, [&](std::size_t i) { return costs[i].*visited; }), spread_of(n, [&](std::size_t i) { return costs[i].*loaded; }),
             spread_of(n, [&](std::size_t i) { return percent(costs[i].active, costs[i].*loaded); }),
             spread_of(n, [&](std::size_t i) { return percent(costs[i].active, costs[i].*visited); }),
             spread_of(n, [&](std::size_t i) { return percent(costs[i].*loaded, cells); })};
