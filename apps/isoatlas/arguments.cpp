@@ -143,13 +143,17 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
     }
 }
 
-bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion"; }
+bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion" && verb != "dump"; }
 
 std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
     auto app = std::make_unique<CLI::App>(verb.summary, "isoatlas " + verb.name);
-    CLI::Option* operand = app->add_option(verb.operand, arguments.file, reads_volumes(verb.name) ? "The file (or folder of slices)" : "");
+    CLI::Option* operand = app->add_option(verb.operand, arguments.file,
+                                           reads_volumes(verb.name) ? "The file (or folder of slices)"
+                                           : verb.name == "dump"    ? "The store"
+                                                                    : "");
     operand->type_name("");
     if (verb.name != "phantom") operand->required();
+    if (verb.name == "dump") app->add_option("PART", arguments.part, "What to print; left out: a list of all parts")->type_name("");
     add_own(*app, verb.name, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
     if (reads_volumes(verb.name) && verb.name != "info") add_interpolant(*app, typed);

@@ -12,8 +12,9 @@ namespace isoatlas::cli {
 
 struct Arguments {
     std::string verb;
-    std::string file;    ///< VOLUME, MESH, or the name of a phantom, verb or shell
-    std::string output;  ///< -o; empty: none
+    std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
+    std::string output;             ///< -o; empty: none
+    std::vector<std::string> part;  ///< of a store: the words of its name
 
     // Reading
     OpenOptions open;

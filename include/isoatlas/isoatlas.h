@@ -21,6 +21,7 @@
 #include "isoatlas/build.h"
 #include "isoatlas/context.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/dump.h"
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
