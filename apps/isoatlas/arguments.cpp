@@ -140,6 +140,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
             ->check(in_range(1, 100000))
             ->type_name("N");
+        app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree made anew from the samples");
+        app.add_option("--seed", arguments.seed, "Stores: draws isovalues and objects (1)")->type_name("N");
     }
 }
 

@@ -42,6 +42,8 @@ struct Arguments {
     bool best = false, all = false, zones = false, list = false;
     std::int64_t top = 0;  ///< 0: not given
     int levels = 8;
+    bool full = false;
+    std::uint64_t seed = 1;
 
     // Shaping the output
     ShellChoice shell = ShellChoice::all;
