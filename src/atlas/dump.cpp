@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "isoatlas/error.h"
+#include "store/brick_codec.h"
 #include "store/brick_reader.h"
 #include "store/checksum.h"
 #include "store/container.h"
@@ -142,8 +143,15 @@ struct StoreDump::Data {
         const StoredArray &data = store.contents().array("volume/data", "uint8"),
                           &offset = store.contents().array("volume/offset", "uint64"),
                           &bits = store.contents().array("volume/bits", "uint8");
-        part.offset = data.offset + static_cast<std::int64_t>(number_of<std::uint64_t>(offset, brick));
-        part.bytes = (box.count() * number_of<std::uint8_t>(bits, brick) + 7) / 8;
+        const auto begin = number_of<std::uint64_t>(offset, brick);
+        if (begin > static_cast<std::uint64_t>(data.bytes())) {
+            throw Error(ErrorKind::input, {.file = store.path(),
+                                           .where = name,
+                                           .what = "it lies outside the data",
+                                           .next = "the store is damaged: build it again from the volume"});
+        }
+        part.offset = data.offset + static_cast<std::int64_t>(begin);
+        part.bytes = store::packed_bytes(box.count(), number_of<std::uint8_t>(bits, brick));
         return part;
     }
 
