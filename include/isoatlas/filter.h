@@ -22,9 +22,9 @@ struct SampleBox {
 /// whole samples, sum 1, none beyond 4 sigma (rounded to samples). Beyond the ends of the volume the last sample goes on.
 /// The samples keep their type, integers are rounded to the nearest one (docs/decisions/0010), and their calibration.
 /// info.gaussian of the result tells sigma; filtered twice: the root of the sum of the squares.
-/// The same bytes for any threads and slab height: a slab is made of itself and `gaussian_radius` slices around it.
+/// A slice is made of itself and `gaussian_radius` slices on either side. The same bytes for any number of threads.
 /// Throws Error: usage (sigma not positive or above 1000 samples; rectilinear grids), cancelled.
-/// Cost: O(voxels * radius) time; beyond the result O(threads * (slab + 2 radius)) slices of doubles.
+/// Cost: O(voxels * radius) time; memory beyond the result: 2 radius + 1 slices of doubles.
 [[nodiscard]] Volume gaussian_filter(const Volume& volume, double sigma, const Context& context = {});
 
 /// How many samples on either side of a sample gaussian_filter looks at, per axis. Throws as it does.

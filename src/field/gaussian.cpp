@@ -1,17 +1,17 @@
-// Slab by slab: every slice is filtered along x and y when it first comes into reach of the slab, then weighted sums of slices are taken.
-// Sums run in one order, so a sample does not depend on the slab in which it is made.
+// Slice after slice: a slice is filtered along x and y when it first comes into reach, and kept until it is out of reach; the slice in the
+// middle becomes the weighted sum of those that are kept. Every sum runs in one order, so the bytes do not depend on the threads.
+#include "field/gaussian.h"
+
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 #include "base/parallel.h"
-#include "field/grid.h"
-#include "isoatlas/filter.h"
 
 namespace isoatlas {
 namespace {
@@ -34,13 +34,23 @@ Kernel kernel_of(double sigma, std::int64_t radius) {
     return kernel;
 }
 
-/// sample(i) for i in [0, count), weighted around `at`; beyond the ends the last one goes on.
-template <class Sample>
-double weighted(const Kernel& kernel, std::int64_t at, std::int64_t count, const Sample& sample) {
-    double sum = kernel[0] * sample(at);
-    for (std::int64_t d = 1; d < static_cast<std::int64_t>(kernel.size()); ++d)
-        sum += kernel[static_cast<std::size_t>(d)] * (sample(std::max<std::int64_t>(at - d, 0)) + sample(std::min(at + d, count - 1)));
-    return sum;
+/// out[i] = sum of kernel[d] * row(at +- d)[i]; beyond the ends the last of `count` rows goes on. row(r): numbers of row r.
+template <class Row>
+void add_rows(const Kernel& kernel, std::int64_t at, std::int64_t count, const Row& row, std::span<double> out) {
+    const auto* middle = row(at);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = kernel[0] * static_cast<double>(middle[i]);
+    for (std::int64_t d = 1; d < static_cast<std::int64_t>(kernel.size()); ++d) {
+        const auto *before = row(std::max<std::int64_t>(at - d, 0)), *behind = row(std::min(at + d, count - 1));
+        const double weight = kernel[static_cast<std::size_t>(d)];
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weight * (static_cast<double>(before[i]) + static_cast<double>(behind[i]));
+    }
+}
+
+/// The same along one row.
+void add_along(const Kernel& kernel, std::span<const double> row, std::span<double> out) {
+    const auto count = static_cast<std::int64_t>(row.size());
+    for (std::int64_t x = 0; x < count; ++x)
+        add_rows(kernel, x, count, [&](std::int64_t i) { return row.data() + i; }, out.subspan(static_cast<std::size_t>(x), 1));
 }
 
 /// A weighted mean lies between the samples it is made of, up to rounding.
@@ -55,46 +65,58 @@ T sample_of(double mean) {
 }
 
 template <class T>
-void filter_slice(const T* samples, const Extent& extent, const std::array<Kernel, 3>& kernels, std::vector<double>& row,
-                  std::span<double> out) {
-    const std::int64_t nx = extent.size[0], ny = extent.size[1];
-    for (std::int64_t x = 0; x < nx; ++x) {
-        for (std::int64_t y = 0; y < ny; ++y)
-            row[static_cast<std::size_t>(y)] =
-                weighted(kernels[1], y, ny, [&](std::int64_t i) { return static_cast<double>(samples[x + nx * i]); });
-        for (std::int64_t y = 0; y < ny; ++y) out[static_cast<std::size_t>(x + nx * y)] = row[static_cast<std::size_t>(y)];
-    }
-    for (std::int64_t y = 0; y < ny; ++y) {
-        const std::span<double> line = out.subspan(static_cast<std::size_t>(nx * y), static_cast<std::size_t>(nx));
-        std::ranges::copy(line, row.begin());
-        for (std::int64_t x = 0; x < nx; ++x)
-            line[static_cast<std::size_t>(x)] =
-                weighted(kernels[0], x, nx, [&](std::int64_t i) { return row[static_cast<std::size_t>(i)]; });
-    }
-}
+class Filter {
+public:
+    Filter(const Extent& extent, const std::array<Kernel, 3>& kernels, T* samples, int threads)
+        : extent_(extent), kernels_(kernels), samples_(samples), threads_(threads), window_(2 * kernels[2].size() - 1) {}
 
-/// Slices [slab.z_begin, slab.z_end) of the result; looks at as many slices around them as the last kernel reaches.
-template <class T>
-void filter_slab(const GridView<T>& grid, const std::array<Kernel, 3>& kernels, const Slab& slab, T* out) {
-    const Extent& extent = grid.extent;
-    const std::int64_t radius = static_cast<std::int64_t>(kernels[2].size()) - 1, slices = extent.size[2];
-    const std::int64_t begin = std::max<std::int64_t>(slab.z_begin - radius, 0), end = std::min(slab.z_end + radius, slices);
-    const auto size = static_cast<std::size_t>(extent.slice());
-    std::vector<double> row(static_cast<std::size_t>(std::max(extent.size[0], extent.size[1])));
-    std::vector<std::vector<double>> flat(static_cast<std::size_t>(end - begin));
-    std::int64_t next = begin;
-    for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-        for (; next < std::min(z + radius + 1, end); ++next) {
-            std::vector<double>& slice = flat[static_cast<std::size_t>(next - begin)];
-            slice.resize(size);
-            filter_slice(grid.slice(next), extent, kernels, row, slice);
+    /// Calls done(slices) after each slice.
+    template <class Done>
+    void run(const Done& done) {
+        const auto radius = static_cast<std::int64_t>(kernels_[2].size()) - 1;
+        std::int64_t next = 0;
+        for (std::int64_t z = 0; z < extent_.size[2]; ++z) {
+            for (; next < std::min(z + radius + 1, extent_.size[2]); ++next) filter_slice(next);
+            for_rows([&](std::int64_t y, std::span<double> row) {
+                const std::int64_t first = y * extent_.size[0];
+                add_rows(kernels_[2], z, extent_.size[2], [&](std::int64_t slice) { return kept(slice).data() + first; }, row);
+                std::transform(row.begin(), row.end(), samples_ + z * extent_.slice() + first, sample_of<T>);
+            });
+            done(z + 1);
         }
-        for (std::size_t i = 0; i < size; ++i)
-            *out++ =
-                sample_of<T>(weighted(kernels[2], z, slices, [&](std::int64_t s) { return flat[static_cast<std::size_t>(s - begin)][i]; }));
-        if (z - radius >= begin) std::vector<double>().swap(flat[static_cast<std::size_t>(z - radius - begin)]);
     }
-}
+
+private:
+    [[nodiscard]] std::vector<double>& kept(std::int64_t slice) { return window_[static_cast<std::size_t>(slice) % window_.size()]; }
+
+    /// Along y, then along x.
+    void filter_slice(std::int64_t z) {
+        const std::int64_t nx = extent_.size[0];
+        const T* slice = samples_ + z * extent_.slice();
+        std::vector<double>& out = kept(z);
+        out.resize(static_cast<std::size_t>(extent_.slice()));
+        for_rows([&](std::int64_t y, std::span<double> row) {
+            add_rows(kernels_[1], y, extent_.size[1], [&](std::int64_t i) { return slice + i * nx; }, row);
+            add_along(kernels_[0], row, std::span(out).subspan(static_cast<std::size_t>(y * nx), row.size()));
+        });
+    }
+
+    /// Calls work(y, room for a row) for all rows of a slice.
+    template <class Work>
+    void for_rows(const Work& work) const {
+        constexpr std::int64_t kRows = 32;
+        for_each_block(threads_, (extent_.size[1] + kRows - 1) / kRows, [&](std::int64_t block) {
+            std::vector<double> row(static_cast<std::size_t>(extent_.size[0]));
+            for (std::int64_t y = block * kRows; y < std::min((block + 1) * kRows, extent_.size[1]); ++y) work(y, row);
+        });
+    }
+
+    const Extent& extent_;
+    const std::array<Kernel, 3>& kernels_;
+    T* samples_;
+    int threads_;
+    std::vector<std::vector<double>> window_;  ///< slices filtered along x and y, the last ones that came into reach
+};
 
 void check(const VolumeInfo& info, double sigma) {
     const Geometry& geometry = info.geometry;
@@ -114,22 +136,6 @@ void check(const VolumeInfo& info, double sigma) {
     }
 }
 
-template <class T>
-void filter_all(const Volume& volume, const std::array<Kernel, 3>& kernels, const Context& context, std::span<T> out) {
-    const GridView<T> grid{volume.samples<T>().data(), volume.info.extent};
-    const std::int64_t slices = grid.extent.size[2], radius = static_cast<std::int64_t>(kernels[2].size()) - 1;
-    const std::int64_t height = context.slab_slices > 0 ? context.slab_slices : std::max<std::int64_t>(4 * radius, 16);
-    const std::int64_t slabs = (slices + height - 1) / height;
-    std::atomic<bool> cancelled = false;
-    for_each_block(context.threads, slabs, [&](std::int64_t i) {
-        if (cancelled) return;
-        const Slab slab = slab_at(i, height, slices);
-        filter_slab(grid, kernels, slab, out.data() + slab.z_begin * grid.extent.slice());
-        if (context.cancelled && context.cancelled()) cancelled = true;
-    });
-    if (cancelled) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-}
-
 }  // namespace
 
 std::array<std::int64_t, 3> gaussian_radius(const VolumeInfo& info, double sigma) {
@@ -142,31 +148,39 @@ std::array<std::int64_t, 3> gaussian_radius(const VolumeInfo& info, double sigma
     return radius;
 }
 
-Volume gaussian_filter(const Volume& volume, double sigma, const Context& context) {
-    const std::array<std::int64_t, 3> radius = gaussian_radius(volume.info, sigma);
+void filter_in_place(VolumeInfo& info, std::byte* samples, double sigma, const Context& context) {
+    const std::array<std::int64_t, 3> radius = gaussian_radius(info, sigma);
     std::array<Kernel, 3> kernels;
-    for (std::size_t axis = 0; axis < 3; ++axis) kernels[axis] = kernel_of(sigma / volume.info.geometry.spacing[axis], radius[axis]);
-    Volume result = make_volume(volume.info.extent, volume.info.type);
-    result.info = volume.info;
-    result.info.gaussian = std::hypot(volume.info.gaussian, sigma);
-    visit_type(volume.info.type, [&]<class T>(T) { filter_all<T>(volume, kernels, context, result.samples<T>()); });
+    for (std::size_t axis = 0; axis < 3; ++axis) kernels[axis] = kernel_of(sigma / info.geometry.spacing[axis], radius[axis]);
+    visit_type(info.type, [&]<class T>(T) {
+        Filter<T>(info.extent, kernels, reinterpret_cast<T*>(samples), context.threads).run([&](std::int64_t) {
+            if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        });
+    });
+    info.gaussian = std::hypot(info.gaussian, sigma);
+}
+
+Volume gaussian_filter(const Volume& volume, double sigma, const Context& context) {
+    Volume result = volume;
+    filter_in_place(result.info, result.bytes.data(), sigma, context);
     return result;
 }
 
 Volume gaussian_filter(const Volume& volume, const SampleBox& box, double sigma, const Context& context) {
     const Extent& extent = volume.info.extent;
     const std::array<std::int64_t, 3> radius = gaussian_radius(volume.info, sigma);
-    SampleBox wide = box, inside{};
+    Volume part = crop(volume, box);
+    SampleBox wide{}, inside{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (box.begin[axis] < 0 || box.end[axis] > extent.size[axis] || box.begin[axis] >= box.end[axis])
-            return crop(volume, box);  // throws
         wide.begin[axis] = std::max<std::int64_t>(box.begin[axis] - radius[axis], 0);
         wide.end[axis] = std::min(box.end[axis] + radius[axis], extent.size[axis]);
         inside.begin[axis] = box.begin[axis] - wide.begin[axis];
         inside.end[axis] = box.end[axis] - wide.begin[axis];
     }
-    Volume part = crop(gaussian_filter(crop(volume, wide), sigma, context), inside);
-    part.info.geometry = crop(volume, box).info.geometry;
+    Volume around = crop(volume, wide);
+    filter_in_place(around.info, around.bytes.data(), sigma, context);
+    part.bytes = crop(around, inside).bytes;
+    part.info.gaussian = around.info.gaussian;
     return part;
 }
 

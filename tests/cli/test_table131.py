@@ -49,6 +49,8 @@ class Table131(harness.CliTest):
         for box in ("0:1", "1,2,3", "3:3,0:1,0:1", "a:b,0:1,0:1"):
             self.run_error(2, "table131", "noise.nrrd", "--box", box, says="--box")
         self.run_error(2, "build", "noise.nrrd", "-o", "x.atlas", "--gaussian", "-1", says="--gaussian")
+        self.run_error(2, "build", "noise.nrrd", "-o", "x.atlas", "--gaussian", "1e9", says="sigma", next_says="spacing")
+        self.assertFalse((self.folder / "x.atlas.build").exists())
         self.assert_no_partial()
 
 

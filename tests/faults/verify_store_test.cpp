@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 
+#include "isoatlas/build.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/verify.h"
 #include "store/brick_grid.h"

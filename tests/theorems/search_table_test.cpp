@@ -8,6 +8,7 @@
 #include <set>
 
 #include "isoatlas/atlas.h"
+#include "isoatlas/build.h"
 #include "oracle/compare.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/volumes.h"
@@ -125,7 +126,7 @@ RC_GTEST_PROP(SearchTables, AreThoseOfTheWrittenFiles, ()) {
 }
 
 RC_GTEST_PROP(SearchTables, CountTheBricksThatAStoreReads, ()) {
-    std::array<Index, 3> size{*rc::gen::inRange<Index>(1, 60), *rc::gen::inRange<Index>(1, 60), *rc::gen::inRange<Index>(1, 40)};
+    std::array<Index, 3> size{*rc::gen::inRange<Index>(1, 40), *rc::gen::inRange<Index>(1, 36), *rc::gen::inRange<Index>(1, 20)};
     std::vector<int> raw(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 40);
     std::uint64_t state = *rc::gen::inRange<std::uint64_t>(0, 1000000);
     for (int& r : raw) r = static_cast<int>((state = state * 6364136223846793005U + 1442695040888963407U) >> 33) % 10000;
