@@ -69,7 +69,7 @@ protected:
         Context context;
         context.threads = 1;
         std::vector<CheckResult> failed;
-        for (const CheckResult& check : verify_atlas(Atlas(path), {.levels = 6, .full = full}, context)) {
+        for (const CheckResult& check : verify_atlas(Atlas(path), {.levels = 3, .full = full}, context)) {
             if (!check.holds) failed.push_back(check);
         }
         return failed;
