@@ -7,10 +7,10 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo test check build install format lint bench fuzz asan tsan coverage clean
+.PHONY: help demo test check build install format lint bench table131 fuzz asan tsan coverage clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
 
 demo: ## build, analyse the demonstration volume (or VOLUME=file, ARGS=options of the reader), write demo/
 	@scripts/demo.sh
@@ -36,6 +36,9 @@ lint: ## clang-tidy over src and apps
 
 bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges; writes build/bench/*.json and docs/performance.md
 	@scripts/bench.sh
+
+table131: build ## the dissertation's table 13.1 beside ours; writes docs/performance.md
+	@python3 bench/table131.py build/release/bin/isoatlas ../shared/data
 
 fuzz: ## every fuzz target for SECONDS_PER_TARGET (60)
 	@scripts/fuzz.sh

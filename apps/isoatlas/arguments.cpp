@@ -21,10 +21,10 @@ namespace {
 
 /// Options as typed; converted after the parse so that every message is ours.
 struct Typed {
-    std::string dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all", style = "compact",
-                                                              boundary = "closed", detail = "events", memory;
+    std::string box, dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all",
+                                                                   style = "compact", boundary = "closed", detail = "events", memory;
     double no_data = 0;
-    double tau = 0;
+    double tau = 0, gaussian = 0;
     std::int64_t skip = 0, time_step = 0;
 };
 
@@ -86,6 +86,11 @@ void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
     app.add_option("--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
 }
 
+void add_gaussian(CLI::App& app, Typed& typed) {
+    app.add_option("--gaussian", typed.gaussian, "Filter first: a Gaussian of this standard deviation, in the unit of the spacing")
+        ->type_name("SIGMA");
+}
+
 void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed& typed) {
     if (verb == "tree") {
         app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
@@ -111,11 +116,15 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "build") {
+        add_gaussian(app, typed);
         add_output(app, arguments, ".atlas", true);
         app.add_option("--memory", typed.memory, "Use at most this much memory, such as 1G or 500M; default: half of what there is")
             ->type_name("SIZE");
         app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
         app.add_flag("--restart", arguments.restart, "Forget the finished phases of an interrupted build");
+    } else if (verb == "table131") {
+        add_gaussian(app, typed);
+        app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
         app.add_option("--size", arguments.phantom.size, "Samples per axis")
@@ -131,16 +140,22 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
             ->check(in_range(1, 100000))
             ->type_name("N");
+        app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree made anew from the samples");
+        app.add_option("--seed", arguments.seed, "Stores: draws isovalues and objects (1)")->type_name("N");
     }
 }
 
-bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion"; }
+bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion" && verb != "dump"; }
 
 std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
     auto app = std::make_unique<CLI::App>(verb.summary, "isoatlas " + verb.name);
-    CLI::Option* operand = app->add_option(verb.operand, arguments.file, reads_volumes(verb.name) ? "The file (or folder of slices)" : "");
+    CLI::Option* operand = app->add_option(verb.operand, arguments.file,
+                                           reads_volumes(verb.name) ? "The file (or folder of slices)"
+                                           : verb.name == "dump"    ? "The store"
+                                                                    : "");
     operand->type_name("");
     if (verb.name != "phantom") operand->required();
+    if (verb.name == "dump") app->add_option("PART", arguments.part, "What to print; left out: a list of all parts")->type_name("");
     add_own(*app, verb.name, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
     if (reads_volumes(verb.name) && verb.name != "info") add_interpolant(*app, typed);
@@ -184,6 +199,12 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     if (given("--skip")) arguments.open.skip_bytes = typed.skip;
     if (given("--spacing")) arguments.open.spacing = parse_vector("--spacing", typed.spacing, 1);
     if (given("--origin")) arguments.open.origin = parse_vector("--origin", typed.origin, 0);
+    if (given("--box")) arguments.box = parse_box("--box", typed.box);
+    if (given("--gaussian")) {
+        if (!std::isfinite(typed.gaussian) || typed.gaussian <= 0)
+            usage("--gaussian is not above 0", "give the standard deviation in the unit of the spacing that `isoatlas info` prints");
+        arguments.gaussian = typed.gaussian;
+    }
     if (given("--time-step")) arguments.open.time_step = typed.time_step;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) arguments.missing.no_data = typed.no_data;

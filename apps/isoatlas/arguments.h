@@ -12,13 +12,16 @@ namespace isoatlas::cli {
 
 struct Arguments {
     std::string verb;
-    std::string file;    ///< VOLUME, MESH, or the name of a phantom, verb or shell
-    std::string output;  ///< -o; empty: none
+    std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
+    std::string output;             ///< -o; empty: none
+    std::vector<std::string> part;  ///< of a store: the words of its name
 
     // Reading
     OpenOptions open;
     MissingPolicy missing;
-    bool voxel_units = false;  ///< lengths in voxels, whatever the file says
+    std::optional<SampleBox> box;    ///< only this part of the volume
+    std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
+    bool voxel_units = false;        ///< lengths in voxels, whatever the file says
 
     // Running and talking
     Interpolant interpolant = Interpolant::trilinear;
@@ -39,6 +42,8 @@ struct Arguments {
     bool best = false, all = false, zones = false, list = false;
     std::int64_t top = 0;  ///< 0: not given
     int levels = 8;
+    bool full = false;
+    std::uint64_t seed = 1;
 
     // Shaping the output
     ShellChoice shell = ShellChoice::all;

@@ -41,6 +41,7 @@ BuildOptions options_of(const Arguments& arguments, VolumeReader& reader) {
     options.missing = arguments.missing;
     options.memory = arguments.memory;
     options.restart = arguments.restart;
+    options.gaussian = arguments.gaussian.value_or(0);
     if (arguments.voxel_units) options.geometry = voxel_geometry();
     if (arguments.tunnel_height > 0 && !arguments.tunnel_height_in_percent) {
         options.analysis.tunnel_height = arguments.tunnel_height / std::abs(reader.info().calibration.slope);

@@ -36,6 +36,7 @@ Json volume_json(const VolumeInfo& info) {
     json["unit"] = or_null(info.geometry.unit);
     json["value_unit"] = or_null(info.value_unit);
     json["calibration"] = {{"slope", info.calibration.slope}, {"intercept", info.calibration.intercept}};
+    json["gaussian"] = info.gaussian > 0 ? Json(info.gaussian) : Json(nullptr);
     json["notes"] = info.notes;
     return json;
 }

@@ -77,6 +77,7 @@ std::string Session::describe(const VolumeInfo& info, const ValueRange& range) {
         if (info.extent.rank == 3) line += fmt::format(" x {:.5g}", spacing[2]);
         line += info.geometry.unit.empty() ? "" : " " + info.geometry.unit;
     }
+    if (info.gaussian > 0) line += fmt::format("  Gaussian {:.5g}", info.gaussian);
     return line + fmt::format("  values {} .. {}", scale.brief(range.low), scale.brief(range.high));
 }
 
@@ -84,6 +85,12 @@ Geometry voxel_geometry() {
     Geometry geometry;
     geometry.space = "voxel";
     return geometry;
+}
+
+Volume shaped(Volume volume, const Arguments& arguments, const Context& context) {
+    if (arguments.box && arguments.gaussian) return gaussian_filter(volume, *arguments.box, *arguments.gaussian, context);
+    if (arguments.gaussian) return gaussian_filter(volume, *arguments.gaussian, context);
+    return arguments.box ? crop(volume, *arguments.box) : std::move(volume);
 }
 
 Volume Session::load() {
@@ -107,6 +114,7 @@ Volume Session::load() {
     stop_if_interrupted();
     for (const std::string& note : volume.info.notes) terminal_.say("note: " + note);
     if (arguments_.voxel_units) volume.info.geometry = voxel_geometry();
+    volume = shaped(std::move(volume), arguments_, context());
     if (!arguments_.quiet) terminal_.say(describe(volume.info, range_of(volume)));
     return volume;
 }
@@ -166,6 +174,7 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.missing.action == MissingPolicy::Action::below) text += " --missing below";
     if (arguments.missing.action == MissingPolicy::Action::replace) text += fmt::format(" --missing {}", arguments.missing.value);
     if (arguments.missing.no_data) text += fmt::format(" --no-data {}", *arguments.missing.no_data);
+    if (arguments.gaussian) text += fmt::format(" --gaussian {}", *arguments.gaussian);
     if (arguments.voxel_units) text += " --voxel";
     if (arguments.interpolant == Interpolant::faces) text += " --interpolant faces";
     if (arguments.tunnel_height > 0)

@@ -44,6 +44,9 @@ struct Cost {
 /// "memory 210 MB to 1.3 GB, time about 2 s" for messages.
 [[nodiscard]] std::string cost_text(const VolumeInfo& info, int threads);
 
+/// What --gaussian and --box make of a volume.
+[[nodiscard]] Volume shaped(Volume volume, const Arguments& arguments, const Context& context);
+
 /// What --voxel makes of any geometry.
 [[nodiscard]] Geometry voxel_geometry();
 

@@ -94,6 +94,8 @@ const Volume& Source::volume() {
     if (!volume_) {
         volume_ = atlas_->volume(context());
         volume_->info = info_;
+        volume_ = shaped(std::move(*volume_), arguments_, context());
+        info_ = volume_->info;
     }
     return *volume_;
 }

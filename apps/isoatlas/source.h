@@ -18,6 +18,8 @@ public:
     Source(const Arguments& arguments, Terminal& terminal);
 
     [[nodiscard]] bool is_store() const { return atlas_.has_value(); }
+    /// Only of a store.
+    [[nodiscard]] const Atlas& atlas() const { return atlas_.value(); }
     [[nodiscard]] const VolumeInfo& info() const { return info_; }
     [[nodiscard]] ValueRange range();
     [[nodiscard]] Interpolant interpolant() const;

@@ -17,6 +17,8 @@ int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_build(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_phantom(const Arguments& arguments, Terminal& terminal);
+int run_table131(const Arguments& arguments, Terminal& terminal);
+int run_dump(const Arguments& arguments, Terminal& terminal);
 int run_verify(const Arguments& arguments, Terminal& terminal);
 int run_completion(const Arguments& arguments, Terminal& terminal);
 

@@ -56,6 +56,13 @@ std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
     return verify_mesh(mesh);
 }
 
+std::string sample_text(const VerifyOptions& options) {
+    const std::string isovalues = fmt::format("{} isovalues drawn with seed {} and both ends of the range", options.levels, options.seed);
+    return options.full
+               ? "all objects at " + isovalues
+               : fmt::format("{} objects at each of {}; --full takes all objects and makes the tree anew", options.objects, isovalues);
+}
+
 }  // namespace
 
 int run_verify(const Arguments& arguments, Terminal& terminal) {
@@ -67,14 +74,22 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
         checks = check_mesh(arguments, head);
     } else {
         Source source(arguments, terminal);
-        const VerifyOptions options{
-            .levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
-        checks = source.is_store() ? verify_atlas(Atlas(arguments.file), options, source.context())
+        const VerifyOptions options{.levels = arguments.levels,
+                                    .interpolant = source.interpolant(),
+                                    .tunnel_height = source.tunnel_height(),
+                                    .full = arguments.full,
+                                    .seed = arguments.seed};
+        checks = source.is_store() ? verify_atlas(source.atlas(), options, source.context())
                                    : verify_volume(source.volume(), options, source.context());
         of_what = ", " + interpolant_text(source.info(), options.interpolant, options.tunnel_height);
         head = document("verify", source.info(), options.interpolant, options.tunnel_height);
         head["what"] = source.is_store() ? "store" : "volume";
         head["levels"] = arguments.levels;
+        if (source.is_store()) {
+            head["sample"] = {{"full", options.full}, {"levels", options.levels}, {"seed", options.seed}};
+            if (!options.full) head["sample"]["objects"] = options.objects;
+            of_what += "; " + sample_text(options);
+        }
     }
     if (arguments.json) {
         print_json(terminal, std::move(head), checks);

@@ -64,6 +64,19 @@ Vec3 parse_vector(const std::string& option, const std::string& word, double res
     return values;
 }
 
+SampleBox parse_box(const std::string& option, const std::string& word) {
+    const std::vector<std::string> axes = split(word, ",");
+    SampleBox box{{0, 0, 0}, {1, 1, 1}};
+    bool is_right = axes.size() == 2 || axes.size() == 3;
+    for (std::size_t axis = 0; is_right && axis < axes.size(); ++axis) {
+        const std::vector<std::string> ends = split(axes[axis], ":");
+        is_right = ends.size() == 2 && read(ends[0], box.begin[axis]) && read(ends[1], box.end[axis]) && box.begin[axis] >= 0 &&
+                   box.begin[axis] < box.end[axis];
+    }
+    if (!is_right) bad_word(option, word, "FIRST:END for every axis, like 0:20,30:50,10:30");
+    return box;
+}
+
 ValueType parse_type(const std::string& word) {
     static const std::map<std::string, ValueType> names{
         {"uint8", ValueType::u8},    {"u8", ValueType::u8},       {"uchar", ValueType::u8},  {"int8", ValueType::i8},

@@ -15,6 +15,9 @@ namespace isoatlas::cli {
 /// "512x512x100", "512,512" or "512": 1 to 3 positive numbers; one number means a cube.
 [[nodiscard]] std::vector<std::int64_t> parse_dims(const std::string& word);
 
+/// "0:20,30:50,10:30": first sample and the one behind the last of each axis; without the third the first slice.
+[[nodiscard]] SampleBox parse_box(const std::string& option, const std::string& word);
+
 /// A number of at least 0, with or without % behind it (then 0..100).
 [[nodiscard]] double parse_height(const std::string& option, const std::string& word);
 

@@ -50,9 +50,9 @@ public:
     [[nodiscard]] Volume volume(const Context& context = {}) const;
 
     [[nodiscard]] AtlasReads reads() const;
-    /// Compares every byte that has a checksum with it, and the samples with those the store was made of. Throws Error{input} for the first
-    /// that differs. Cost: reads the whole store.
-    void check(const Context& context = {}) const;
+    /// Compares every byte that has a checksum with it, and the samples, which it returns, with those the store was made of. Throws
+    /// Error{input} for the first that differs. Cost: reads the whole store.
+    Volume check(const Context& context = {}) const;
     /// Forgets the bricks that earlier queries have read. Not while a query runs.
     void clear_cache() const;
 

@@ -20,6 +20,7 @@ struct BuildOptions {
     AnalysisOptions analysis{};          ///< zones: of no meaning here
     MissingPolicy missing{};             ///< as load_volume()
     std::optional<Geometry> geometry{};  ///< instead of that of the file
+    double gaussian = 0;                 ///< filters the samples first: sigma as of gaussian_filter(); 0: off
     std::int64_t memory = 0;  ///< bytes for the whole process, 64 MiB or more; 0: half of what the machine or its control group has
     bool restart = false;     ///< forgets finished phases
 };

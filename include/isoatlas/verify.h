@@ -1,6 +1,7 @@
 // Verify: proofs of the guarantees, run on demand. Each guarantee is a named check.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,13 +25,23 @@ struct VerifyOptions {
     int levels = 8;  ///< isovalues to compare at
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
+
+    // of stores only
+    bool full = false;       ///< every object at every isovalue, and the tree made anew from the samples
+    std::uint64_t seed = 1;  ///< chooses isovalues and objects
+    int objects = 3;         ///< to compare at each isovalue, unless full
 };
 
 /// Tree invariants, Euler sums, zones partition the voxels; and at some isovalues spread over the range (data values and values
 /// between): tree == cut == mesh (components, genus, Euler numbers, closed and manifold).
 [[nodiscard]] std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions& options = {}, const Context& context = {});
 
-/// Every checksum of a store; the guarantees of its volume (verify_volume); cuts and surfaces from the store are those of the volume.
+/// A store against itself and its own samples. Whatever the options: every checksum; the lowest and highest sample of every brick (they
+/// decide which bricks a query reads, at any isovalue); the invariants of the stored tree. At the lowest and highest sample and at `levels`
+/// isovalues drawn with `seed`: the stored tree against the flooded samples, surfaces from the store against those of the samples, proved
+/// closed, manifold and of the genus that the tree promises; single objects, drawn too, against their part of the whole surface. full: all
+/// objects, zones, and every number of the stored tree against a new analysis. A check that finds the store unreadable fails with what and
+/// where. Throws Error: cancelled, resource. Cost: reads the store once; O(volume) time an isovalue.
 [[nodiscard]] std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

@@ -84,6 +84,7 @@ struct VolumeInfo {
     Calibration calibration;
     std::string value_unit;          ///< of sample values, if the file says
     std::string description;         ///< free text of the file, if any
+    double gaussian = 0;             ///< sigma of the filter that made the samples (filter.h), in the unit of the spacing; 0: none
     bool slab_readable = false;      ///< uncompressed: any slab is read without reading what precedes it
     std::int64_t file_bytes = 0;     ///< size of the file(s) on disk
     std::vector<std::string> notes;  ///< what the reader chose or ignored, for the user

@@ -173,14 +173,16 @@ Volume Atlas::volume(const Context& context) const {
 std::array<double, 2> Atlas::range() const { return data_->samples->range(); }
 std::int64_t Atlas::file_bytes() const { return data_->store.file_size(); }
 
-void Atlas::check(const Context& context) const {
+Volume Atlas::check(const Context& context) const {
     data_->store.check_all();
-    if (store::checksum(volume(context).bytes) != data_->store.contents().parameters.samples_checksum) {
+    Volume samples = volume(context);
+    if (store::checksum(samples.bytes) != data_->store.contents().parameters.samples_checksum) {
         throw Error(ErrorKind::input, {.file = data_->store.path(),
                                        .where = "volume/data",
                                        .what = "the samples are not those that the store was made of",
                                        .next = "build it again from the volume"});
     }
+    return samples;
 }
 
 AtlasReads Atlas::reads() const {

@@ -7,6 +7,7 @@
 #include "base/big_vector.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "field/gaussian.h"
 #include "field/volume_view.h"
 #include "io/load_samples.h"
 #include "isoatlas/error.h"
@@ -58,6 +59,12 @@ void report_packing(std::vector<store::PackedArray>& arrays, const Context& cont
             });
         };
     }
+}
+
+/// Before anything is read.
+void check_gaussian(VolumeInfo info, const BuildOptions& options) {
+    if (options.geometry) info.geometry = *options.geometry;
+    if (options.gaussian > 0) (void)gaussian_radius(info, options.gaussian);
 }
 
 class Build {
@@ -114,6 +121,7 @@ private:
 }  // namespace
 
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
+    check_gaussian(reader.info(), options);
     const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
     check_estimate(estimate, reader.info().path, path);
     Build build(path, options.restart, context);
@@ -125,6 +133,7 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
     };
     VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0));
     if (options.geometry) info.geometry = *options.geometry;
+    if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, context);
     return build.run({info, samples.data()}, options.analysis);
 }
 

@@ -40,6 +40,7 @@ void put_volume(JsonStream& json, const VolumeInfo& info) {
     json.key("space").value(geometry.space);
     put_text_or_null(json, "unit", geometry.unit);
     put_text_or_null(json, "value_unit", info.value_unit);
+    if (info.gaussian > 0) json.key("gaussian").value(info.gaussian);
     json.key("calibration").begin_object().key("slope").value(info.calibration.slope);
     json.key("intercept").value(info.calibration.intercept).end_object().end_object();
 }

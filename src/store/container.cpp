@@ -67,10 +67,8 @@ void Container::read_header() {
     const auto offset = static_cast<std::int64_t>(raw.contents_offset), size = static_cast<std::int64_t>(raw.contents_bytes);
     if (size < 0 || size > kMostContents || offset < kHeaderBytes || offset > file_size_ - size)
         damaged("header", "the contents lie outside the file");
-    std::string text(static_cast<std::size_t>(size), '\0');
-    io::read_fully(*file_, path_, offset, std::as_writable_bytes(std::span<char>(text)));
-    if (checksum(std::as_bytes(std::span<const char>(text))) != raw.contents_checksum) damaged("contents", "their checksum is wrong");
-    contents_ = contents_of_json(text, path_, file_size_);
+    header_ = {file_size_, offset, size, raw.contents_checksum};
+    contents_ = contents_of_json(contents_text(), path_, file_size_);
     contents_.volume.path = path_;
     contents_.volume.file_bytes = file_size_;
 }
@@ -79,6 +77,20 @@ std::vector<std::uint64_t> Container::checksums_of(const StoredArray& array, std
     std::vector<std::uint64_t> sums(static_cast<std::size_t>(last - first));
     io::read_fully(*file_, path_, array.checksums + 8 * first, std::as_writable_bytes(std::span(sums)));
     return sums;
+}
+
+std::string Container::contents_text() const {
+    std::string text(static_cast<std::size_t>(header_.contents_bytes), '\0');
+    io::read_fully(*file_, path_, header_.contents_offset, std::as_writable_bytes(std::span<char>(text)));
+    if (checksum(std::as_bytes(std::span<const char>(text))) != header_.contents_checksum) damaged("contents", "their checksum is wrong");
+    return text;
+}
+
+std::vector<std::uint64_t> Container::block_checksums(const StoredArray& array, std::int64_t first, std::int64_t last) const {
+    const std::vector<std::uint64_t> all = checksums_of(array, 0, array.blocks());
+    if (checksum(std::as_bytes(std::span(all))) != array.sum) damaged(array.name, "the checksum of its checksums is wrong");
+    if (first < 0 || first > last || last > array.blocks()) damaged(array.name, "checksums outside the array are asked for");
+    return {all.begin() + first, all.begin() + last};
 }
 
 void Container::read(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {

@@ -33,6 +33,7 @@ public:
     /// Reads header and contents. Throws Error: input (missing, no store, half-written, damaged), unsupported (a later version).
     explicit Container(const std::string& path);
 
+    [[nodiscard]] const Header& header() const { return header_; }
     [[nodiscard]] const Contents& contents() const { return contents_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::int64_t file_size() const { return file_size_; }
@@ -41,6 +42,11 @@ public:
     void read(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
     /// Bytes of an array that checks its parts itself; the caller compares the checksum.
     void read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
+
+    /// The JSON text of the contents as it lies in the file.
+    [[nodiscard]] std::string contents_text() const;
+    /// Checksums of the blocks [first, last) of an array; checked against the checksum of all of them.
+    [[nodiscard]] std::vector<std::uint64_t> block_checksums(const StoredArray& array, std::int64_t first, std::int64_t last) const;
 
     /// All numbers of an array.
     template <class T>
@@ -68,6 +74,7 @@ private:
     std::string path_;
     std::unique_ptr<File> file_;
     std::int64_t file_size_ = 0;
+    Header header_;
     Contents contents_;
 };
 

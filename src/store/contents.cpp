@@ -54,6 +54,7 @@ Json json_of(const VolumeInfo& info) {
     json["calibration"] = {{"slope", info.calibration.slope}, {"intercept", info.calibration.intercept}};
     json["value_unit"] = info.value_unit;
     json["description"] = info.description;
+    if (info.gaussian > 0) json["gaussian"] = info.gaussian;
     return json;
 }
 
@@ -85,6 +86,7 @@ VolumeInfo volume_of(const Json& json) {
     info.calibration.intercept = json.at("calibration").at("intercept").get<double>();
     info.value_unit = json.at("value_unit").get<std::string>();
     info.description = json.at("description").get<std::string>();
+    info.gaussian = json.value("gaussian", 0.0);
     return info;
 }
 

@@ -1,54 +1,144 @@
-// verify_atlas: a store against its own checksums, its volume, and what the volume gives.
+// verify_atlas: a store against its own checksums and its own samples. The samples are read once.
+#include <functional>
+#include <optional>
 #include <string>
+#include <unordered_map>
 
-#include "verify/slice_checks.h"
+#include "field/order.h"
+#include "phantom/portable.h"
+#include "verify/level_checks.h"
+#include "verify/store_checks.h"
+#include "verify/tree_checks.h"
+#include "zones/analysis_data.h"
 
 namespace isoatlas {
 namespace {
 
-CheckResult checksums_are_right(const Atlas& atlas, const Context& context) {
+/// Runs work; a store that cannot be read, or contradicts itself, makes a check of that name fail with what it says. Returns whether it
+/// ran.
+bool readable(const std::string& name, std::vector<CheckResult>& results, const std::function<void()>& work) {
     try {
-        atlas.check(context);
+        work();
+        return true;
     } catch (const Error& error) {
-        if (error.kind() != ErrorKind::input) throw;
-        return {"checksums_are_right", false, error.what()};
+        if (error.kind() == ErrorKind::cancelled || error.kind() == ErrorKind::resource) throw;
+        results.push_back({name, false, error.what()});
+        return false;
     }
-    return {"checksums_are_right", true, std::to_string(atlas.file_bytes()) + " bytes"};
 }
 
-bool same(const Surface& p, const Surface& q) {
-    return p.points == q.points && p.normals == q.normals && p.triangles == q.triangles && p.segments == q.segments &&
-           p.object == q.object && p.contour == q.contour;
+/// The samples, when every checksum is right.
+std::optional<Volume> checksums_are_right(const Atlas& atlas, const Context& context, std::vector<CheckResult>& results) {
+    std::optional<Volume> samples;
+    if (readable("checksums_are_right", results, [&] { samples = atlas.check(context); }))
+        results.push_back({"checksums_are_right", true, std::to_string(atlas.file_bytes()) + " bytes"});
+    return samples;
 }
 
-CheckResult store_equals_volume(const Atlas& atlas, const Volume& volume, const VerifyOptions& options, const Context& context) {
-    Check check("store_equals_volume");
-    ExtractOptions own;
-    own.interpolant = atlas.interpolant();
-    own.tunnel_height = atlas.tunnel_height();
-    std::int64_t triangles = 0;
-    const std::vector<double> isovalues = isovalues_to_check(volume, options.levels);
-    for (const double tau : isovalues) {
-        const Surface stored = atlas.extract(tau, own, context);
-        triangles += static_cast<std::int64_t>(stored.triangles.size());
-        if (!same(stored, extract(volume, tau, own, context))) check.fail("at " + std::to_string(tau) + ": another surface");
+/// Voxels of maxima and their events, of an analysis without zones.
+EventOfVoxel events_of_maxima(const Analysis& analysis) {
+    std::unordered_map<std::int64_t, std::int64_t> events;
+    analysis.data().visit([&](const auto& held) {
+        for (std::size_t i = 0; i < held.arrays.code.size(); ++i) {
+            const ElementCode code{held.arrays.code[i]};
+            if (code.kind() == CodeKind::vertex && code.h0() == 0)
+                events.emplace(code.index(), static_cast<std::int64_t>(held.arrays.tree.event_of_element[i]));
+        }
+    });
+    return [events = std::move(events)](std::int64_t voxel) {
+        const auto found = events.find(voxel);
+        return found == events.end() ? -1 : found->second;
+    };
+}
+
+/// What is compared at every isovalue.
+class Comparison {
+public:
+    Comparison(const Atlas& atlas, const Volume& samples, const VerifyOptions& options)
+        : atlas_(atlas), samples_(samples), options_(options), random_(options.seed) {
+        own_.interpolant = atlas.interpolant();
+        own_.tunnel_height = atlas.tunnel_height();
     }
-    return check.result(std::to_string(triangles) + " triangles at " + std::to_string(isovalues.size()) + " isovalues");
+
+    void look_at(LevelChecks& checks, std::size_t i, const Context& context) {
+        const double tau = checks.isovalues()[i];
+        const Cut at = cut(samples_, tau, {.interpolant = own_.interpolant, .tunnel_height = own_.tunnel_height}, context);
+        const Surface expected = extract(samples_, tau, own_, context), stored = atlas_.extract(tau, own_, context);
+        if (!are_same(stored, expected)) surfaces_.fail("at " + std::to_string(tau) + ": another surface");
+        ++surfaces_seen_;
+        triangles_ += static_cast<std::int64_t>(stored.triangles.size());
+        for (const std::int64_t object : objects_of(at)) {
+            ExtractOptions alone = own_;
+            alone.objects = {object};
+            if (!are_same(atlas_.extract(tau, alone, context), surface_of_object(expected, object)))
+                objects_.fail("at " + std::to_string(tau) + ": object " + std::to_string(object) + " has another surface");
+            ++objects_seen_;
+        }
+        checks.look_at(i, at, stored);
+    }
+
+    void add_results(std::vector<CheckResult>& results) const {
+        const std::string seen = " at " + std::to_string(surfaces_seen_) + " isovalues";
+        results.push_back(surfaces_.result(std::to_string(triangles_) + " triangles" + seen));
+        results.push_back(objects_.result(std::to_string(objects_seen_) + " objects" + seen));
+    }
+
+private:
+    /// All of them, or some drawn without repeating.
+    std::vector<std::int64_t> objects_of(const Cut& at) {
+        std::vector<std::int64_t> ids;
+        for (const CutObject& object : at.objects) ids.push_back(object.id);
+        const auto wanted = static_cast<std::size_t>(std::max(options_.objects, 0));
+        if (options_.full || ids.size() <= wanted) return ids;
+        for (std::size_t i = 0; i < wanted; ++i)
+            std::swap(ids[i], ids[i + static_cast<std::size_t>(random_.unit() * static_cast<double>(ids.size() - i))]);
+        ids.resize(wanted);
+        return ids;
+    }
+
+    const Atlas& atlas_;
+    const Volume& samples_;
+    const VerifyOptions& options_;
+    Random random_;
+    ExtractOptions own_;
+    Check surfaces_{"store_equals_volume"}, objects_{"objects_equal_volume"};
+    std::int64_t surfaces_seen_ = 0, objects_seen_ = 0, triangles_ = 0;
+};
+
+void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analysis& stored, const VerifyOptions& options,
+                          const Context& context, std::vector<CheckResult>& results) {
+    LevelChecks checks(stored, random_isovalues(samples, options.levels, options.seed), events_of_maxima(stored));
+    Comparison comparison(atlas, samples, options);
+    Context silent = context;  // its parts would run the bar back and forth
+    silent.progress = nullptr;
+    const std::size_t count = checks.isovalues().size();
+    for (std::size_t i = 0; i < count; ++i) {
+        context.report("compare", 0, 1, static_cast<double>(i) / static_cast<double>(count));
+        comparison.look_at(checks, i, silent);
+    }
+    comparison.add_results(results);
+    checks.add_results(results);
 }
 
 }  // namespace
 
 std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options, const Context& context) {
-    std::vector<CheckResult> results{checksums_are_right(atlas, context)};
-    if (!results.front().holds) return results;
-    const Volume volume = atlas.volume(context);
-    Context silent = context;  // its parts would run the bar back and forth
-    silent.progress = nullptr;
-    results.push_back(store_equals_volume(atlas, volume, options, silent));
-    VerifyOptions own = options;
-    own.interpolant = atlas.interpolant();
-    own.tunnel_height = atlas.tunnel_height();
-    for (CheckResult& check : verify_volume(volume, own, context)) results.push_back(std::move(check));
+    std::vector<CheckResult> results;
+    const std::optional<Volume> samples = checksums_are_right(atlas, context, results);
+    if (!samples) return results;
+    (void)readable("bricks_hold_active_cells", results, [&] { results.push_back(bricks_hold_active_cells(atlas, *samples)); });
+    (void)readable("trees_are_readable", results, [&] {
+        const Analysis stored = atlas.analysis();
+        for (const CheckResult& check :
+             {join_tree_is_valid(stored), euler_sums_hold(stored), contour_tree_is_a_tree(stored), levels_match_events(stored)})
+            results.push_back(check);
+        if (options.full) {
+            const Analysis fresh = analyse(*samples, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, context);
+            results.push_back(zones_partition_voxels(fresh, *samples));
+            results.push_back(stored_tree_equals_analysis(stored, fresh));
+        }
+        (void)readable("queries_are_answered", results, [&] { compare_at_isovalues(atlas, *samples, stored, options, context, results); });
+    });
     return results;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "phantom/portable.h"
+
 namespace isoatlas {
 namespace {
 
@@ -55,13 +57,33 @@ std::vector<double> isovalues_to_check(const Volume& volume, int count) {
     return chosen;
 }
 
+std::vector<double> random_isovalues(const Volume& volume, int count, std::uint64_t seed) {
+    Random random(seed);
+    const std::int64_t voxels = volume.info.extent.voxels();
+    const auto sample = [&] { return volume.value(static_cast<std::int64_t>(random.unit() * static_cast<double>(voxels))); };
+    std::vector<double> chosen;
+    for (int k = 0; k < count; ++k) {
+        const double first = sample();
+        chosen.push_back(k % 2 == 0 ? first : first + random.unit() * (sample() - first));
+    }
+    visit_samples(volume, [&](auto samples) {
+        const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+        chosen.push_back(static_cast<double>(*low));
+        chosen.push_back(static_cast<double>(*high));
+    });
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    return chosen;
+}
+
 TreeAtLevels::TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues) : objects_(isovalues.size()) {
     analysis.visit_object_contours([&](std::int64_t id, std::span<const GenusCount> histogram) {
         const Event event = analysis.event(id);
         const auto begin = std::upper_bound(isovalues.begin(), isovalues.end(), event.zone.tau_low);
         const auto end = std::upper_bound(begin, isovalues.end(), event.zone.tau_high);
         if (begin == end) return;
-        Object object{id, event.chi, event.b1, event.b2, {}};
+        const std::int64_t most = event.object_voxels, least = most - event.zone.voxels;
+        Object object{id, event.chi, event.b1, event.b2, least, most, {}};
         for (const GenusCount& entry : histogram)
             object.genera.insert(object.genera.end(), static_cast<std::size_t>(entry.count), entry.genus);
         for (auto tau = begin; tau != end; ++tau) objects_[static_cast<std::size_t>(tau - isovalues.begin())].push_back(object);
@@ -79,7 +101,8 @@ std::vector<std::int64_t> TreeAtLevels::owner(const Analysis& analysis, std::siz
     return owner;
 }
 
-void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, Check& check) {
+void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, const EventOfVoxel& event_of,
+                          Check& check) {
     const auto& objects = tree.objects(i);
     if (objects.size() != cut.objects.size()) {
         check.fail(at(cut.tau) + std::to_string(objects.size()) + " objects in the tree, " + std::to_string(cut.objects.size()) +
@@ -90,7 +113,7 @@ void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, st
     std::vector<bool> taken(objects.size(), false);
     for (const CutObject& object : cut.objects) {
         const std::string name = at(cut.tau) + "object " + std::to_string(object.id);
-        const std::int64_t event = owner[static_cast<std::size_t>(analysis.zone(object.id))];
+        const std::int64_t named = event_of(object.id), event = named < 0 ? -1 : owner[static_cast<std::size_t>(named)];
         const auto found =
             std::lower_bound(objects.begin(), objects.end(), event, [](const auto& entry, std::int64_t id) { return entry.event < id; });
         if (event < 0 || found == objects.end() || found->event != event || taken[static_cast<std::size_t>(found - objects.begin())]) {
@@ -100,6 +123,8 @@ void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, st
         taken[static_cast<std::size_t>(found - objects.begin())] = true;
         if (found->chi != object.chi || found->b1 != object.b1 || found->b2 != object.b2)
             check.fail(name + " has other Betti numbers in the tree");
+        if (found->most_voxels > 0 && (object.voxels < found->least_voxels || object.voxels > found->most_voxels))
+            check.fail(name + " has more or fewer voxels than in the tree");
         if (found->genera != genera_of(cut, object)) check.fail(name + " has contours of other genera in the tree");
     }
 }

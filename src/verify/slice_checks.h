@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "isoatlas/cut.h"
@@ -15,12 +16,17 @@ namespace isoatlas {
 /// in. At most `count`, ascending, distinct.
 [[nodiscard]] std::vector<double> isovalues_to_check(const Volume& volume, int count);
 
+/// The lowest and highest sample, and `count` isovalues drawn with a seed: by turns a sample and something between two samples. Ascending,
+/// distinct.
+[[nodiscard]] std::vector<double> random_isovalues(const Volume& volume, int count, std::uint64_t seed);
+
 /// What the tree says is there at some isovalues. Built in one walk, because the genera of all events together can be huge.
 class TreeAtLevels {
 public:
     struct Object {
         std::int64_t event, chi, b1, b2;
-        std::vector<std::int64_t> genera;  ///< sorted
+        std::int64_t least_voxels, most_voxels;  ///< at the ends of its zone; 0, 0: not counted
+        std::vector<std::int64_t> genera;        ///< sorted
     };
     TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues);
 
@@ -33,9 +39,13 @@ private:
     std::vector<std::vector<Object>> objects_;
 };
 
-/// Each object of the cut is exactly one of the tree: found through the zone of the voxel it is named by, with the same Betti numbers and
-/// genera.
-void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, Check& check);
+/// The event at which the maximum that names an object appears; -1: there is none.
+using EventOfVoxel = std::function<std::int64_t(std::int64_t)>;
+
+/// Each object of the cut is exactly one of the tree: found through the voxel it is named by, with the same Betti numbers and genera, and
+/// as many voxels as its zone allows.
+void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, const EventOfVoxel& event_of,
+                          Check& check);
 
 /// The genera of the contour tree's arcs that pass tau are the genera of the cut's contours.
 void compare_arcs_and_cut(const Analysis& analysis, const Cut& cut, Check& check);

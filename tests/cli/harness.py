@@ -10,6 +10,34 @@ CLI = os.environ["ISOATLAS_CLI"]
 MESHES = [".ply", ".stl", ".obj", ".vtp", ".glb"]
 
 
+TYPES = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float), "boolean": bool, "null": type(None)}
+
+
+def schema_problems(value, schema, where="$"):
+    """Where and why a value breaks a schema of docs/schema."""
+    found = []
+    types = schema.get("type", list(TYPES))
+    types = types if isinstance(types, list) else [types]
+    if not any(isinstance(value, TYPES[name]) and (name == "boolean" or not isinstance(value, bool)) for name in types):
+        return [f"{where} is no {types}: {value!r}"]
+    if "const" in schema and value != schema["const"] or "enum" in schema and value not in schema["enum"]:
+        found.append(f"{where} cannot be {value!r}")
+    if "minimum" in schema and value < schema["minimum"]:
+        found.append(f"{where} is below {schema['minimum']}: {value!r}")
+    for name in schema.get("required", []):
+        if name not in value:
+            found.append(f"{where} has no {name}")
+    for name, inner in schema.get("properties", {}).items():
+        if name in value:
+            found += schema_problems(value[name], inner, f"{where}.{name}")
+    if isinstance(value, list) and not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
+        found.append(f"{where} has {len(value)} items")
+    if isinstance(value, list) and "items" in schema:
+        for i, item in enumerate(value):
+            found += schema_problems(item, schema["items"], f"{where}[{i}]")
+    return found
+
+
 class CliTest(unittest.TestCase):
     """Phantoms are made once per class in `self.folder`."""
 
@@ -43,6 +71,11 @@ class CliTest(unittest.TestCase):
         done = self.start([*arguments, "--json"])
         self.assertEqual(done.returncode, code, f"{arguments}: {done.stderr}")
         return json.loads(done.stdout, parse_constant=lambda word: self.fail(f"{word} is not JSON"))
+
+    def assert_schema(self, document, name):
+        """The document is what docs/schema/NAME.schema.json says, as far as the words that our schemas use."""
+        schema = json.loads((pathlib.Path(os.environ["ISOATLAS_SOURCE"]) / "docs" / "schema" / f"{name}.schema.json").read_text())
+        self.assertEqual(schema_problems(document, schema), [])
 
     def run_error(self, code, *arguments, says="", next_says=""):
         """The failure is told once on standard error, nothing on standard output; with --json it is a document. Returns its error."""

@@ -44,7 +44,16 @@ class Stores(harness.CliTest):
 
     def test_info_and_verify(self):
         self.assertEqual(self.run_json("info", "noise.atlas")["values"]["low"], self.run_json("info", "noise.nrrd")["values"]["low"])
-        self.assertTrue(self.run_json("verify", "noise.atlas", "--levels", "3")["holds"])
+        told = self.run_json("verify", "noise.atlas", "--levels", "3", "--seed", "5")
+        self.assertTrue(told["holds"])
+        self.assertEqual((told["what"], told["sample"]), ("store", {"full": False, "levels": 3, "seed": 5, "objects": 3}))
+        full = self.run_json("verify", "noise.atlas", "--levels", "2", "--full")
+        self.assertTrue(full["holds"])
+        names = {check["name"] for check in full["checks"]}
+        self.assertLess({check["name"] for check in told["checks"]}, names)
+        self.assertLessEqual({"checksums_are_right", "bricks_hold_active_cells", "join_tree_is_valid", "objects_equal_volume", "tree_equals_cut",
+                              "surface_is_manifold", "stored_tree_equals_analysis", "zones_partition_voxels"}, names)
+        self.assertIn("seed 5", self.run_ok("verify", "noise.atlas", "--levels", "1", "--seed", "5").stdout.splitlines()[-1])
 
     def test_damage_is_found(self):
         whole = bytearray(self.read("noise.atlas"))

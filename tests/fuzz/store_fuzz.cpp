@@ -1,9 +1,12 @@
 // Stores: as they come, and with every checksum mended, so that what lies behind the checksums is reached. A documented error or sound
 // answers, never a crash.
+#include <algorithm>
 #include <cstring>
 
 #include "fuzz/volume_target.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/dump.h"
+#include "isoatlas/verify.h"
 #include "store/brick_codec.h"
 #include "store/brick_grid.h"
 #include "store/checksum.h"
@@ -85,6 +88,16 @@ void ask(const Ask& question) {
     }
 }
 
+void dump() {
+    const isoatlas::StoreDump store("fuzz");
+    std::vector<isoatlas::StorePart> parts = store.parts();
+    for (const char* name : {"brick 0", "brick 1", "voxel 1,2,0"}) ask([&] { parts.push_back(store.find(name)); });
+    for (const isoatlas::StorePart& part : parts) {
+        ask([&] { (void)store.text(part); });
+        ask([&] { (void)store.read(part, part.first, std::min(part.end, part.first + 1000)); });
+    }
+}
+
 void query(std::span<const std::byte> content) {
     const fuzz::OnlyContent in_use(content);
     isoatlas::Context context;
@@ -111,6 +124,11 @@ void query(std::span<const std::byte> content) {
             analysis.visit_object_contours([](std::int64_t, std::span<const isoatlas::GenusCount>) {});
         });
     });
+    ask([&] {
+        const isoatlas::Atlas atlas("fuzz");
+        if (atlas.info().extent.voxels() <= 1 << 12) (void)isoatlas::verify_atlas(atlas, {.levels = 1}, context);
+    });
+    ask(dump);
 }
 
 }  // namespace

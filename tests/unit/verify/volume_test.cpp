@@ -119,7 +119,8 @@ class Compared : public Damaged {
 protected:
     bool tree_agrees(const Cut& at) {
         Check check("tree_equals_cut");
-        compare_tree_and_cut(analysis_, TreeAtLevels(analysis_, {at.tau}), 0, at, check);
+        compare_tree_and_cut(
+            analysis_, TreeAtLevels(analysis_, {at.tau}), 0, at, [&](std::int64_t voxel) { return analysis_.zone(voxel); }, check);
         return check.holds();
     }
     bool mesh_agrees(const Cut& at, const Surface& surface) {

@@ -1,0 +1,113 @@
+#include "verify/store_checks.h"
+
+#include <algorithm>
+#include <string>
+
+#include "isoatlas/dump.h"
+#include "store/brick_grid.h"
+#include "zones/analysis_data.h"
+
+namespace isoatlas {
+namespace {
+
+/// Number i of a part of a store, as samples compare.
+double number_of(const StoreNumbers& numbers, std::size_t i) {
+    return std::visit([i](const auto& list) { return static_cast<double>(list[i]); }, numbers);
+}
+
+std::array<double, 2> range_of(const Volume& volume, const store::Box& box) {
+    const Extent& extent = volume.info.extent;
+    return visit_samples(volume, [&](auto samples) {
+        auto low = samples[static_cast<std::size_t>(extent.index(box.begin[0], box.begin[1], box.begin[2]))], high = low;
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+                const auto row =
+                    samples.subspan(static_cast<std::size_t>(extent.index(box.begin[0], y, z)), static_cast<std::size_t>(box.size(0)));
+                const auto [least, most] = std::ranges::minmax(row);
+                low = std::min(low, least), high = std::max(high, most);
+            }
+        }
+        return std::array<double, 2>{static_cast<double>(low), static_cast<double>(high)};
+    });
+}
+
+template <class Numbers>
+void compare(const char* name, const Numbers& stored, const Numbers& expected, Check& check) {
+    if (stored.size() != expected.size()) {
+        check.fail(std::string(name) + " has " + std::to_string(stored.size()) + " numbers, the samples give " +
+                   std::to_string(expected.size()));
+        return;
+    }
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        if (stored[i] == expected[i]) continue;
+        check.fail(std::string(name) + "[" + std::to_string(i) + "] is " + std::to_string(stored[i]) + ", the samples give " +
+                   std::to_string(expected[i]));
+    }
+}
+
+}  // namespace
+
+CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples) {
+    Check check("bricks_hold_active_cells");
+    const store::BrickGrid grid(atlas.info().extent);
+    const StoreDump store(atlas.info().path);
+    const StoreNumbers low = store.read(store.find("volume/low"), 0, grid.count()),
+                       high = store.read(store.find("volume/high"), 0, grid.count());
+    for (std::int64_t b = 0; b < grid.count(); ++b) {
+        const std::array<double, 2> range = range_of(samples, grid.box(b));
+        const double stored_low = number_of(low, static_cast<std::size_t>(b)), stored_high = number_of(high, static_cast<std::size_t>(b));
+        if (stored_low == range[0] && stored_high == range[1]) continue;
+        check.fail("brick " + std::to_string(b) + " has samples " + std::to_string(range[0]) + " to " + std::to_string(range[1]) +
+                   " and is read as if they were " + std::to_string(stored_low) + " to " + std::to_string(stored_high));
+    }
+    return check.result("ranges of " + std::to_string(grid.count()) + " bricks, for every isovalue");
+}
+
+CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& expected) {
+    Check check("stored_tree_equals_analysis");
+    stored.data().visit([&]<class Id>(const IndexedArrays<Id>& own) {
+        expected.data().visit([&]<class Other>(const IndexedArrays<Other>& fresh) {
+            if constexpr (!std::is_same_v<Id, Other>) {
+                check.fail("its ids have another width");
+            } else {
+                compare("elements/value", own.arrays.value, fresh.arrays.value, check);
+                compare("elements/code", own.arrays.code, fresh.arrays.code, check);
+                compare("elements/towards_outside", own.arrays.contours.other, fresh.arrays.contours.other, check);
+                compare("events/voxels", own.arrays.voxels, fresh.arrays.voxels, check);
+                compare("genus of contours", own.arrays.contours.half_chi, fresh.arrays.contours.half_chi, check);
+                compare("parents of events", own.arrays.tree.parent, fresh.arrays.tree.parent, check);
+            }
+        });
+    });
+    return check.result(std::to_string(expected.element_count()) + " elements, " + std::to_string(expected.event_count()) + " events");
+}
+
+bool are_same(const Surface& p, const Surface& q) {
+    return p.points == q.points && p.normals == q.normals && p.triangles == q.triangles && p.segments == q.segments &&
+           p.object == q.object && p.contour == q.contour;
+}
+
+Surface surface_of_object(const Surface& surface, std::int64_t object) {
+    Surface part;
+    std::vector<std::int64_t> place(surface.points.size(), -1);
+    for (std::size_t i = 0; i < surface.points.size(); ++i) {
+        if (surface.object[i] != object) continue;
+        place[i] = static_cast<std::int64_t>(part.points.size());
+        part.points.push_back(surface.points[i]);
+        if (!surface.normals.empty()) part.normals.push_back(surface.normals[i]);
+        part.object.push_back(object);
+        part.contour.push_back(surface.contour[i]);
+    }
+    const auto keep = [&](const auto& all, auto& kept) {
+        for (auto simplex : all) {
+            if (place[static_cast<std::size_t>(simplex[0])] < 0) continue;
+            for (std::int64_t& point : simplex) point = place[static_cast<std::size_t>(point)];
+            kept.push_back(simplex);
+        }
+    };
+    keep(surface.triangles, part.triangles);
+    keep(surface.segments, part.segments);
+    return part;
+}
+
+}  // namespace isoatlas

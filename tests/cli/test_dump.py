@@ -1,0 +1,79 @@
+"""isoatlas dump: every part of a store is printed as it lies in the file."""
+import struct
+
+import harness
+
+
+class Dump(harness.CliTest):
+    phantoms = {"noise.npy": ["noise", "--size", "20"]}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        done = cls.start(["build", "noise.npy", "-o", "noise.atlas"])
+        assert done.returncode == 0, done.stderr
+
+    def dump(self, *part):
+        document = self.run_json("dump", "noise.atlas", *part)
+        self.assert_schema(document, "dump")
+        return document
+
+    def test_all_parts_are_listed_and_each_is_printed_as_it_lies_in_the_file(self):
+        whole = (self.folder / "noise.atlas").read_bytes()
+        codes = {"uint8": "B", "uint32": "I", "int32": "i", "uint64": "Q", "float32": "f", "float64": "d"}
+        parts = self.dump()["parts"]
+        self.assertLess(15, len(parts))
+        for part in parts:
+            raw = whole[part["offset"]:part["offset"] + part["bytes"]]
+            if part["type"] == "json":
+                self.assertIn("text", self.dump(part["name"]))
+                continue
+            expected = list(struct.unpack(f"<{len(raw) // struct.calcsize(codes[part['type']])}{codes[part['type']]}", raw))
+            self.assertEqual(self.dump(part["name"])["numbers"], expected, part["name"])
+            self.assertEqual(len(self.run_ok("dump", "noise.atlas", part["name"]).stdout.splitlines()), len(expected))
+        text = self.run_ok("dump", "noise.atlas").stdout
+        for part in parts:
+            self.assertIn(part["name"] + " ", text)
+
+    def test_ranges(self):
+        all_values = self.dump("elements/value")["numbers"]
+        self.assertEqual(self.dump("elements/value[3:7]")["numbers"], all_values[3:7])
+        self.assertEqual(self.dump("elements/value[5]"), {**self.dump("elements/value[5:6]")})
+        self.assertEqual(self.dump("elements/value[5]")["first"], 5)
+        self.assertEqual(self.dump("elements/value[4:4]")["numbers"], [])
+        self.assertEqual(self.run_ok("dump", "noise.atlas", "elements/value[2:4]").stdout.split()[0], "2")
+
+    def test_bricks(self):
+        samples = struct.unpack("<8000f", (self.folder / "noise.npy").read_bytes()[-32000:])
+        for words, low, size in ((["brick", "0"], (0, 0, 0), (16, 16, 16)), (["brick 7"], (16, 16, 16), (4, 4, 4)),
+                                 (["voxel", "19,3,4"], (16, 0, 0), (4, 16, 16))):
+            document = self.dump(*words)
+            self.assertEqual((document["part"]["first_voxel"], document["part"]["shape"]), (list(low), list(size[::-1])))
+            expected = [samples[x + 20 * (y + 20 * z)] for z in range(low[2], low[2] + size[2])
+                        for y in range(low[1], low[1] + size[1]) for x in range(low[0], low[0] + size[0])]
+            self.assertEqual(document["numbers"], expected)
+        lines = self.run_ok("dump", "noise.atlas", "brick", "7").stdout.splitlines()
+        self.assertEqual(len(lines), 1 + 4 * 5)
+
+    def test_errors_say_what_there_is(self):
+        error = self.run_error(6, "dump", "noise.atlas", "elements/valu")
+        for name in ("header", "contents", "elements/value", "elements/towards_outside", "brick N"):
+            self.assertIn(name, error["expected"])
+        for part, says in (("brick 8", "0 to 7"), ("brick x", "brick 17"), ("voxel 20,0,0", "20,20,20"), ("elements/value[1:", "[FIRST:END]"),
+                           ("elements/value[9:3]", "numbers"), ("elements/value[-1]", "numbers"), ("header[1]", "header"),
+                           ("elements/value[99999999999999999999]", "[FIRST:END]")):
+            self.assertIn(says, self.run_error(6, "dump", "noise.atlas", part)["expected"], part)
+        self.run_error(3, "dump", "noise.npy", next_says="isoatlas build")
+        self.run_error(2, "dump")
+
+    def test_a_damaged_part_is_not_printed_but_the_others_are(self):
+        place = next(part for part in self.dump()["parts"] if part["name"] == "elements/towards_outside")
+        whole = bytearray((self.folder / "noise.atlas").read_bytes())
+        whole[place["offset"]] ^= 1
+        (self.folder / "bad.atlas").write_bytes(whole)
+        self.assertIn("elements/towards_outside", self.run_error(3, "dump", "bad.atlas", "elements/towards_outside")["where"])
+        self.run_ok("dump", "bad.atlas", "elements/code")
+
+
+if __name__ == "__main__":
+    harness.main()

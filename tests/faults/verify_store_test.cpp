@@ -1,0 +1,198 @@
+// Verifying damaged stores. Flipped bytes are told with the array they lie in; a store that lies under right checksums, as a bug of the
+// builder would make it, fails the guarantee that it breaks.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "isoatlas/build.h"
+#include "isoatlas/phantom.h"
+#include "isoatlas/verify.h"
+#include "store/brick_grid.h"
+#include "store/checksum.h"
+#include "store/container.h"
+#include "store/pack.h"
+
+namespace isoatlas {
+namespace {
+
+namespace fs = std::filesystem;
+using store::Container;
+using store::StoredArray;
+
+/// Arrays of a store by name, free to be changed.
+struct Opened {
+    store::Contents contents;
+    std::vector<std::vector<std::byte>> bytes;
+
+    explicit Opened(const std::string& path) {
+        const Container store(path);
+        contents = store.contents();
+        for (const StoredArray& array : contents.arrays) {
+            bytes.emplace_back(static_cast<std::size_t>(array.bytes()));
+            store.read_unchecked(array, 0, bytes.back());
+        }
+    }
+    template <class T>
+    std::span<T> numbers(const std::string& name) {
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            if (contents.arrays[i].name == name) return {reinterpret_cast<T*>(bytes[i].data()), bytes[i].size() / sizeof(T)};
+        }
+        ADD_FAILURE() << "no array " << name;
+        return {};
+    }
+    /// With right checksums.
+    void write(const std::string& path) const {
+        std::vector<store::PackedArray> arrays;
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            const StoredArray& array = contents.arrays[i];
+            arrays.push_back({array.name, array.type, array.shape, array.block, [this, i](const store::Put& put) { put(bytes[i]); }});
+        }
+        store::pack_store(path, contents, arrays);
+    }
+};
+
+class VerifyStore : public testing::Test {
+protected:
+    VerifyStore() : folder_(fs::temp_directory_path() / ("isoatlas_verify_" + std::to_string(::getpid()))) {
+        fs::create_directories(folder_);
+        path_ = (folder_ / "good.atlas").string(), bad_ = (folder_ / "bad.atlas").string();
+        build_atlas(path_, make_phantom("noise", {.size = 24, .quantise = 32}));
+    }
+    ~VerifyStore() override { fs::remove_all(folder_); }
+    VerifyStore(const VerifyStore&) = delete;
+    VerifyStore& operator=(const VerifyStore&) = delete;
+
+    static std::vector<CheckResult> failures(const std::string& path, bool full) {
+        Context context;
+        context.threads = 1;
+        std::vector<CheckResult> failed;
+        for (const CheckResult& check : verify_atlas(Atlas(path), {.levels = 3, .full = full}, context)) {
+            if (!check.holds) failed.push_back(check);
+        }
+        return failed;
+    }
+
+    /// Changes the store, which stays readable, and returns what fails: "name: detail", one a line.
+    std::string after(const std::function<void(Opened&)>& change, bool full = true) const {
+        Opened opened(path_);
+        change(opened);
+        opened.write(bad_);
+        std::string text;
+        for (const CheckResult& check : failures(bad_, full)) text += check.name + ": " + check.detail + "\n";
+        return text;
+    }
+
+    /// Makes brick 0 hold other samples of the same range, under a right checksum of its own.
+    static void change_brick(Opened& opened) {
+        const auto bits = opened.numbers<std::uint8_t>("volume/bits");
+        const auto offset = opened.numbers<std::uint64_t>("volume/offset");
+        const auto data = opened.numbers<std::byte>("volume/data");
+        const std::size_t size = (4096U * bits[0] + 7) / 8;
+        const std::span<std::byte> brick = data.subspan(static_cast<std::size_t>(offset[0]), size);
+        std::reverse(brick.begin(), brick.end());
+        opened.numbers<std::uint64_t>("volume/checksum")[0] = store::checksum(brick);
+    }
+
+    fs::path folder_;
+    std::string path_, bad_;
+};
+
+TEST_F(VerifyStore, AGoodOneHasNoFailures) {
+    EXPECT_EQ(after([](Opened&) {}), "");
+    EXPECT_EQ(after([](Opened&) {}, false), "");
+}
+
+TEST_F(VerifyStore, AFlippedByteIsToldWithItsArray) {
+    const Container store(path_);
+    std::ifstream file(path_, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(file), {}};
+    const auto told = [&](std::int64_t place) {
+        std::string bytes = whole;
+        bytes[static_cast<std::size_t>(place)] = static_cast<char>(bytes[static_cast<std::size_t>(place)] ^ 0x10);
+        std::ofstream(bad_, std::ios::binary) << bytes;
+        try {
+            const std::vector<CheckResult> failed = failures(bad_, false);
+            return failed.empty() ? std::string("nothing") : failed.front().detail;
+        } catch (const Error& error) {  // it is needed to open the store
+            return std::string(error.what());
+        }
+    };
+    for (const StoredArray& array : store.contents().arrays) {
+        const std::string name = array.block == 0 ? "brick " : array.name;
+        EXPECT_NE(told(array.offset + array.bytes() / 2).find(name), std::string::npos) << array.name;
+        if (array.block == 0) continue;
+        EXPECT_NE(told(array.checksums).find(array.name), std::string::npos) << array.name;
+    }
+    EXPECT_NE(told(20).find("header"), std::string::npos);
+    EXPECT_NE(told(store.header().contents_offset + 30).find("contents"), std::string::npos);
+}
+
+TEST_F(VerifyStore, ABrickThatIsReadAtTheWrongIsovaluesIsTold) {
+    for (const bool full : {false, true}) {
+        const std::string high = after([](Opened& o) { o.numbers<std::uint8_t>("volume/high")[3] = 12; }, full);
+        EXPECT_NE(high.find("bricks_hold_active_cells: brick 3 has samples 0"), std::string::npos) << high;
+        const std::string wide = after([](Opened& o) { o.numbers<std::uint8_t>("volume/high")[2] = 200; }, full);
+        EXPECT_NE(wide.find("bricks_hold_active_cells: brick 2 "), std::string::npos) << wide;
+    }
+}
+
+TEST_F(VerifyStore, OtherSamplesAreTold) {
+    EXPECT_NE(after(change_brick, false).find("checksums_are_right: "), std::string::npos);
+    const auto with_checksum = [](Opened& o) {
+        change_brick(o);
+        o.contents.parameters.samples_checksum = 0;
+    };
+    EXPECT_NE(after(with_checksum, false).find("samples are not those"), std::string::npos);
+}
+
+TEST_F(VerifyStore, TreesOfOtherSamplesAreTold) {
+    const Volume other = make_phantom("noise", {.size = 24, .seed = 2, .quantise = 32});
+    const std::string other_path = (folder_ / "other.atlas").string();
+    build_atlas(other_path, other);
+    Opened other_store(other_path);
+    for (const bool full : {false, true}) {
+        const std::string told = after(
+            [&](Opened& o) {
+                for (std::size_t i = 0; i < o.bytes.size(); ++i) {
+                    if (o.contents.arrays[i].name.starts_with("volume/")) continue;
+                    o.contents.arrays[i] = other_store.contents.arrays[i];
+                    o.bytes[i] = other_store.bytes[i];
+                }
+            },
+            full);
+        EXPECT_NE(told, "");
+        EXPECT_EQ(told.find("checksums_are_right"), std::string::npos) << told;
+        EXPECT_EQ(full, told.find("stored_tree_equals_analysis: elements/") != std::string::npos) << told;
+    }
+}
+
+TEST_F(VerifyStore, AWrongValueInTheTreesIsToldWithItsPlace) {
+    build_atlas(path_, make_phantom("noise", {.size = 12}));
+    const std::string value = after([](Opened& o) {
+        const auto values = o.numbers<double>("elements/value");
+        values[7] = (values[6] + values[7]) / 2;  // still in order
+    });
+    EXPECT_NE(value.find("elements/value[7] is "), std::string::npos) << value;
+}
+
+TEST_F(VerifyStore, AWrongNumberInTheTreesIsToldWithItsPlace) {
+    const std::string voxels = after([](Opened& o) {
+        const auto counts = o.numbers<std::uint32_t>("events/voxels");
+        ++counts[4], --counts[5];  // the sum stays
+    });
+    EXPECT_NE(voxels.find("events/voxels[4]"), std::string::npos) << voxels;
+    for (const std::string name : {"elements/code", "elements/towards_outside"}) {
+        const std::string told = after([&](Opened& o) {
+            for (std::size_t i = 0; i < o.bytes.size(); ++i) {
+                if (o.contents.arrays[i].name == name) o.bytes[i][o.bytes[i].size() / 2] ^= std::byte{1};
+            }
+        });
+        EXPECT_NE(told, "") << name;
+    }
+}
+
+}  // namespace
+}  // namespace isoatlas
