@@ -19,8 +19,6 @@ using store::kBrickSide;
 
 constexpr std::int64_t kBeside = 2;  // samples around a brick: a cell, and the neighbour that a normal looks at
 
-enum class BrickClass : std::uint8_t { low, high, divided };
-
 /// Bits [p, p + 16) of a row of classes; positions as in HighBits.
 void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
     row[p / 64] |= bits << p % 64;
@@ -60,6 +58,12 @@ struct Part {
     [[nodiscard]] std::int64_t number(std::int64_t brick) const {
         const std::array<std::int64_t, 3> at = grid.place(brick);
         return whole.brick({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
+    }
+
+    /// The number of a voxel of the whole in the part.
+    [[nodiscard]] std::int64_t voxel(std::int64_t whole_voxel) const {
+        const std::array<std::int64_t, 3> at = whole.extent.voxel(whole_voxel);
+        return grid.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
     }
 
 private:
@@ -131,15 +135,13 @@ public:
 
     [[nodiscard]] VolumeView view() const override { return {info_, array_.data()}; }
 
-    [[nodiscard]] HighBits classify(double tau, const Context& context, IoCounters& counters) override {
+    [[nodiscard]] StoredLevel classify(double tau, const Context& context, IoCounters& counters) override {
         if (!std::isfinite(tau)) {
             throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
         }
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
-        HighBits high(info_.extent);
-        (void)classify_part(Part(grid_), threshold, context.threads, high, counters);
-        return high;
+        return classify_part(Part(grid_), threshold, context.threads, counters).level;
     }
 
     [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
@@ -148,11 +150,11 @@ public:
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const Part part(grid_, bricks);
-        StoredWindow result{info_, {info_.extent, part.origin}, {}, HighBits(part.grid.extent)};
+        Classified classified = classify_part(part, threshold, 1, counters);
+        StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
-        const std::vector<std::int64_t> needed = classify_part(part, threshold, 1, result.high, counters);
         result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
-        for (const std::int64_t b : needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
+        for (const std::int64_t b : classified.needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
         return result;
     }
 
@@ -176,6 +178,8 @@ public:
         counters +=
             bricks_.read(std::move(all), context.threads, [&](std::int64_t brick, std::span<const T> values) { place(brick, values, to); });
     }
+
+    void check(const Context& context) const override { bricks_.check(context.threads); }
 
     void clear() override {
         const std::lock_guard lock(mutex_);
@@ -208,20 +212,35 @@ private:
         return bricks_.low(brick) >= threshold.least ? BrickClass::high : BrickClass::divided;
     }
 
-    /// Fills the classes of a part. Returns the bricks whose samples a surface with normals needs; they are present then.
-    std::vector<std::int64_t> classify_part(const Part& part, const Threshold<T>& threshold, int threads, HighBits& high,
-                                            IoCounters& counters) {
-        std::vector<BrickClass> classes;
-        std::vector<std::int64_t> needed;
+    struct Classified {
+        StoredLevel level;
+        std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
+    };
+
+    Classified classify_part(const Part& part, const Threshold<T>& threshold, int threads, IoCounters& counters) {
+        Classified result{{HighBits(part.grid.extent), bricks_of(part, threshold)}, {}};
+        auto& [high, bricks] = result.level;
         for (std::int64_t b = 0; b < part.grid.count(); ++b) {
-            classes.push_back(class_of(part.number(b), threshold));
-            if (classes.back() == BrickClass::divided) needed.push_back(part.number(b));
+            if (bricks.classes[b] == BrickClass::divided) result.needed.push_back(part.number(b));
         }
-        load(needed, threads, counters);
-        if (!threshold.none_high) fill(high, part, classes, threshold.least, threads);
-        for (const std::int64_t b : beside_surface(high, part.grid, classes, threads)) needed.push_back(part.number(b));
-        load(needed, threads, counters);
-        return needed;
+        load(result.needed, threads, counters);
+        if (!threshold.none_high) fill(high, part, bricks.classes, threshold.least, threads);
+        for (const std::int64_t b : beside_surface(high, part.grid, bricks.classes, threads)) result.needed.push_back(part.number(b));
+        load(result.needed, threads, counters);
+        return result;
+    }
+
+    /// What the numbers of the bricks say.
+    [[nodiscard]] LevelBricks bricks_of(const Part& part, const Threshold<T>& threshold) const {
+        const auto count = static_cast<std::size_t>(part.grid.count());
+        LevelBricks bricks{part.grid, std::vector<BrickClass>(count), std::vector<Extremum>(count), std::vector<Extremum>(count)};
+        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+            const std::int64_t brick = part.number(b);
+            bricks.classes[b] = class_of(brick, threshold);
+            bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
+            bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
+        }
+        return bricks;
     }
 
     void copy_brick(std::int64_t brick, const Part& part, T* to) {

@@ -14,6 +14,7 @@
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
 #include "oracle/mesh_checks.h"
+#include "store/brick_writer.h"
 
 namespace oracle {
 namespace {
@@ -89,6 +90,28 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameCutsAndSurfaces, ()) {
         if (*rc::gen::inRange(0, 4) == 0) atlas.clear_cache();
     }
     RC_ASSERT(atlas.volume().bytes == volume.bytes);
+}
+
+// Names come from bricks too: a store of bricks alone answers all but the trees.
+TEST_F(Stores, NeedNoTreesForCutsAndSurfaces) {
+    const std::vector<std::pair<const char*, isoatlas::PhantomOptions>> examples{
+        {"random-field", {.size = 90, .noise = 0.1, .quantise = 8}},
+        {"random-field", {.size = 90, .noise = 0.02}},
+        {"nested-shells", {.size = 110}}};
+    for (const auto& [name, options] : examples) {
+        const Volume volume = isoatlas::make_phantom(name, options);
+        isoatlas::store::Contents contents;
+        contents.volume = volume.info;
+        isoatlas::store::pack_store(path_, contents, isoatlas::store::brick_arrays(volume, {}));
+        const Atlas atlas(path_);
+        const std::array<double, 2> range = atlas.range();
+        for (const double part : {0.0, 0.2, 0.5, 0.7, 1.0}) {
+            const double tau = range[0] + part * (range[1] - range[0]);
+            EXPECT_EQ(text(atlas.cut(tau)), text(isoatlas::cut(volume, tau))) << name << ' ' << tau;
+            EXPECT_TRUE(same(atlas.extract(tau), isoatlas::extract(volume, tau))) << name << ' ' << tau;
+        }
+        EXPECT_THROW((void)atlas.analysis(), isoatlas::Error);
+    }
 }
 
 // One object from the bricks around it: every object of a cut, or some of many.
