@@ -1,5 +1,6 @@
 #include "query/components.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "query/names.h"
@@ -8,17 +9,17 @@
 namespace isoatlas {
 namespace {
 
-/// Calls visit(run number) for the runs of Lows that touch the border of the volume.
-template <class Visit>
-void for_border_lows(const Runs& runs, Visit&& visit) {
+/// Joins the Lows that touch the border of the volume: the outside, whose root is run 0.
+void join_outside(RunSets& sets, const Runs& runs) {
     const std::int64_t ny = runs.extent.size[1], nz = runs.extent.size[2];
     for (std::int64_t r = 0; r < runs.rows(); ++r) {
         const RunRow row = runs.row(r);
         const std::int64_t y = r % ny, z = r / ny;
         const bool border_row = y == 0 || y == ny - 1 || (runs.extent.rank == 3 && (z == 0 || z == nz - 1));
-        const std::int64_t step = border_row ? 2 : std::max<std::int64_t>(row.changes, 1);  // all Lows, or the first and the last run
-        for (std::int64_t i = 0; i < row.runs(); i += step) visit(row.first_run + i);
+        const std::int64_t last = border_row ? row.changes : std::min<std::int64_t>(row.changes, 1);
+        for (std::int64_t i = 0; i < last; i += 2) sets.join(0, row.first_run + i);
     }
+    sets.join(0, runs.count() - 1);
 }
 
 /// The component that lies before run i of row r along the last axis, next to its first position. Both ends of that grid edge differ in
@@ -36,15 +37,15 @@ std::int32_t towards_outside(const Components& components, std::int64_t r, std::
 
 void number_components(RunSets& sets, Components& components) {
     const Runs& runs = components.runs;
-    components.of_run.assign(static_cast<std::size_t>(runs.count()), -1);
-    for_border_lows(runs, [&](std::int64_t run) { components.of_run[sets.find(run)] = 0; });
+    join_outside(sets, runs);
+    components.of_run.resize(static_cast<std::size_t>(runs.count()));
+    components.of_run.front() = components.of_run.back() = 0;
     components.outer_object.push_back(-1);
     for (std::int64_t r = 0; r < runs.rows(); ++r) {
         const RunRow row = runs.row(r);
-        for (std::int64_t i = 0; i < row.runs(); ++i) {
+        for (std::int64_t i = 0; i < row.changes; ++i) {
             const std::int64_t run = row.first_run + i, root = sets.find(run);
-            if (components.of_run[root] == -1) {
-                ISOATLAS_CHECK(root == run);
+            if (root == run && run != 0) {
                 std::vector<std::int32_t>& outer = i & 1 ? components.outer_low : components.outer_object;
                 outer.push_back(towards_outside(components, r, i));
                 ISOATLAS_CHECK(outer.size() < std::size_t{std::numeric_limits<std::int32_t>::max()});

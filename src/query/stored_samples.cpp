@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/parallel.h"
+#include "base/prefetch.h"
 #include "isoatlas/error.h"
 #include "query/threshold.h"
 
@@ -17,7 +18,8 @@ using store::BrickReader;
 using store::IoCounters;
 using store::kBrickSide;
 
-constexpr std::int64_t kBeside = 2;  // samples around a brick: a cell, and the neighbour that a normal looks at
+constexpr std::int64_t kRowsAhead = 8;  // whose samples are asked for while a row is classified: they lie far apart
+constexpr std::int64_t kBeside = 2;     // samples around a brick: a cell, and the neighbour that a normal looks at
 
 /// Bits [p, p + 16) of a row of classes; positions as in HighBits.
 void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
@@ -218,13 +220,15 @@ private:
     };
 
     Classified classify_part(const Part& part, const Threshold<T>& threshold, int threads, IoCounters& counters) {
-        Classified result{{HighBits(part.grid.extent), bricks_of(part, threshold)}, {}};
+        LevelBricks around = bricks_of(part, threshold);
+        HighBits bits(around);
+        Classified result{{std::move(bits), std::move(around)}, {}};
         auto& [high, bricks] = result.level;
         for (std::int64_t b = 0; b < part.grid.count(); ++b) {
             if (bricks.classes[b] == BrickClass::divided) result.needed.push_back(part.number(b));
         }
         load(result.needed, threads, counters);
-        if (!threshold.none_high) fill(high, part, bricks.classes, threshold.least, threads);
+        fill(high, part, bricks.classes, threshold.least, threads);
         for (const std::int64_t b : beside_surface(high, part.grid, bricks.classes, threads)) result.needed.push_back(part.number(b));
         load(result.needed, threads, counters);
         return result;
@@ -237,8 +241,10 @@ private:
         for (std::int64_t b = 0; b < part.grid.count(); ++b) {
             const std::int64_t brick = part.number(b);
             bricks.classes[b] = class_of(brick, threshold);
-            bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
-            bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
+            if (bricks.classes[b] != BrickClass::low)
+                bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
+            if (bricks.classes[b] != BrickClass::high)
+                bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
         }
         return bricks;
     }
@@ -259,28 +265,42 @@ private:
         for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
             const std::int64_t first = row_of_bricks * grid.size[0];
             const Box box = grid.box(first);
-            for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-                for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-                    const T* values = samples() + info_.extent.index(part.origin[0], y + part.origin[1], z + part.origin[2]);
-                    fill_row(high.row(y, z), values, grid, classes.data() + first, least);
+            std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
+            std::vector<std::int64_t> divided;
+            for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+                if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickSide + 1, ones(grid, i));
+                if (classes[first + i] == BrickClass::divided) divided.push_back(i);
+            }
+            for (std::int64_t i = 0; i < box.size(1) * box.size(2); ++i) {
+                const auto values_at = [&](std::int64_t row) {
+                    const std::int64_t y = box.begin[1] + row % box.size(1), z = box.begin[2] + row / box.size(1);
+                    return samples() + info_.extent.index(part.origin[0], y + part.origin[1], z + part.origin[2]);
+                };
+                const T *values = values_at(i), *later = values_at(i + kRowsAhead);
+                std::uint64_t* row = high.row(box.begin[1] + i % box.size(1), box.begin[2] + i / box.size(1));
+                std::copy(whole.begin(), whole.end(), row);
+                for (const std::int64_t x : divided) {
+                    prefetch(later + x * kBrickSide);
+                    fill_brick(row, values, grid, x, least);
                 }
             }
         });
     }
 
-    static void fill_row(std::uint64_t* row, const T* values, const BrickGrid& grid, const BrickClass* classes, T least) {
-        for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-            if (classes[i] == BrickClass::low) continue;
-            const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
-            std::uint64_t bits = 0xffff >> (kBrickSide - count);
-            if (classes[i] == BrickClass::divided && count == kBrickSide) {
-                bits = bits_of_samples(values + begin, least);
-            } else if (classes[i] == BrickClass::divided) {
-                bits = 0;
-                for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
-            }
-            put_bits(row, begin + 1, bits);  // position p is voxel p - 1
+    /// A bit for every sample of a row of brick i of an axis.
+    static std::uint64_t ones(const BrickGrid& grid, std::int64_t i) {
+        return 0xffff >> (kBrickSide - std::min(kBrickSide, grid.extent.size[0] - i * kBrickSide));
+    }
+
+    static void fill_brick(std::uint64_t* row, const T* values, const BrickGrid& grid, std::int64_t i, T least) {
+        const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
+        std::uint64_t bits = 0;
+        if (count == kBrickSide) {
+            bits = bits_of_samples(values + begin, least);
+        } else {
+            for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
         }
+        put_bits(row, begin + 1, bits);  // position p is voxel p - 1
     }
 
     VolumeInfo info_;

@@ -38,7 +38,8 @@ public:
     virtual ~StoredSamples() = default;
 
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view().
-    /// Cost: the bricks that are not present yet, and O(voxels / 16) for the classes.
+    /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only words that are busy
+    /// (query/busy_words.h) need be looked at.
     [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, store::IoCounters& counters) = 0;
     /// The same for the bricks of a box alone (bricks, not samples). Cost: proportional to the box.
     [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, store::IoCounters& counters) = 0;
