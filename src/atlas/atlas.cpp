@@ -5,9 +5,7 @@
 #include <mutex>
 
 #include "atlas/object_window.h"
-#include "base/lazy.h"
 #include "critical/bodies.h"
-#include "field/order.h"
 #include "mesh/extract_level.h"
 #include "query/cut_level.h"
 #include "query/stored_samples.h"
@@ -18,36 +16,10 @@
 namespace isoatlas {
 namespace {
 
-/// Voxels and values of all maxima, descending, and of all minima, ascending.
-struct AllExtrema {
-    std::vector<std::int64_t> maxima, minima;
-    std::vector<double> maxima_value, minima_value;
-};
-
-AllExtrema extrema_of(const store::Container& store) {
-    const auto value = store.all<double>("elements/value", "float64");
-    const auto code = store.all<std::uint64_t>("elements/code", "uint64");
-    const std::int64_t voxels = store.contents().volume.extent.voxels();
-    AllExtrema all;
-    for (std::size_t i = 0; i < value.size() && i < code.size(); ++i) {
-        const ElementCode element{code[i]};
-        if (element.kind() != CodeKind::vertex || element.index() >= voxels) continue;
-        if (element.h0() == 0) all.maxima.push_back(element.index()), all.maxima_value.push_back(value[i]);
-        if (element.l0() == 0) all.minima.push_back(element.index()), all.minima_value.push_back(value[i]);
-    }
-    std::reverse(all.minima.begin(), all.minima.end());
-    std::reverse(all.minima_value.begin(), all.minima_value.end());
-    return all;
-}
-
-/// The number of a voxel in a window; -1: it lies outside.
+/// The number of a voxel of a window in it.
 std::int64_t local_voxel(const StoredWindow& window, std::int64_t voxel) {
     const std::array<std::int64_t, 3> at = window.window.whole.voxel(voxel), &origin = window.window.origin;
-    const Extent& extent = window.info.extent;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (at[axis] < origin[axis] || at[axis] >= origin[axis] + extent.size[axis]) return -1;
-    }
-    return extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
+    return window.info.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
 }
 
 std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
@@ -60,7 +32,6 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
 struct Atlas::Data {
     store::Container store;
     std::unique_ptr<StoredSamples> samples;
-    Lazy<AllExtrema> extrema;
     mutable std::mutex mutex;
     store::IoCounters reads;
 
@@ -71,31 +42,6 @@ struct Atlas::Data {
         reads += counters;
     }
 
-    /// What names objects and low components at tau.
-    Extrema extrema_at(double tau) const {
-        const AllExtrema& all = extrema.get([this] { return extrema_of(store); });
-        Extrema at;
-        for (std::size_t i = 0; i < all.maxima.size() && all.maxima_value[i] >= tau; ++i) at.maxima.push_back(all.maxima[i]);
-        for (std::size_t i = 0; i < all.minima.size() && all.minima_value[i] < tau; ++i) at.minima.push_back(all.minima[i]);
-        return at;
-    }
-
-    /// Those of them that lie in a window, numbered there.
-    Extrema extrema_in(const StoredWindow& window, double tau) const {
-        Extrema inside = extrema_at(tau);
-        const auto keep = [&](std::vector<std::int64_t>& voxels) {
-            std::size_t kept = 0;
-            for (const std::int64_t voxel : voxels) {
-                const std::int64_t local = local_voxel(window, voxel);
-                if (local >= 0) voxels[kept++] = local;
-            }
-            voxels.resize(kept);
-        };
-        keep(inside.maxima);
-        keep(inside.minima);
-        return inside;
-    }
-
     /// One object from its own part of the store; nothing when the whole is cheaper, or the voxel lies in no object.
     std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context) {
         store::IoCounters counters;
@@ -103,9 +49,8 @@ struct Atlas::Data {
         const std::optional<StoredWindow> window = window_of_object(*samples, options.objects[0], tau, height, context, counters);
         count(counters);
         if (!window) return std::nullopt;
-        const Extrema names = extrema_in(*window, tau);
         options.objects = {local_voxel(*window, options.objects[0])};
-        Surface surface = extract_level({window->view(), tau, window->high, &names, window->window}, options, context);
+        Surface surface = extract_level(window->at(tau), options, context);
         for (std::vector<std::int64_t>* ids : {&surface.object, &surface.contour}) {
             for (std::int64_t& id : *ids) id = whole_voxel(*window, id);
         }
@@ -116,10 +61,9 @@ struct Atlas::Data {
     template <class Query>
     auto at_level(double tau, const Context& context, Query&& query) {
         store::IoCounters counters;
-        const HighBits high = samples->classify(tau, context, counters);
-        const Extrema names = extrema_at(tau);
+        const StoredLevel level = samples->classify(tau, context, counters);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, counters); };
-        auto answer = query(TauLevel{samples->view(), tau, high, &names, {}, sample});
+        auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample});
         count(counters);
         return answer;
     }
@@ -175,6 +119,7 @@ std::int64_t Atlas::file_bytes() const { return data_->store.file_size(); }
 
 Volume Atlas::check(const Context& context) const {
     data_->store.check_all();
+    data_->samples->check(context);
     Volume samples = volume(context);
     if (store::checksum(samples.bytes) != data_->store.contents().parameters.samples_checksum) {
         throw Error(ErrorKind::input, {.file = data_->store.path(),

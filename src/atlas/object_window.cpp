@@ -15,8 +15,7 @@ constexpr std::int64_t kMargin = 3;
 
 /// Bounds of the object that contains a voxel of the window; empty: the voxel is Low.
 std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, double tau, double tunnel_height, const Context& context) {
-    const Extrema no_names;
-    const Components components = find_components({window.view(), tau, window.high, &no_names}, tunnel_height, context);
+    const Components components = find_components(window.at(tau), tunnel_height, context);
     const Extent& extent = window.info.extent;
     const std::array<std::int64_t, 3> at = extent.voxel(voxel);
     const RunRow home = components.runs.row(at[1], at[2]);

@@ -57,7 +57,7 @@ void CellWriter<T>::for_cells(std::int64_t y, std::int64_t z, Visit&& visit) con
     const CellCaseTables& cases = cell_cases();
     const std::int64_t corner = extent_.index(-1, y, z);
     const bool has_tunnels = tunnels_.finds_any() && y >= 0 && z >= 0 && y + 1 < extent_.size[1] && z + 1 < extent_.size[2];
-    for_active_cells(cell_row(domain_.high, y, z), domain_.high.words(), domain_.cells, [&](std::int64_t p, int pattern) {
+    for_active_cells(cell_row(domain_.high, y, z), domain_.cells, [&](std::int64_t p, int pattern) {
         State state{pattern, 0, cases.first_case[pattern], std::nullopt};
         if (const int split = cases.split_faces[pattern]; split != 0) {
             state.joined = joiner_.joined_mask(corner + p, pattern, split);

@@ -60,8 +60,9 @@ private:
     }
 
     void count() {
-        layout_.assign(static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1), {});
+        resize_fresh(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
         for_rows({"count", 1, kPhases}, [&](std::int64_t y, std::int64_t z) {
+            if (domain_.high.busy(y, z).empty()) return;
             RowPlace& place = layout_[domain_.row_number(y, z)];
             count_hits(domain_, y, z, place);
             if (!has_cells(y, z)) return;

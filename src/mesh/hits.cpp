@@ -69,7 +69,7 @@ void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& pla
     const auto fy = static_cast<double>(y + grid_.origin[1]), fz = static_cast<double>(z + grid_.origin[2]);
     const std::int64_t before = grid_.origin[0] - 1;  // position p is voxel p - 1
     std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
-    for (std::int64_t w = 0; w < hits.words; ++w) {
+    hits.busy.for_each([&](std::int64_t w) {
         for_bits(w, hits.x(w), [&](std::int64_t p) {  // between the voxels p - 1 and p
             const auto fx = static_cast<double>(p + before);
             if (p == 0)
@@ -97,7 +97,7 @@ void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& pla
             else
                 write_inner(here, p - 1, next_z, p - 1, 2, {fx, fy, fz}, z_point++);
         });
-    }
+    });
 }
 
 template class HitWriter<std::uint8_t>;

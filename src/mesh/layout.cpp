@@ -25,11 +25,11 @@ MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
 
 void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
     const RowHits hits(domain, y, z);
-    for (std::int64_t w = 0; w < hits.words; ++w) {
+    hits.busy.for_each([&](std::int64_t w) {
         place.x_hits += static_cast<std::uint32_t>(std::popcount(hits.x(w)));
         place.y_hits += static_cast<std::uint32_t>(std::popcount(hits.y(w)));
         place.z_hits += static_cast<std::uint32_t>(std::popcount(hits.z(w)));
-    }
+    });
 }
 
 void turn_counts_into_places(Layout& layout) {

@@ -34,7 +34,7 @@ struct MeshDomain {
 /// The edges of a row that are hit, 64 positions at a time.
 struct RowHits {
     const std::uint64_t *row, *next_y, *next_z;
-    std::int64_t words;
+    WordSet busy;
     CellWindow window;
     bool y_edges, z_edges;
 
@@ -42,7 +42,7 @@ struct RowHits {
         : row(domain.high.row(y, z)),
           next_y(domain.high.row(y + 1, z)),
           next_z(domain.high.row(y, z + 1)),
-          words(domain.high.words()),
+          busy(domain.high.busy(y, z)),
           window(domain.cells),
           y_edges(domain.has_next_y(y)),
           z_edges(domain.has_next_z(z)) {}

@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "mesh/huge_pages.h"
 #include "query/slab_work.h"
 
 namespace isoatlas {
@@ -64,7 +65,7 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
     };
     ComponentCursor here(components, y, z), here_y = here, here_z = here, next_y(components, y + 1, z), next_z(components, y, z + 1);
     std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
-    for (std::int64_t w = 0; w < hits.words; ++w) {
+    hits.busy.for_each([&](std::int64_t w) {
         const auto for_bits = [&](std::uint64_t bits, auto&& visit) {
             for (; bits != 0; bits &= bits - 1) {
                 const int bit = std::countr_zero(bits);
@@ -77,7 +78,7 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
         });
         for_bits(hits.y(w), [&](std::int64_t p, bool high) { write(high, here_y.at(p), next_y.at(p), y_point); });
         for_bits(hits.z(w), [&](std::int64_t p, bool high) { write(high, here_z.at(p), next_z.at(p), z_point); });
-    }
+    });
 }
 
 std::vector<std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options) {
@@ -130,7 +131,7 @@ void keep_contours(const std::vector<std::uint8_t>& chosen, Surface& surface) {
 }
 
 void write_ids(const Components& components, const Context& context, Surface& surface) {
-    surface.object.resize(surface.contour.size());
+    resize_fresh(surface.object, surface.contour.size());
     constexpr std::int64_t kBlock = 1 << 16;
     const auto count = static_cast<std::int64_t>(surface.contour.size());
     Context blocks = context;

@@ -14,8 +14,7 @@ bool is_split(int square) { return square == 0b1001 || square == 0b0110; }
 
 std::int64_t count_segments(const MeshDomain& domain, std::int64_t y) {
     std::int64_t segments = 0;
-    for_active_cells(square_row(domain.high, y), domain.high.words(), domain.cells,
-                     [&](std::int64_t, int square) { segments += is_split(square) ? 2 : 1; });
+    for_active_cells(square_row(domain.high, y), domain.cells, [&](std::int64_t, int square) { segments += is_split(square) ? 2 : 1; });
     return segments;
 }
 
@@ -26,7 +25,7 @@ void write_segments(const GridView<T>& grid, double tau, const MeshDomain& domai
     const RowPlace &near = layout[domain.row_number(y, 0)], &far = layout[domain.row_number(y + 1, 0)];
     std::array<std::int64_t, 2>* segment = surface.segments.data() + near.triangle;
     std::int64_t x_near = near.point, x_far = far.point, y_edge = near.first_y();
-    for_active_cells(square_row(domain.high, y), domain.high.words(), domain.cells, [&](std::int64_t p, int square) {
+    for_active_cells(square_row(domain.high, y), domain.cells, [&](std::int64_t p, int square) {
         int joined = 0;
         if (is_split(square)) {
             const Diagonal highs = square & 1 ? Diagonal::ac : Diagonal::bd;

@@ -33,6 +33,7 @@ struct CellWindow {
 template <int kRows>
 struct CellRow {
     std::array<const std::uint64_t*, kRows> row;
+    WordSet busy;
 
     /// Bit p: the corners of cell p are neither all High nor all Low.
     [[nodiscard]] std::uint64_t active(std::int64_t w) const {
@@ -47,16 +48,16 @@ struct CellRow {
 };
 
 inline CellRow<4> cell_row(const HighBits& high, std::int64_t y, std::int64_t z) {
-    return {{high.row(y, z), high.row(y + 1, z), high.row(y, z + 1), high.row(y + 1, z + 1)}};
+    return {{high.row(y, z), high.row(y + 1, z), high.row(y, z + 1), high.row(y + 1, z + 1)}, high.busy(y, z)};
 }
-inline CellRow<2> square_row(const HighBits& high, std::int64_t y) { return {{high.row(y, 0), high.row(y + 1, 0)}}; }
+inline CellRow<2> square_row(const HighBits& high, std::int64_t y) { return {{high.row(y, 0), high.row(y + 1, 0)}, high.busy(y, 0)}; }
 
 /// Calls visit(p, pattern) for every active cell of the window, p ascending. pattern: bit 2 r + i is corner p + i of row r.
 template <int kRows, class Visit>
-void for_active_cells(const CellRow<kRows>& rows, std::int64_t words, const CellWindow& window, Visit&& visit) {
-    for (std::int64_t w = 0; w < words; ++w) {
+void for_active_cells(const CellRow<kRows>& rows, const CellWindow& window, Visit&& visit) {
+    rows.busy.for_each([&](std::int64_t w) {
         const std::uint64_t active = rows.active(w) & window.mask(w);
-        if (active == 0) continue;
+        if (active == 0) return;
         for (int half = 0; half < 2; ++half) {  // 32 cells at a time: then both corners lie in one word
             std::array<std::uint64_t, kRows> bits;
             for (int r = 0; r < kRows; ++r) bits[r] = half == 0 ? rows.row[r][w] : rows.row[r][w] >> 32 | rows.row[r][w + 1] << 32;
@@ -67,14 +68,14 @@ void for_active_cells(const CellRow<kRows>& rows, std::int64_t words, const Cell
                 visit(64 * w + 32 * half + i, static_cast<int>(pattern));
             }
         }
-    }
+    });
 }
 
 /// The cells of a row that are active, as a number.
 template <int kRows>
-std::int64_t count_active_cells(const CellRow<kRows>& rows, std::int64_t words, const CellWindow& window) {
+std::int64_t count_active_cells(const CellRow<kRows>& rows, const CellWindow& window) {
     std::int64_t count = 0;
-    for (std::int64_t w = 0; w < words; ++w) count += std::popcount(rows.active(w) & window.mask(w));
+    rows.busy.for_each([&](std::int64_t w) { count += std::popcount(rows.active(w) & window.mask(w)); });
     return count;
 }
 

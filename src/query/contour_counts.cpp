@@ -46,7 +46,7 @@ void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels,
     const std::int64_t base = high.extent().index(-1, y, z);
     std::array<ComponentCursor, 4> cursor{ComponentCursor(components, y, z), ComponentCursor(components, y + 1, z),
                                           ComponentCursor(components, y, z + 1), ComponentCursor(components, y + 1, z + 1)};
-    for_active_cells(cell_row(high, y, z), high.words(), CellWindow::all(high.extent().size[0]), [&](std::int64_t p, int pattern) {
+    for_active_cells(cell_row(high, y, z), CellWindow::all(high.extent().size[0]), [&](std::int64_t p, int pattern) {
         std::array<std::int32_t, 8> component;
         for (int k = 0; k < 8; ++k) component[k] = cursor[k / 2].at(p + (k & 1));
         const int split = cases.split_faces[pattern];
@@ -72,7 +72,7 @@ void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels,
 void count_square_row(const HighBits& high, const Components& components, std::int64_t y, Tally& tally) {
     std::array<ComponentCursor, 2> cursor{ComponentCursor(components, y, 0), ComponentCursor(components, y + 1, 0)};
     static constexpr int kSides[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
-    for_active_cells(square_row(high, y), high.words(), CellWindow::all(high.extent().size[0]), [&](std::int64_t p, int pattern) {
+    for_active_cells(square_row(high, y), CellWindow::all(high.extent().size[0]), [&](std::int64_t p, int pattern) {
         std::array<std::int32_t, 4> component;
         for (int k = 0; k < 4; ++k) component[k] = cursor[k / 2].at(p + (k & 1));
         for (const auto& side : kSides) {
@@ -95,7 +95,7 @@ void count_3d(const GridView<T>& grid, double tau, double tunnel_height, const H
         std::int64_t cells = 0;
         for (std::int64_t z = slab.z_begin - 1; z < slab.z_end - 1; ++z) {
             for (std::int64_t y = -1; y < grid.extent.size[1]; ++y) {
-                cells += count_active_cells(cell_row(high, y, z), high.words(), CellWindow::all(grid.extent.size[0]));
+                cells += count_active_cells(cell_row(high, y, z), CellWindow::all(grid.extent.size[0]));
                 const bool has_tunnels = tunnels.finds_any() && is_inner(y, grid.extent.size[1]) && is_inner(z, grid.extent.size[2]);
                 count_cell_row(joiner, has_tunnels ? &tunnels : nullptr, high, components, y, z, tally);
             }
@@ -120,7 +120,7 @@ ContourCounts count_contours(const VolumeView& volume, double tau, double tunnel
         {
             Tally tally(counts);
             for (std::int64_t y = -1; y < extent.size[1]; ++y) {
-                counts.active_cells += count_active_cells(square_row(high, y), high.words(), CellWindow::all(extent.size[0]));
+                counts.active_cells += count_active_cells(square_row(high, y), CellWindow::all(extent.size[0]));
                 count_square_row(high, components, y, tally);
             }
         }

@@ -43,13 +43,23 @@ void classify_row(const T* values, std::int64_t n, T least, std::uint64_t* row) 
     row[w] = carry;
 }
 
+std::int64_t words_of(const Extent& extent) { return (extent.size[0] + 2 + 63) / 64; }
+
 }  // namespace
 
 HighBits::HighBits(const Extent& extent)
     : extent_(extent),
-      words_((extent.size[0] + 2 + 63) / 64),
-      bits_(static_cast<std::size_t>((words_ + 1) * extent.size[1] * extent.size[2])),
-      zero_row_(static_cast<std::size_t>(words_ + 1)) {}
+      words_(words_of(extent)),
+      busy_(words_),
+      bits_(static_cast<std::size_t>(stride() * extent.size[1] * extent.size[2]), 0),
+      zero_row_(static_cast<std::size_t>(stride())) {}
+
+HighBits::HighBits(const LevelBricks& bricks)
+    : extent_(bricks.grid.extent),
+      words_(words_of(extent_)),
+      busy_(bricks, words_),
+      bits_(static_cast<std::size_t>(stride() * extent_.size[1] * extent_.size[2])),
+      zero_row_(static_cast<std::size_t>(stride())) {}
 
 HighBits classify(const Volume& volume, double tau, const Context& context) {
     if (!std::isfinite(tau)) {

@@ -8,19 +8,26 @@
 #include <span>
 #include <vector>
 
+#include "base/big_vector.h"
 #include "field/grid.h"
 #include "isoatlas/context.h"
 #include "isoatlas/volume.h"
+#include "query/busy_words.h"
 
 namespace isoatlas {
 
 class HighBits {
 public:
+    /// All Low.
     explicit HighBits(const Extent& extent);
+    /// Only words that the bricks call busy need be looked at. Rows hold anything until they are written.
+    explicit HighBits(const LevelBricks& bricks);
 
     [[nodiscard]] const Extent& extent() const { return extent_; }
     /// Words of a row; one more zero word follows, so word w + 1 may always be read.
     [[nodiscard]] std::int64_t words() const { return words_; }
+    /// Words of row (y, z) of cells, y and z from -1, that may hold active cells.
+    [[nodiscard]] WordSet busy(std::int64_t y, std::int64_t z) const { return busy_.of(y, z); }
     [[nodiscard]] const std::uint64_t* row(std::int64_t y, std::int64_t z) const {
         const bool inside = y >= 0 && y < extent_.size[1] && z >= 0 && z < extent_.size[2];
         return inside ? bits_.data() + (y + extent_.size[1] * z) * stride() : zero_row_.data();
@@ -31,7 +38,9 @@ private:
     [[nodiscard]] std::int64_t stride() const { return words_ + 1; }
     Extent extent_;
     std::int64_t words_;
-    std::vector<std::uint64_t> bits_, zero_row_;
+    BusyWords busy_;
+    BigVector<std::uint64_t> bits_;
+    std::vector<std::uint64_t> zero_row_;
 };
 
 /// Classifies every sample of the volume. Throws Error{usage} when tau is not finite. Cost: one read of the volume.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/parallel.h"
+#include "base/prefetch.h"
 #include "isoatlas/error.h"
 #include "query/threshold.h"
 
@@ -17,9 +18,8 @@ using store::BrickReader;
 using store::IoCounters;
 using store::kBrickSide;
 
-constexpr std::int64_t kBeside = 2;  // samples around a brick: a cell, and the neighbour that a normal looks at
-
-enum class BrickClass : std::uint8_t { low, high, divided };
+constexpr std::int64_t kRowsAhead = 8;  // whose samples are asked for while a row is classified: they lie far apart
+constexpr std::int64_t kBeside = 2;     // samples around a brick: a cell, and the neighbour that a normal looks at
 
 /// Bits [p, p + 16) of a row of classes; positions as in HighBits.
 void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
@@ -60,6 +60,12 @@ struct Part {
     [[nodiscard]] std::int64_t number(std::int64_t brick) const {
         const std::array<std::int64_t, 3> at = grid.place(brick);
         return whole.brick({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
+    }
+
+    /// The number of a voxel of the whole in the part.
+    [[nodiscard]] std::int64_t voxel(std::int64_t whole_voxel) const {
+        const std::array<std::int64_t, 3> at = whole.extent.voxel(whole_voxel);
+        return grid.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
     }
 
 private:
@@ -131,15 +137,13 @@ public:
 
     [[nodiscard]] VolumeView view() const override { return {info_, array_.data()}; }
 
-    [[nodiscard]] HighBits classify(double tau, const Context& context, IoCounters& counters) override {
+    [[nodiscard]] StoredLevel classify(double tau, const Context& context, IoCounters& counters) override {
         if (!std::isfinite(tau)) {
             throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
         }
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
-        HighBits high(info_.extent);
-        (void)classify_part(Part(grid_), threshold, context.threads, high, counters);
-        return high;
+        return classify_part(Part(grid_), threshold, context.threads, counters).level;
     }
 
     [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
@@ -148,11 +152,11 @@ public:
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const Part part(grid_, bricks);
-        StoredWindow result{info_, {info_.extent, part.origin}, {}, HighBits(part.grid.extent)};
+        Classified classified = classify_part(part, threshold, 1, counters);
+        StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
-        const std::vector<std::int64_t> needed = classify_part(part, threshold, 1, result.high, counters);
         result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
-        for (const std::int64_t b : needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
+        for (const std::int64_t b : classified.needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
         return result;
     }
 
@@ -176,6 +180,8 @@ public:
         counters +=
             bricks_.read(std::move(all), context.threads, [&](std::int64_t brick, std::span<const T> values) { place(brick, values, to); });
     }
+
+    void check(const Context& context) const override { bricks_.check(context.threads); }
 
     void clear() override {
         const std::lock_guard lock(mutex_);
@@ -208,20 +214,39 @@ private:
         return bricks_.low(brick) >= threshold.least ? BrickClass::high : BrickClass::divided;
     }
 
-    /// Fills the classes of a part. Returns the bricks whose samples a surface with normals needs; they are present then.
-    std::vector<std::int64_t> classify_part(const Part& part, const Threshold<T>& threshold, int threads, HighBits& high,
-                                            IoCounters& counters) {
-        std::vector<BrickClass> classes;
-        std::vector<std::int64_t> needed;
+    struct Classified {
+        StoredLevel level;
+        std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
+    };
+
+    Classified classify_part(const Part& part, const Threshold<T>& threshold, int threads, IoCounters& counters) {
+        LevelBricks around = bricks_of(part, threshold);
+        HighBits bits(around);
+        Classified result{{std::move(bits), std::move(around)}, {}};
+        auto& [high, bricks] = result.level;
         for (std::int64_t b = 0; b < part.grid.count(); ++b) {
-            classes.push_back(class_of(part.number(b), threshold));
-            if (classes.back() == BrickClass::divided) needed.push_back(part.number(b));
+            if (bricks.classes[b] == BrickClass::divided) result.needed.push_back(part.number(b));
         }
-        load(needed, threads, counters);
-        if (!threshold.none_high) fill(high, part, classes, threshold.least, threads);
-        for (const std::int64_t b : beside_surface(high, part.grid, classes, threads)) needed.push_back(part.number(b));
-        load(needed, threads, counters);
-        return needed;
+        load(result.needed, threads, counters);
+        fill(high, part, bricks.classes, threshold.least, threads);
+        for (const std::int64_t b : beside_surface(high, part.grid, bricks.classes, threads)) result.needed.push_back(part.number(b));
+        load(result.needed, threads, counters);
+        return result;
+    }
+
+    /// What the numbers of the bricks say.
+    [[nodiscard]] LevelBricks bricks_of(const Part& part, const Threshold<T>& threshold) const {
+        const auto count = static_cast<std::size_t>(part.grid.count());
+        LevelBricks bricks{part.grid, std::vector<BrickClass>(count), std::vector<Extremum>(count), std::vector<Extremum>(count)};
+        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+            const std::int64_t brick = part.number(b);
+            bricks.classes[b] = class_of(brick, threshold);
+            if (bricks.classes[b] != BrickClass::low)
+                bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
+            if (bricks.classes[b] != BrickClass::high)
+                bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
+        }
+        return bricks;
     }
 
     void copy_brick(std::int64_t brick, const Part& part, T* to) {
@@ -240,28 +265,42 @@ private:
         for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
             const std::int64_t first = row_of_bricks * grid.size[0];
             const Box box = grid.box(first);
-            for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-                for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-                    const T* values = samples() + info_.extent.index(part.origin[0], y + part.origin[1], z + part.origin[2]);
-                    fill_row(high.row(y, z), values, grid, classes.data() + first, least);
+            std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
+            std::vector<std::int64_t> divided;
+            for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+                if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickSide + 1, ones(grid, i));
+                if (classes[first + i] == BrickClass::divided) divided.push_back(i);
+            }
+            for (std::int64_t i = 0; i < box.size(1) * box.size(2); ++i) {
+                const auto values_at = [&](std::int64_t row) {
+                    const std::int64_t y = box.begin[1] + row % box.size(1), z = box.begin[2] + row / box.size(1);
+                    return samples() + info_.extent.index(part.origin[0], y + part.origin[1], z + part.origin[2]);
+                };
+                const T *values = values_at(i), *later = values_at(i + kRowsAhead);
+                std::uint64_t* row = high.row(box.begin[1] + i % box.size(1), box.begin[2] + i / box.size(1));
+                std::copy(whole.begin(), whole.end(), row);
+                for (const std::int64_t x : divided) {
+                    prefetch(later + x * kBrickSide);
+                    fill_brick(row, values, grid, x, least);
                 }
             }
         });
     }
 
-    static void fill_row(std::uint64_t* row, const T* values, const BrickGrid& grid, const BrickClass* classes, T least) {
-        for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-            if (classes[i] == BrickClass::low) continue;
-            const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
-            std::uint64_t bits = 0xffff >> (kBrickSide - count);
-            if (classes[i] == BrickClass::divided && count == kBrickSide) {
-                bits = bits_of_samples(values + begin, least);
-            } else if (classes[i] == BrickClass::divided) {
-                bits = 0;
-                for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
-            }
-            put_bits(row, begin + 1, bits);  // position p is voxel p - 1
+    /// A bit for every sample of a row of brick i of an axis.
+    static std::uint64_t ones(const BrickGrid& grid, std::int64_t i) {
+        return 0xffff >> (kBrickSide - std::min(kBrickSide, grid.extent.size[0] - i * kBrickSide));
+    }
+
+    static void fill_brick(std::uint64_t* row, const T* values, const BrickGrid& grid, std::int64_t i, T least) {
+        const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
+        std::uint64_t bits = 0;
+        if (count == kBrickSide) {
+            bits = bits_of_samples(values + begin, least);
+        } else {
+            for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[begin + x] >= least} << x;
         }
+        put_bits(row, begin + 1, bits);  // position p is voxel p - 1
     }
 
     VolumeInfo info_;

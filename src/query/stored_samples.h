@@ -15,14 +15,22 @@
 
 namespace isoatlas {
 
+/// The classes of a store at one isovalue.
+struct StoredLevel {
+    HighBits high;
+    LevelBricks bricks;
+};
+
 /// Samples and classes of some bricks, as a volume of its own.
 struct StoredWindow {
     VolumeInfo info;
     Window window;
     std::vector<std::byte> samples;
-    HighBits high;
+    StoredLevel level;
 
-    [[nodiscard]] VolumeView view() const { return {info, samples.data()}; }
+    [[nodiscard]] TauLevel at(double tau) const {
+        return {.volume = {info, samples.data()}, .tau = tau, .high = level.high, .bricks = &level.bricks, .window = window};
+    }
 };
 
 class StoredSamples {
@@ -30,8 +38,9 @@ public:
     virtual ~StoredSamples() = default;
 
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view().
-    /// Cost: the bricks that are not present yet, and O(voxels / 16) for the classes.
-    [[nodiscard]] virtual HighBits classify(double tau, const Context& context, store::IoCounters& counters) = 0;
+    /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only words that are busy
+    /// (query/busy_words.h) need be looked at.
+    [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, store::IoCounters& counters) = 0;
     /// The same for the bricks of a box alone (bricks, not samples). Cost: proportional to the box.
     [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, store::IoCounters& counters) = 0;
     [[nodiscard]] virtual VolumeView view() const = 0;
@@ -42,6 +51,8 @@ public:
     [[nodiscard]] virtual double sample(std::int64_t voxel, store::IoCounters& counters) = 0;
     /// All samples, x fastest.
     virtual void read_all(std::span<std::byte> samples, const Context& context, store::IoCounters& counters) = 0;
+    /// Reads all bricks; throws Error{input} where what is said about one is not so.
+    virtual void check(const Context& context) const = 0;
     /// Forgets the samples that are present.
     virtual void clear() = 0;
 };

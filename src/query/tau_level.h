@@ -5,18 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "field/volume_view.h"
 #include "query/high_bits.h"
+#include "query/level_bricks.h"
 
 namespace isoatlas {
-
-/// Critical voxels that name objects and low components (docs/decisions/0001): the first one of a component in these orders is its name.
-struct Extrema {
-    std::vector<std::int64_t> maxima;  ///< all maxima that are High, descending in the total order
-    std::vector<std::int64_t> minima;  ///< all minima that are Low, ascending
-};
 
 /// A part of a volume that stands for itself.
 struct Window {
@@ -28,7 +22,7 @@ struct TauLevel {
     VolumeView volume;  ///< samples are needed at the corners of active cells, and one sample around them for normals
     double tau;
     const HighBits& high;                          ///< of all samples
-    const Extrema* extrema = nullptr;              ///< null: names are found by looking at all samples
+    const LevelBricks* bricks = nullptr;           ///< of the volume; null: all samples are there
     std::optional<Window> window{};                ///< of what `volume` is a part; voxels are numbered in the part
     std::function<double(std::int64_t)> sample{};  ///< of any voxel, for messages; empty: it is in `volume`
 

@@ -10,7 +10,7 @@ namespace isoatlas {
 using RunSets = UnionFind<std::int64_t>;
 
 /// Sets of connected runs; the root of a set is its first run in scan order. Highs and Lows never share a set; runs of Lows at the border
-/// of the volume are not yet joined to each other.
+/// of the volume are not yet joined to each other, and what touches padding is joined to the first run of its own row.
 [[nodiscard]] RunSets unite_runs(const VolumeView& volume, double tau, double tunnel_height, const HighBits& high, const Runs& runs,
                                  const Context& context);
 

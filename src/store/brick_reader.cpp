@@ -1,10 +1,12 @@
 #include "store/brick_reader.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "isoatlas/error.h"
 #include "store/brick_codec.h"
+#include "store/brick_extremes.h"
 #include "store/checksum.h"
 
 namespace isoatlas::store {
@@ -20,6 +22,8 @@ constexpr std::int64_t kLongest = 256 << 10;  ///< bytes of one read
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
+constexpr const char* kWrongExtremes = "its extremes are not where they should be";
+
 }  // namespace
 
 template <class T>
@@ -31,21 +35,33 @@ BrickReader<T>::BrickReader(const Container& store)
       sums_(store.all<std::uint64_t>("volume/checksum", "uint64")),
       bits_(store.all<std::uint8_t>("volume/bits", "uint8")),
       low_(store.all<T>("volume/low", name_of(value_type_of<T>))),
-      high_(store.all<T>("volume/high", name_of(value_type_of<T>))) {
+      high_(store.all<T>("volume/high", name_of(value_type_of<T>))),
+      lowest_(store.all<std::uint16_t>("volume/lowest", "uint16")),
+      highest_(store.all<std::uint16_t>("volume/highest", "uint16")) {
     const auto count = static_cast<std::size_t>(grid_.count());
-    if (offset_.size() != count || sums_.size() != count || bits_.size() != count || low_.size() != count || high_.size() != count)
+    if (offset_.size() != count || sums_.size() != count || bits_.size() != count || low_.size() != count || high_.size() != count ||
+        lowest_.size() != count || highest_.size() != count)
         damaged(store, 0, "the numbers of bricks do not agree");
     for (std::int64_t brick = 0; brick < grid_.count(); ++brick) {
         const auto i = static_cast<std::size_t>(brick);
         const auto bytes = static_cast<std::uint64_t>(data_.bytes());
         if (bits_[i] > 8 * sizeof(T) || offset_[i] > bytes || static_cast<std::uint64_t>(bytes_of(brick)) > bytes - offset_[i])
             damaged(store, brick, "it lies outside the data");
+        const std::int64_t samples = grid_.box(brick).count();
+        if (lowest_[i] >= samples || highest_[i] >= samples) damaged(store, brick, "its extremes lie outside");
     }
 }
 
 template <class T>
 std::int64_t BrickReader<T>::bytes_of(std::int64_t brick) const {
     return packed_bytes(grid_.box(brick).count(), bits_[static_cast<std::size_t>(brick)]);
+}
+
+template <class T>
+std::int64_t BrickReader<T>::voxel_at(std::int64_t brick, std::int64_t place) const {
+    const Box box = grid_.box(brick);
+    const std::int64_t nx = box.size(0), ny = box.size(1);
+    return grid_.extent.index(box.begin[0] + place % nx, box.begin[1] + place / nx % ny, box.begin[2] + place / (nx * ny));
 }
 
 template <class T>
@@ -71,6 +87,7 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
     std::array<T, kBrickSide * kBrickSide * kBrickSide> samples;
     const std::span<T> box(samples.data(), static_cast<std::size_t>(grid_.box(brick).count()));
     decode_brick<T>(packed, low_[i], bits_[i], box);
+    if (box[lowest_[i]] != low_[i] || box[highest_[i]] != high_[i]) damaged(store_, brick, kWrongExtremes);
     sink(brick, box);
 }
 
@@ -96,6 +113,16 @@ IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, int threads,
         }
     });
     return counters;
+}
+
+template <class T>
+void BrickReader<T>::check(int threads) const {
+    std::vector<std::int64_t> all(static_cast<std::size_t>(grid_.count()));
+    std::iota(all.begin(), all.end(), std::int64_t{0});
+    (void)read(std::move(all), threads, [this](std::int64_t brick, std::span<const T> samples) {
+        const auto i = static_cast<std::size_t>(brick);
+        if (extreme_places(samples) != ExtremePlaces{highest_[i], lowest_[i]}) damaged(store_, brick, kWrongExtremes);
+    });
 }
 
 template class BrickReader<std::uint8_t>;

@@ -22,16 +22,25 @@ struct IoCounters {
 template <class T>
 class BrickReader {
 public:
-    /// Reads what there is about every brick: 18 bytes and two samples each. Throws Error{input} when it contradicts itself.
+    /// Reads what there is about every brick: 21 bytes and two samples each. Throws Error{input} when it contradicts itself.
     explicit BrickReader(const Container& store);
 
     [[nodiscard]] const BrickGrid& grid() const { return grid_; }
     [[nodiscard]] T low(std::int64_t brick) const { return low_[static_cast<std::size_t>(brick)]; }
     [[nodiscard]] T high(std::int64_t brick) const { return high_[static_cast<std::size_t>(brick)]; }
 
+    /// Voxels of the highest and the lowest sample of a brick; ties as in the total order (field/order.h).
+    [[nodiscard]] std::int64_t highest_voxel(std::int64_t brick) const {
+        return voxel_at(brick, highest_[static_cast<std::size_t>(brick)]);
+    }
+    [[nodiscard]] std::int64_t lowest_voxel(std::int64_t brick) const { return voxel_at(brick, lowest_[static_cast<std::size_t>(brick)]); }
+
     /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that lie
-    /// close to each other in the file come with one read. Throws Error{input} for a damaged one.
+    /// close to each other in the file come with one read. Throws Error{input} for a damaged one, or one whose extremes are not where they
+    /// are said to be.
     IoCounters read(std::vector<std::int64_t> bricks, int threads, const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+    /// Reads all bricks; throws Error{input} where the places of the extremes are not those of the samples.
+    void check(int threads) const;
 
 private:
     struct Extent {
@@ -40,6 +49,7 @@ private:
     };
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const;
     [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks) const;
+    [[nodiscard]] std::int64_t voxel_at(std::int64_t brick, std::int64_t place) const;
     void decode(std::int64_t brick, std::span<const std::byte> packed,
                 const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
 
@@ -49,6 +59,7 @@ private:
     std::vector<std::uint64_t> offset_, sums_;
     std::vector<std::uint8_t> bits_;
     std::vector<T> low_, high_;
+    std::vector<std::uint16_t> lowest_, highest_;
 };
 
 }  // namespace isoatlas::store

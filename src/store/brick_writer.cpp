@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "store/brick_codec.h"
+#include "store/brick_extremes.h"
 #include "store/brick_grid.h"
 #include "store/checksum.h"
 
@@ -37,12 +38,14 @@ struct Bricks {
     std::vector<std::uint64_t> offset, sums;
     std::vector<std::uint8_t> bits;
     std::vector<T> low, high;
+    std::vector<std::uint16_t> lowest, highest;
     std::int64_t bytes = 0;
 
     Bricks(std::span<const T> values, const Extent& extent, int thread_count)
         : samples(values), grid(extent), threads(thread_count), order(grid.file_order()) {
         const auto count = static_cast<std::size_t>(grid.count());
         offset.resize(count), sums.resize(count), bits.resize(count), low.resize(count), high.resize(count);
+        lowest.resize(count), highest.resize(count);
         for_each_block(threads, (grid.count() + kTogether - 1) / kTogether, [this](std::int64_t block) {
             for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) measure(i);
         });
@@ -57,6 +60,8 @@ struct Bricks {
         copy_box(samples, grid.extent, grid.box(brick), values);
         std::tie(low[brick], high[brick]) = extremes_of<T>(values);
         bits[brick] = static_cast<std::uint8_t>(bits_of_range(low[brick], high[brick]));
+        const ExtremePlaces places = extreme_places<T>(values);
+        lowest[brick] = places.lowest, highest[brick] = places.highest;
     }
 
     void feed(const Put& put) {
@@ -91,6 +96,8 @@ std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& c
         add("volume/bits", "uint8", bricks->bits);
         add("volume/low", name_of(volume.info->type), bricks->low);
         add("volume/high", name_of(volume.info->type), bricks->high);
+        add("volume/lowest", "uint16", bricks->lowest);
+        add("volume/highest", "uint16", bricks->highest);
         add("volume/checksum", "uint64", bricks->sums);
     });
     return arrays;

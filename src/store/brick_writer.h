@@ -4,6 +4,7 @@
 //   volume/offset    per brick: its first byte in volume/data
 //   volume/bits      per brick: bits of a sample
 //   volume/low,high  per brick: its extremes, in the type of the samples
+//   volume/lowest,highest   per brick: where they lie (brick_extremes.h)
 //   volume/checksum  per brick: of its bytes
 #pragma once
 
@@ -17,7 +18,7 @@
 namespace isoatlas::store {
 
 /// The arrays of a volume, to be packed in this order. Samples and info must live until then; their numbers live as long as the arrays.
-/// Cost: two passes over the samples, 26 bytes a brick and a few bricks for each thread.
+/// Cost: two passes over the samples, 30 bytes a brick and a few bricks for each thread.
 [[nodiscard]] std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas::store

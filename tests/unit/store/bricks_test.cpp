@@ -30,9 +30,12 @@ public:
     void write(const Volume& volume, int threads = 0) const {
         Context context;
         context.threads = threads;
+        pack(volume, brick_arrays(volume, context));
+    }
+    void pack(const Volume& volume, const std::vector<PackedArray>& arrays) const {
         Contents contents;
         contents.volume = volume.info;
-        pack_store(path_, contents, brick_arrays(volume, context));
+        pack_store(path_, contents, arrays);
     }
     /// All samples from the bricks.
     Volume read_back(const Volume& volume) const {
@@ -58,7 +61,7 @@ public:
     std::string path_;
 };
 
-RC_GTEST_FIXTURE_PROP(Bricks, GiveTheSameBits, ()) {
+oracle::Grid arbitrary_grid() {
     std::array<std::int64_t, 3> size{};
     for (std::int64_t& n : size) n = *rc::gen::inRange<std::int64_t>(1, 40);
     const auto raw = *rc::gen::container<std::vector<int>>(997, rc::gen::resize(100, rc::gen::inRange(0, 10000)));
@@ -68,9 +71,54 @@ RC_GTEST_FIXTURE_PROP(Bricks, GiveTheSameBits, ()) {
         const std::vector<int> one(static_cast<std::size_t>(v + 1), raw[static_cast<std::size_t>(v % 997)]);
         grid.value.push_back(oracle::texture_value(texture, grid, v, one));
     }
+    return grid;
+}
+
+RC_GTEST_FIXTURE_PROP(Bricks, GiveTheSameBits, ()) {
+    const oracle::Grid grid = arbitrary_grid();
     const Volume volume = oracle::to_volume(grid, oracle::arbitrary_type(grid));
     write(volume, *rc::gen::inRange(1, 4));
     RC_ASSERT(read_back(volume).bytes == volume.bytes);
+}
+
+// The voxels that name components: in the total order, so the last one of the highest and the first one of the lowest.
+RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
+    const oracle::Grid grid = arbitrary_grid();
+    const Volume volume = oracle::to_volume(grid, oracle::arbitrary_type(grid));
+    write(volume);
+    const Container store(path_);
+    visit_samples(volume, [&]<class T>(std::span<const T>) {
+        const BrickReader<T> reader(store);
+        std::vector<std::pair<double, std::int64_t>> least(static_cast<std::size_t>(reader.grid().count()), {1e300, 0}), most = least;
+        for (auto& high : most) high.first = -1e300;
+        for (std::int64_t v = 0; v < volume.info.extent.voxels(); ++v) {
+            const auto at = volume.info.extent.voxel(v);
+            const auto b = static_cast<std::size_t>(reader.grid().brick({at[0] / kBrickSide, at[1] / kBrickSide, at[2] / kBrickSide}));
+            least[b] = std::min(least[b], std::pair(volume.value(v), v));
+            most[b] = std::max(most[b], std::pair(volume.value(v), v));
+        }
+        for (std::int64_t b = 0; b < reader.grid().count(); ++b) {
+            RC_ASSERT(reader.highest_voxel(b) == most[static_cast<std::size_t>(b)].second);
+            RC_ASSERT(reader.lowest_voxel(b) == least[static_cast<std::size_t>(b)].second);
+        }
+        reader.check(1);
+    });
+}
+
+// Places that are not those of the extremes are refused, whatever the checksums say.
+TEST_F(Bricks, WrongPlacesOfExtremesAreRefused) {
+    const Volume volume = make_phantom("noise", {.size = 20, .quantise = 8});
+    for (const char* name : {"volume/highest", "volume/lowest"}) {
+        for (const std::uint16_t wrong : {std::uint16_t{0}, std::uint16_t{63}, std::uint16_t{64}, std::uint16_t{4096}}) {
+            std::vector<PackedArray> arrays = brick_arrays(volume, {});
+            const std::vector<std::uint16_t> places(8, wrong);
+            for (PackedArray& array : arrays) {
+                if (array.name == name) array.feed = [&](const Put& put) { put(std::as_bytes(std::span(places))); };
+            }
+            pack(volume, arrays);
+            EXPECT_THROW(BrickReader<std::uint8_t>(Container(path_)).check(1), Error) << name << ' ' << wrong;
+        }
+    }
 }
 
 TEST_F(Bricks, NegativeZerosStay) {

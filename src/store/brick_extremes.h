@@ -1,0 +1,28 @@
+// Where the extremes of a brick lie: they name the components that a brick lies in, without its samples.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace isoatlas::store {
+
+/// Places among the samples of a brick, x fastest. Ties as in the total order (field/order.h): of the highest the last, of the lowest the
+/// first one.
+struct ExtremePlaces {
+    std::uint16_t highest = 0, lowest = 0;
+    friend bool operator==(const ExtremePlaces&, const ExtremePlaces&) = default;
+};
+
+/// At most 4096 samples, at least one.
+template <class T>
+[[nodiscard]] ExtremePlaces extreme_places(std::span<const T> samples) {
+    std::size_t highest = 0, lowest = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        if (samples[i] >= samples[highest]) highest = i;
+        if (samples[i] < samples[lowest]) lowest = i;
+    }
+    return {static_cast<std::uint16_t>(highest), static_cast<std::uint16_t>(lowest)};
+}
+
+}  // namespace isoatlas::store
