@@ -1,8 +1,6 @@
 // Building a store: trees, zones, pack. Every phase leaves a file that the next one, or the next process, goes on from.
 #include "isoatlas/build.h"
 
-#include <filesystem>
-
 #include "atlas/build_folder.h"
 #include "base/big_vector.h"
 #include "base/check.h"
@@ -106,9 +104,8 @@ private:
             for (store::PackedArray& array : store::copied_arrays(*phase)) arrays.push_back(std::move(array));
         }
         report_packing(arrays, context_);
-        store::pack_store(path_, contents, arrays);
+        report_.bytes = store::pack_store(path_, contents, arrays);
         folder_.remove();
-        report_.bytes = static_cast<std::int64_t>(std::filesystem::file_size(path_));
         report_.peak_memory = peak_memory();
     }
 

@@ -1,33 +1,41 @@
 #include "atlas/build_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <limits>
 
+#include "base/atomic_file.h"
+#include "io/file_access.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr const char* kLock = "lock";
 
-[[noreturn]] void cannot_make(const std::string& path, const std::string& why) {
+[[noreturn]] void cannot_make(const std::string& path, int error) {
+    const char* in_the_way = "choose another folder with -o, or remove what is in the way";
     throw Error(ErrorKind::resource, {.file = path,
-                                      .what = "the folder for the build cannot be made: " + why,
-                                      .next = "choose another folder with -o, or remove what is in the way"});
+                                      .what = std::string("the folder for the build cannot be made: ") + std::strerror(-error),
+                                      .next = error == -ENOTDIR ? in_the_way : next_step_after(error)});
 }
 
+/// Removes all but the lock. What cannot be removed stays: it is replaced when it is in the way.
 void remove_contents(const std::string& path) {
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored)) {
-        if (entry.path().filename() != kLock) fs::remove_all(entry.path(), ignored);
+    for (const std::string& name : file_system().entries(path, std::numeric_limits<std::size_t>::max())) {
+        if (name != kLock) (void)file_system().remove(path + "/" + name);
     }
+}
+
+/// The process that holds a lock, as it has written it there; "" when that cannot be read.
+std::string holder_of(const std::string& lock) try {
+    std::string who(32, '\0');
+    who.resize(io::read_available(*io::open_file(lock), lock, 0, std::as_writable_bytes(std::span(who))));
+    return who.substr(0, who.find('\n'));
+} catch (const Error&) {
+    return "";
 }
 
 /// Does a phase belong to the same samples, and are its arrays what this version would make?
@@ -41,35 +49,31 @@ bool belongs(const store::Contents& found, const store::Contents& wanted) {
 }  // namespace
 
 BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(store_path + ".build") {
-    std::error_code error;
-    fs::create_directory(path_, error);
-    if (error) cannot_make(path_, error.message());
-    const std::string lock = file(kLock);
-    lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) cannot_make(path_, std::strerror(errno));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-        std::string who;
-        std::ifstream(lock) >> who;
-        ::close(lock_);
+    OpenedFile lock{nullptr, -ENOENT};
+    for (int attempt = 0; attempt < 3 && lock.error == -ENOENT; ++attempt) {  // a build that has just finished takes its folder away
+        const int made = file_system().make_folder(path_);
+        if (made < 0 && made != -EEXIST) cannot_make(path_, made);
+        lock = file_system().create(file(kLock));
+    }
+    if (lock.error == -EWOULDBLOCK) {
+        const std::string who = holder_of(file(kLock));
         throw Error(ErrorKind::resource, {.file = store_path,
                                           .what = "is being built by another process" + (who.empty() ? "" : ", " + who),
                                           .next = "wait until it is done, or build to another file with -o"});
     }
+    if (!lock.file) cannot_make(path_, lock.error);
+    lock_ = std::move(lock.file);
     const std::string own = std::to_string(::getpid()) + "\n";
-    if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, own.data(), own.size(), 0) < 0) errno = 0;  // only for the message above
+    if (const int error = write_fully(*lock_, 0, std::as_bytes(std::span(own))); error < 0) cannot_make(path_, error);
     if (restart) remove_contents(path_);
 }
 
 BuildFolder::~BuildFolder() {
-    std::error_code ignored;
-    const auto entries = std::distance(fs::directory_iterator(path_, ignored), fs::directory_iterator());
-    if (entries == 1) fs::remove_all(path_, ignored);  // the lock alone: nothing was finished
-    ::close(lock_);
+    if (lock_ && file_system().entries(path_, 2).size() == 1) remove();  // the lock alone: nothing was finished
 }
 
 std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted) const {
-    std::error_code ignored;
-    if (!fs::exists(file(phase), ignored)) return nullptr;
+    if (!io::file_exists(file(phase))) return nullptr;
     try {
         auto container = std::make_unique<store::Container>(file(phase));
         if (belongs(container->contents(), wanted)) {
@@ -78,14 +82,15 @@ std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase
         }
     } catch (const Error&) {  // damaged: it is made again
     }
-    fs::remove(file(phase), ignored);
+    (void)file_system().remove(file(phase));
     return nullptr;
 }
 
 void BuildFolder::remove() {
     remove_contents(path_);
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    (void)file_system().remove(file(kLock));  // while it is held: whoever waits for it makes a new one
+    (void)file_system().remove_folder(path_);
+    lock_.reset();
 }
 
 }  // namespace isoatlas

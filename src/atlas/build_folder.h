@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "base/file_system.h"
 #include "store/container.h"
 
 namespace isoatlas {
@@ -15,6 +16,7 @@ class BuildFolder {
 public:
     /// Makes the folder or takes over what is there. Throws Error{resource}: another process builds, the folder cannot be made.
     BuildFolder(const std::string& store_path, bool restart);
+    /// Takes the folder away when no phase is in it.
     ~BuildFolder();
     BuildFolder(const BuildFolder&) = delete;
     BuildFolder& operator=(const BuildFolder&) = delete;
@@ -28,7 +30,7 @@ public:
 
 private:
     std::string path_;
-    int lock_ = -1;
+    std::unique_ptr<File> lock_;
 };
 
 }  // namespace isoatlas

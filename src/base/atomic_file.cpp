@@ -15,22 +15,6 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-std::string next_step(int error) {
-    switch (-error) {
-        case ENOSPC:
-        case EDQUOT: return "free some space or write to another disk";
-        case EFBIG: return "write to a file system (or under a limit) that takes files of this size";
-        case ENOENT: return "create the folder first, or check its name";
-        case EACCES:
-        case EPERM: return "choose a folder you may write to, or change its permissions";
-        case EROFS: return "choose a folder on a disk that is not read-only";
-        case EISDIR: return "give the name of a file, not of a folder";
-        case EWOULDBLOCK: return "wait until the other program has finished, or choose another name";
-        case ENAMETOOLONG: return "choose a shorter name";
-        default: return "check the disk and the folder, then run the command again";
-    }
-}
-
 /// The file behind symbolic links, also when it does not exist yet; the path itself when links go in circles (create reports it).
 std::string resolve(const std::string& path) {
     std::string target = path;
@@ -48,6 +32,22 @@ std::string folder_of(const std::string& path) {
 }
 
 }  // namespace
+
+std::string next_step_after(int error) {
+    switch (-error) {
+        case ENOSPC:
+        case EDQUOT: return "free some space or write to another disk";
+        case EFBIG: return "write to a file system (or under a limit) that takes files of this size";
+        case ENOENT: return "create the folder first, or check its name";
+        case EACCES:
+        case EPERM: return "choose a folder you may write to, or change its permissions";
+        case EROFS: return "choose a folder on a disk that is not read-only";
+        case EISDIR: return "give the name of a file, not of a folder";
+        case EWOULDBLOCK: return "wait until the other program has finished, or choose another name";
+        case ENAMETOOLONG: return "choose a shorter name";
+        default: return "check the disk and the folder, then run the command again";
+    }
+}
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(resolve(path_)) {
     buffer_.reserve(kBufferBytes);
@@ -149,8 +149,9 @@ void AtomicFile::require(int error, const char* action) const {
 }
 
 void AtomicFile::fail(const char* action, int error) const {
-    throw Error(ErrorKind::resource,
-                {.file = path_, .what = std::string(action) + ": " + std::system_category().message(-error), .next = next_step(error)});
+    throw Error(
+        ErrorKind::resource,
+        {.file = path_, .what = std::string(action) + ": " + std::system_category().message(-error), .next = next_step_after(error)});
 }
 
 }  // namespace isoatlas

@@ -60,6 +60,9 @@ private:
     std::vector<std::byte> buffer_;  ///< bytes from buffer_begin_ on that are still to be written
 };
 
+/// What a user can do when writing fails with -errno.
+[[nodiscard]] std::string next_step_after(int error);
+
 /// Bytes of trivially copyable values, to write them.
 template <class T>
 [[nodiscard]] std::span<const std::byte> bytes_of(std::span<const T> values) {

@@ -28,6 +28,9 @@ OpenedFile FileSystem::create(const std::string&) { return {nullptr, -EROFS}; }
 int FileSystem::set_mode(const std::string&, unsigned) { return -EROFS; }
 int FileSystem::rename(const std::string&, const std::string&) { return -EROFS; }
 int FileSystem::remove(const std::string&) { return -EROFS; }
+int FileSystem::make_folder(const std::string&) { return -EROFS; }
+int FileSystem::remove_folder(const std::string&) { return -EROFS; }
+std::vector<std::string> FileSystem::entries(const std::string&, std::size_t) { return {}; }
 int FileSystem::sync_folder(const std::string&) { return -EROFS; }
 
 FileSystem& file_system() { return *in_use(); }

@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace isoatlas {
 
@@ -67,6 +68,12 @@ public:
     [[nodiscard]] virtual int set_mode(const std::string& path, unsigned mode);
     [[nodiscard]] virtual int rename(const std::string& from, const std::string& to);
     [[nodiscard]] virtual int remove(const std::string& path);
+    /// -EEXIST: there is something of that name.
+    [[nodiscard]] virtual int make_folder(const std::string& path);
+    /// An empty one.
+    [[nodiscard]] virtual int remove_folder(const std::string& path);
+    /// Names of at most `most` entries of a folder, in no order; nothing when it cannot be read.
+    [[nodiscard]] virtual std::vector<std::string> entries(const std::string& path, std::size_t most);
     /// Returns when the names in a folder would survive a power failure. Systems that cannot promise it say that it went well.
     [[nodiscard]] virtual int sync_folder(const std::string& path);
 };

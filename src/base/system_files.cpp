@@ -111,6 +111,18 @@ public:
     int set_mode(const std::string& path, unsigned mode) override { return error_of(::chmod(path.c_str(), mode)); }
     int rename(const std::string& from, const std::string& to) override { return error_of(::rename(from.c_str(), to.c_str())); }
     int remove(const std::string& path) override { return error_of(::unlink(path.c_str())); }
+    int make_folder(const std::string& path) override { return error_of(::mkdir(path.c_str(), 0777)); }
+    int remove_folder(const std::string& path) override { return error_of(::rmdir(path.c_str())); }
+    std::vector<std::string> entries(const std::string& path, std::size_t most) override {
+        std::vector<std::string> names;
+        std::error_code error;
+        std::filesystem::directory_iterator at(path, error);
+        while (!error && at != std::filesystem::directory_iterator() && names.size() < most) {
+            names.push_back(at->path().filename().string());
+            at.increment(error);
+        }
+        return names;
+    }
     int sync_folder(const std::string& path) override {
         const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (descriptor < 0) return 0;  // one may write to a folder that one may not read

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 #include "isoatlas/error.h"
 
@@ -35,16 +34,7 @@ bool file_exists(const std::string& path) { return file_system().status(path).ki
 
 bool is_directory(const std::string& path) { return file_system().status(path).kind == FileStatus::Kind::folder; }
 
-std::vector<std::string> directory_entries(const std::string& path, std::size_t most) {
-    std::vector<std::string> names;
-    std::error_code error;
-    std::filesystem::directory_iterator at(path, error);
-    while (!error && at != std::filesystem::directory_iterator() && names.size() < most) {
-        names.push_back(at->path().filename().string());
-        at.increment(error);
-    }
-    return names;
-}
+std::vector<std::string> directory_entries(const std::string& path, std::size_t most) { return file_system().entries(path, most); }
 
 std::size_t read_available(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out) {
     std::size_t done = 0;

@@ -125,7 +125,7 @@ void write_array(AtomicFile& file, const PackedArray& source, StoredArray& array
 
 }  // namespace
 
-void pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays) {
+std::int64_t pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays) {
     AtomicFile file(path);
     Hdf5Layout layout(path);
     contents.arrays.clear();
@@ -159,6 +159,7 @@ void pack_store(const std::string& path, Contents contents, const std::vector<Pa
     file.extend(header.file_size);
     file.write_at(0, bytes_of_header(header));
     file.commit();
+    return header.file_size;
 }
 
 }  // namespace isoatlas::store

@@ -49,7 +49,8 @@ template <class T>
 }
 
 /// Writes PATH.partial, syncs it and renames it to PATH. contents: volume and parameters; its arrays are filled in.
-/// The same bytes for the same arrays. Throws Error{resource} with the reason of the system; nothing is left behind then.
-void pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays);
+/// The same bytes for the same arrays. Returns the bytes of the file. Throws Error{resource} with the reason of the system;
+/// nothing is left behind then.
+std::int64_t pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays);
 
 }  // namespace isoatlas::store

@@ -23,7 +23,7 @@ struct Fault {
     std::int64_t full_at = std::numeric_limits<std::int64_t>::max();  ///< nothing can be written at this byte of a file and beyond
 };
 
-/// Counts the operations, over all files; status() and closing count, size() and link(), which cannot fail, do not.
+/// Counts the operations, over all files; status() and closing count, size(), link() and entries(), which cannot fail, do not.
 class FaultyFiles final : public FileSystem {
 public:
     explicit FaultyFiles(Fault fault, FileSystem& below = system_files()) : fault_(fault), below_(below) {}
@@ -57,6 +57,13 @@ public:
     int remove(const std::string& path) override {
         return done("remove", [&] { return below_.remove(path); });
     }
+    int make_folder(const std::string& path) override {
+        return done("make_folder", [&] { return below_.make_folder(path); });
+    }
+    int remove_folder(const std::string& path) override {
+        return done("remove_folder", [&] { return below_.remove_folder(path); });
+    }
+    std::vector<std::string> entries(const std::string& path, std::size_t most) override { return below_.entries(path, most); }
     int sync_folder(const std::string& path) override {
         return done("sync_folder", [&] { return below_.sync_folder(path); });
     }

@@ -16,6 +16,9 @@ public:
     int set_mode(const std::string& path, unsigned mode) override { return below_.set_mode(path, mode); }
     int rename(const std::string& from, const std::string& to) override { return below_.rename(from, to); }
     int remove(const std::string& path) override { return below_.remove(path); }
+    int make_folder(const std::string& path) override { return below_.make_folder(path); }
+    int remove_folder(const std::string& path) override { return below_.remove_folder(path); }
+    std::vector<std::string> entries(const std::string& path, std::size_t most) override { return below_.entries(path, most); }
     int sync_folder(const std::string& path) override { return below_.sync_folder(path); }
 
 protected:

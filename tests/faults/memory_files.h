@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,10 @@ public:
     /// To change it in place.
     [[nodiscard]] std::string& content(const std::string& path) { return names_.at(path)->now; }
     [[nodiscard]] std::size_t count() const { return names_.size(); }
+    /// Is there a file whose name ends like that?
+    [[nodiscard]] bool has_like(const std::string& end) const {
+        return std::any_of(names_.begin(), names_.end(), [&](const auto& named) { return named.first.ends_with(end); });
+    }
 
     /// Everything that was open is gone: no File of before may be used any more.
     void fail_power(Loss loss) {
@@ -43,6 +49,7 @@ public:
     }
 
     FileStatus status(const std::string& path) override {
+        if (folders_.contains(path)) return {.kind = FileStatus::Kind::folder, .mode = 0755};
         if (!has(path)) return {.error = -ENOENT};
         return {.kind = FileStatus::Kind::regular, .mode = names_.at(path)->mode};
     }
@@ -70,12 +77,31 @@ public:
         return 0;
     }
     int remove(const std::string& path) override { return names_.erase(path) == 1 ? 0 : -ENOENT; }
-    int sync_folder(const std::string&) override {  // there is one folder only
-        kept_names_ = names_;
+    int make_folder(const std::string& path) override { return folders_.insert(path).second ? 0 : -EEXIST; }
+    int remove_folder(const std::string& path) override {
+        if (!entries(path, 1).empty()) return -ENOTEMPTY;
+        return folders_.erase(path) == 1 ? 0 : -ENOENT;
+    }
+    std::vector<std::string> entries(const std::string& path, std::size_t most) override {
+        std::vector<std::string> found;
+        for (const auto& [name, node] : names_) {
+            if (folder_of(name) == path && found.size() < most) found.push_back(name.substr(path.size() + 1));
+        }
+        return found;
+    }
+    int sync_folder(const std::string& path) override {
+        const auto lies_there = [&](const auto& named) { return folder_of(named.first) == path; };
+        std::erase_if(kept_names_, lies_there);
+        std::copy_if(names_.begin(), names_.end(), std::inserter(kept_names_, kept_names_.end()), lies_there);
         return 0;
     }
 
 private:
+    static std::string folder_of(const std::string& path) {
+        const std::size_t slash = path.rfind('/');
+        return slash == std::string::npos ? "." : path.substr(0, slash);
+    }
+
     struct Change {  ///< a write, or a new size
         std::size_t offset;
         std::string bytes;
@@ -134,6 +160,7 @@ private:
     };
 
     std::map<std::string, std::shared_ptr<Node>> names_, kept_names_;
+    std::set<std::string> folders_;  ///< they survive
 };
 
 }  // namespace isoatlas::test

@@ -7,6 +7,7 @@
 #include "faults/forwarding_files.h"
 #include "faults/memory_files.h"
 #include "faults/store_questions.h"
+#include "isoatlas/build.h"
 #include "isoatlas/error.h"
 #include "isoatlas/phantom.h"
 
