@@ -155,7 +155,7 @@ void Container::for_each_chunk(const StoredArray& array, const std::function<voi
 
 void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
     const auto size = static_cast<std::int64_t>(out.size());
-    if (first < 0 || first > array.bytes() - size) damaged(array.name, "bytes outside the array are asked for");
+    if (first < 0 || first > array.bytes() - size || array.chunk > 0) damaged(array.name, "bytes outside the array are asked for");
     io::read_fully(*file_, path_, array.offset + first, out);
 }
 
