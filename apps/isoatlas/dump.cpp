@@ -51,6 +51,7 @@ private:
 
 Json json_of(const StorePart& part) {
     Json json{{"name", part.name}, {"type", part.type}, {"shape", part.shape}, {"offset", part.offset}, {"bytes", part.bytes}};
+    if (part.compressed) json["compressed"] = true;
     if (part.kind == StorePart::Kind::brick) json["first_voxel"] = part.first_voxel;
     return json;
 }
@@ -70,7 +71,8 @@ void list_parts(const Arguments& arguments, const StoreDump& store, Terminal& te
     }
     Table table({{"part", true}, {"type", true}, {"shape"}, {"offset"}, {"bytes"}});
     for (const StorePart& part : parts) {
-        table.add({part.name, part.type, fmt::format("{}", fmt::join(part.shape, " x ")), count_text(part.offset), count_text(part.bytes)});
+        table.add({part.name, part.type + (part.compressed ? ", compressed" : ""), fmt::format("{}", fmt::join(part.shape, " x ")),
+                   count_text(part.offset), count_text(part.bytes)});
     }
     table.print(terminal);
     terminal.next("isoatlas dump " + shell_word(arguments.file) + " contents; the bricks of the volume are: brick N, voxel X,Y,Z");

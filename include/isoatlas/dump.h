@@ -19,6 +19,7 @@ struct StorePart {
     std::vector<std::int64_t> shape;            ///< of the whole array; a brick: its samples, z y x
     std::int64_t first = 0, end = 0;            ///< the numbers of it that are meant, first index slowest
     std::int64_t offset = 0, bytes = 0;         ///< of the whole part in the file; a brick: of its packed samples
+    bool compressed = false;                    ///< it lies in chunks, see its checksums; offset and bytes are those it would have
     std::int64_t brick = -1;                    ///< which one
     std::array<std::int64_t, 3> first_voxel{};  ///< of a brick
 };
@@ -35,7 +36,8 @@ public:
 
     /// header, contents, then every array and its checksums, as they lie in the contents. Bricks are not among them.
     [[nodiscard]] std::vector<StorePart> parts() const;
-    /// "header", "contents", the name of an array, "checksums/" and that name; one of them with [I] or [FIRST:END] behind it;
+    /// "header", "contents", the name of an array, "checksums/" and that name (of compressed arrays: offset, bytes and checksum of every
+    /// chunk); one of them with [I] or [FIRST:END] behind it;
     /// "brick N"; "voxel X,Y,Z": the brick that holds it. Throws Error{not_found} that lists the parts.
     [[nodiscard]] StorePart find(const std::string& part) const;
     /// JSON of header or contents. Throws Error{usage} for other parts.

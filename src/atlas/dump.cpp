@@ -89,17 +89,21 @@ struct StoreDump::Data {
     }
 
     static StorePart part_of(const StoredArray& array) {
-        return {StorePart::Kind::array, array.name, array.type, array.shape, 0, array.count(), array.offset, array.bytes(), -1, {}};
+        return {StorePart::Kind::array, array.name,    array.type,      array.shape, 0, array.count(),
+                array.offset,           array.bytes(), array.chunk > 0, -1,          {}};
     }
     static StorePart checksums_of(const StoredArray& array) {
+        std::vector<std::int64_t> shape{array.blocks()};
+        if (array.chunk > 0) shape.push_back(3);
         return {StorePart::Kind::checksums,
                 std::string(kChecksums) + array.name,
                 "uint64",
-                {array.blocks()},
+                shape,
                 0,
-                array.blocks(),
+                array.index_bytes() / 8,
                 array.checksums,
-                8 * array.blocks(),
+                array.index_bytes(),
+                false,
                 -1,
                 {}};
     }
@@ -239,7 +243,10 @@ StoreNumbers StoreDump::read(const StorePart& part, std::int64_t first, std::int
     const bool is_checksums = part.kind == StorePart::Kind::checksums;
     const StoredArray* array = data_->array(is_checksums ? std::string_view(part.name).substr(kChecksums.size()) : part.name);
     if (array == nullptr) data_->no_part(part.name, "there is no such part", data_->list());
-    if (is_checksums) return data_->store.block_checksums(*array, first, end);
+    if (is_checksums) {
+        const std::vector<std::uint64_t> index = data_->store.index_of(*array);
+        return std::vector<std::uint64_t>(index.begin() + first, index.begin() + end);
+    }
     return visit_named_type(array->type, [&]<class T>(T) {
         std::vector<T> numbers(static_cast<std::size_t>(end - first));
         const std::span<std::byte> bytes = std::as_writable_bytes(std::span(numbers));

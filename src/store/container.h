@@ -45,8 +45,8 @@ public:
 
     /// The JSON text of the contents as it lies in the file.
     [[nodiscard]] std::string contents_text() const;
-    /// Checksums of the blocks [first, last) of an array; checked against the checksum of all of them.
-    [[nodiscard]] std::vector<std::uint64_t> block_checksums(const StoredArray& array, std::int64_t first, std::int64_t last) const;
+    /// What is needed to check and to find the blocks of an array: a checksum each, or the three numbers of a StoredChunk; checked.
+    [[nodiscard]] std::vector<std::uint64_t> index_of(const StoredArray& array) const;
 
     /// All numbers of an array.
     template <class T>

@@ -32,7 +32,8 @@ struct Opened {
         contents = store.contents();
         for (const StoredArray& array : contents.arrays) {
             bytes.emplace_back(static_cast<std::size_t>(array.bytes()));
-            store.read_unchecked(array, 0, bytes.back());
+            if (array.block == 0) store.read_unchecked(array, 0, bytes.back());
+            if (array.block > 0) store.read(array, 0, bytes.back());
         }
     }
     template <class T>
@@ -48,7 +49,8 @@ struct Opened {
         std::vector<store::PackedArray> arrays;
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             const StoredArray& array = contents.arrays[i];
-            arrays.push_back({array.name, array.type, array.shape, array.block, [this, i](const store::Put& put) { put(bytes[i]); }});
+            arrays.push_back(
+                {array.name, array.type, array.shape, array.block, [this, i](const store::Put& put) { put(bytes[i]); }, array.chunk});
         }
         store::pack_store(path, contents, arrays);
     }
@@ -85,14 +87,18 @@ protected:
         return text;
     }
 
-    /// Makes brick 0 hold other samples of the same range, under a right checksum of its own.
+    /// Exchanges samples of brick 0 that are not its extremes, under a right checksum of its own.
     static void change_brick(Opened& opened) {
-        const auto bits = opened.numbers<std::uint8_t>("volume/bits");
-        const auto offset = opened.numbers<std::uint64_t>("volume/offset");
-        const auto data = opened.numbers<std::byte>("volume/data");
-        const std::size_t size = (4096U * bits[0] + 7) / 8;
-        const std::span<std::byte> brick = data.subspan(static_cast<std::size_t>(offset[0]), size);
-        std::reverse(brick.begin(), brick.end());
+        const std::size_t bits = opened.numbers<std::uint8_t>("volume/bits")[0];  // so many bytes hold 8 samples
+        const auto begin = static_cast<std::size_t>(opened.numbers<std::uint64_t>("volume/offset")[0]);
+        const std::span<std::byte> brick = opened.numbers<std::byte>("volume/data").subspan(begin, 512 * bits);
+        const std::size_t lowest = opened.numbers<std::uint16_t>("volume/lowest")[0] / 8,
+                          highest = opened.numbers<std::uint16_t>("volume/highest")[0] / 8;
+        std::size_t group = 0;
+        while (group == lowest || group == highest || group + 1 == lowest || group + 1 == highest) ++group;
+        std::swap_ranges(brick.begin() + static_cast<std::ptrdiff_t>(group * bits),
+                         brick.begin() + static_cast<std::ptrdiff_t>((group + 1) * bits),
+                         brick.begin() + static_cast<std::ptrdiff_t>((group + 1) * bits));
         opened.numbers<std::uint64_t>("volume/checksum")[0] = store::checksum(brick);
     }
 
@@ -122,7 +128,8 @@ TEST_F(VerifyStore, AFlippedByteIsToldWithItsArray) {
     };
     for (const StoredArray& array : store.contents().arrays) {
         const std::string name = array.block == 0 ? "brick " : array.name;
-        EXPECT_NE(told(array.offset + array.bytes() / 2).find(name), std::string::npos) << array.name;
+        const auto place = array.chunk > 0 ? static_cast<std::int64_t>(store.index_of(array)[0]) + 10 : array.offset + array.bytes() / 2;
+        EXPECT_NE(told(place).find(name), std::string::npos) << array.name;
         if (array.block == 0) continue;
         EXPECT_NE(told(array.checksums).find(array.name), std::string::npos) << array.name;
     }
@@ -132,20 +139,21 @@ TEST_F(VerifyStore, AFlippedByteIsToldWithItsArray) {
 
 TEST_F(VerifyStore, ABrickThatIsReadAtTheWrongIsovaluesIsTold) {
     for (const bool full : {false, true}) {
-        const std::string high = after([](Opened& o) { o.numbers<std::uint8_t>("volume/high")[3] = 12; }, full);
-        EXPECT_NE(high.find("bricks_hold_active_cells: brick 3 has samples 0"), std::string::npos) << high;
-        const std::string wide = after([](Opened& o) { o.numbers<std::uint8_t>("volume/high")[2] = 200; }, full);
-        EXPECT_NE(wide.find("bricks_hold_active_cells: brick 2 "), std::string::npos) << wide;
+        const std::string high = after([](Opened& o) { o.numbers<std::uint8_t>("volume/high")[3] = 200; }, full);
+        EXPECT_NE(high.find("brick 3"), std::string::npos) << high;
+        const std::string low = after(  // another sample than the highest, at its true place
+            [](Opened& o) {
+                o.numbers<std::uint8_t>("volume/high")[2] = o.numbers<std::uint8_t>("volume/low")[2];
+                o.numbers<std::uint16_t>("volume/highest")[2] = o.numbers<std::uint16_t>("volume/lowest")[2];
+            },
+            full);
+        EXPECT_NE(low.find("brick 2"), std::string::npos) << low;
     }
 }
 
 TEST_F(VerifyStore, OtherSamplesAreTold) {
     EXPECT_NE(after(change_brick, false).find("checksums_are_right: "), std::string::npos);
-    const auto with_checksum = [](Opened& o) {
-        change_brick(o);
-        o.contents.parameters.samples_checksum = 0;
-    };
-    EXPECT_NE(after(with_checksum, false).find("samples are not those"), std::string::npos);
+    EXPECT_NE(after(change_brick, false).find("samples are not those"), std::string::npos);
 }
 
 TEST_F(VerifyStore, TreesOfOtherSamplesAreTold) {
