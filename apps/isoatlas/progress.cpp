@@ -3,17 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "terminal.h"
+#include "values.h"
 
 namespace isoatlas::cli {
 namespace {
 
 constexpr double kQuietStart = 0.5;  // short jobs show no bar
 constexpr double kRedraw = 0.1, kLineEvery = 10;
+
+/// The most memory that was ever resident, in bytes.
+double peak_memory() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) * 1024;
+}
 
 void to_stderr(const std::string& text) { [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size()); }
 
@@ -29,7 +38,10 @@ std::string progress_line(const Progress& progress, double phase_seconds, bool b
     if (fraction > 0.01 && fraction < 1 && phase_seconds > 0.2) {
         const auto left = static_cast<long>(std::ceil(phase_seconds * (1 - fraction) / fraction));
         line += fmt::format("  ETA {}:{:02}", left / 60, left % 60);
+        if (progress.voxels > 0)
+            line += fmt::format("  {:.3g} million voxels/s", 1e-6 * fraction * static_cast<double>(progress.voxels) / phase_seconds);
     }
+    if (progress.voxels > 0) line += "  peak " + bytes_text(peak_memory());
     return line;
 }
 

@@ -11,7 +11,8 @@ struct Progress {
     std::string_view phase;  ///< "classify", "join tree", ...
     int phase_index = 0;     ///< 0-based
     int phase_count = 1;
-    double fraction = 0;  ///< of this phase, 0..1
+    double fraction = 0;      ///< of this phase, 0..1
+    std::int64_t voxels = 0;  ///< that the phase goes through; 0: not told
 };
 
 /// Defaults are right for almost everybody: all processors, no progress, never cancelled.

@@ -23,11 +23,11 @@ constexpr const char* kTrees = "trees";
 constexpr const char* kZones = "zones";
 
 /// Progress of a part of the build, numbered as phases of the whole.
-Context shifted(const Context& context, int by) {
+Context shifted(const Context& context, int by, const Extent& extent) {
     Context part = context;
     if (!context.progress) return part;
-    part.progress = [&context, by](const Progress& progress) {
-        context.progress({progress.phase, progress.phase_index + by, kPhases, progress.fraction});
+    part.progress = [&context, by, voxels = extent.voxels()](const Progress& progress) {
+        context.progress({progress.phase, progress.phase_index + by, kPhases, progress.fraction, voxels});
     };
     return part;
 }
@@ -42,12 +42,13 @@ store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& opt
     return contents;
 }
 
-/// Counts bytes of the arrays as they are written.
+/// Counts bytes of the bricks as they are written; all else is copied.
 void report_packing(std::vector<store::PackedArray>& arrays, const Context& context) {
     double total = 0;
-    for (const store::PackedArray& array : arrays) total += static_cast<double>(array.bytes());
+    for (const store::PackedArray& array : arrays) total += array.chunk > 0 ? 0 : static_cast<double>(array.bytes());
     const auto done = std::make_shared<double>(0);
     for (store::PackedArray& array : arrays) {
+        if (array.chunk > 0) continue;
         array.feed = [feed = std::move(array.feed), done, total, context](const store::Put& put) {
             feed([&](std::span<const std::byte> bytes) {
                 if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
@@ -57,12 +58,6 @@ void report_packing(std::vector<store::PackedArray>& arrays, const Context& cont
             });
         };
     }
-}
-
-/// Before anything is read.
-void check_gaussian(VolumeInfo info, const BuildOptions& options) {
-    if (options.geometry) info.geometry = *options.geometry;
-    if (options.gaussian > 0) (void)gaussian_radius(info, options.gaussian);
 }
 
 class Build {
@@ -78,7 +73,7 @@ public:
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
-            analysis = analyse_trees(volume, options, shifted(context_, 1));
+            analysis = analyse_trees(volume, options, shifted(context_, 1, volume.info->extent));
             store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
@@ -87,7 +82,7 @@ public:
             report_.resumed.emplace_back(kZones);
         } else {
             if (!analysis) analysis = store::trees_of(*trees, context_.threads);
-            add_zones(*analysis, volume, false, shifted(context_, 1));
+            add_zones(*analysis, volume, false, shifted(context_, 1, volume.info->extent));
             store::pack_store(folder_.file(kZones), contents, store::zone_arrays(*analysis));
             zones = std::make_unique<store::Container>(folder_.file(kZones));
         }
@@ -118,7 +113,6 @@ private:
 }  // namespace
 
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
-    check_gaussian(reader.info(), options);
     const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
     check_estimate(estimate, reader.info().path, path);
     Build build(path, options.restart, context);
@@ -128,7 +122,7 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
         samples.resize(bytes);
         return std::span<std::byte>(samples);
     };
-    VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0));
+    VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0, reader.info().extent));
     if (options.geometry) info.geometry = *options.geometry;
     if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, context);
     return build.run({info, samples.data()}, options.analysis);

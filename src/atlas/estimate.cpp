@@ -12,6 +12,7 @@
 #include "field/volume_view.h"
 #include "isoatlas/build.h"
 #include "isoatlas/error.h"
+#include "isoatlas/filter.h"
 
 namespace isoatlas {
 namespace {
@@ -31,6 +32,12 @@ std::int64_t count_elements(const VolumeView& slab, double tunnel_height) {
             elements += static_cast<std::int64_t>(chunk.size());
         return elements;
     });
+}
+
+/// What the filter will see.
+VolumeInfo filtered_info(VolumeInfo info, const BuildOptions& options) {
+    if (options.geometry) info.geometry = *options.geometry;
+    return info;
 }
 
 /// Critical elements a voxel.
@@ -67,7 +74,10 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const int workers = thread_count(threads);
     estimate.critical_elements = rounded(elements);
     estimate.memory = kProgram + rounded(voxels * (sample + 1 + id) + elements * (32 + 8 * id));
-    estimate.memory_least = std::max(kLeastMemory, kProgram + workers * 8 * info.extent.slice() + rounded(voxels / 64));
+    const double window =
+        options.gaussian > 0 ? static_cast<double>(2 * gaussian_radius(filtered_info(info, options), options.gaussian)[2] + 1) : 0;
+    const std::int64_t filter = rounded(window * static_cast<double>(info.extent.slice()) * sizeof(double));
+    estimate.memory_least = filter + std::max(kLeastMemory, kProgram + workers * 8 * info.extent.slice() + rounded(voxels / 64));
     estimate.uses_scratch = estimate.memory > estimate.budget / 5 * 3;
     estimate.store_bytes = rounded(voxels * sample + elements * 6);
     std::error_code ignored;

@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "critical/links.h"
-#include "isoatlas/error.h"
+#include "field/slab_work.h"
 
 namespace isoatlas {
 namespace {
@@ -27,11 +27,9 @@ GridScan scan_grid(const GridView<T>& grid, double tunnel_height, const Context&
     scan.height = slab_height(extent, context);
     scan.links.resize(static_cast<std::size_t>(extent.voxels()));
     std::vector<SlabScan> slabs(static_cast<std::size_t>(slab_count(extent, scan.height)));
-    for_each_block(context.threads, static_cast<std::int64_t>(slabs.size()), [&](std::int64_t i) {
-        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-        const Slab slab = slab_at(i, scan.height, extent.size[2]);
+    for_each_slab_of(scan.height, context, {"classify", 0, 5}, extent.size[2], [&](const Slab& slab) {
         const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
-        slabs[i] = scan_slab(grid, slab, std::span<std::uint8_t>(scan.links).subspan(first, count), tunnel_height);
+        slabs[slab.z_begin / scan.height] = scan_slab(grid, slab, std::span<std::uint8_t>(scan.links).subspan(first, count), tunnel_height);
     });
     for (SlabScan& slab : slabs) {
         scan.first_maximum.push_back(std::exchange(scan.maxima, scan.maxima + slab.maxima));

@@ -3,13 +3,13 @@
 
 #include "base/parallel.h"
 #include "critical/bodies.h"
+#include "field/slab_work.h"
 #include "mesh/cells.h"
 #include "mesh/extract_level.h"
 #include "mesh/hits.h"
 #include "mesh/huge_pages.h"
 #include "mesh/selection.h"
 #include "mesh/squares.h"
-#include "query/slab_work.h"
 
 namespace isoatlas {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "field/slab_work.h"
 #include "mesh/huge_pages.h"
-#include "query/slab_work.h"
 
 namespace isoatlas {
 namespace {

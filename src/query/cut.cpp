@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "critical/bodies.h"
+#include "field/slab_work.h"
 #include "query/components.h"
 #include "query/contour_counts.h"
-#include "query/slab_work.h"
 
 namespace isoatlas {
 namespace {

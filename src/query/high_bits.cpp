@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "query/slab_work.h"
+#include "field/slab_work.h"
 #include "query/threshold.h"
 
 namespace isoatlas {

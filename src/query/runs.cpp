@@ -3,7 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "query/slab_work.h"
+#include "field/slab_work.h"
 
 namespace isoatlas {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "field/slab_work.h"
 #include "query/interval_counts.h"
-#include "query/slab_work.h"
 #include "query/volume_cells.h"
 #include "query/zone_files.h"
 #include "store/brick_grid.h"

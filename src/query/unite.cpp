@@ -3,8 +3,8 @@
 #include <bit>
 
 #include "critical/open_tunnel.h"
+#include "field/slab_work.h"
 #include "query/active_cells.h"
-#include "query/slab_work.h"
 
 namespace isoatlas {
 namespace {

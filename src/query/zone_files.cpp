@@ -4,9 +4,9 @@
 #include <array>
 #include <atomic>
 
+#include "field/slab_work.h"
 #include "query/event_chains.h"
 #include "query/interval_counts.h"
-#include "query/slab_work.h"
 #include "query/volume_cells.h"
 
 namespace isoatlas {

@@ -5,9 +5,9 @@
 
 #include "base/check.h"
 #include "base/memory_limit.h"
-#include "base/parallel.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
+#include "field/slab_work.h"
 #include "zones/analysis_data.h"
 #include "zones/label.h"
 #include "zones/paths.h"
@@ -54,9 +54,7 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
     const HeavyPaths<Id, ComparisonValue<T>> paths(arrays.tree, arrays.value, maxima, context.threads);
     release(maxima);
     arrays.voxels.assign(arrays.tree.size(), Id{0});
-    const std::int64_t height = slab_height(grid.extent, context), slabs = (grid.extent.size[2] + height - 1) / height;
-    for_each_block(context.threads, slabs, [&](std::int64_t i) {
-        const Slab slab = slab_at(i, height, grid.extent.size[2]);
+    for_each_slab_of(slab_height(grid.extent, context), context, {"zones", 4, kPhases}, grid.extent.size[2], [&](const Slab& slab) {
         const std::size_t first = slab.z_begin * grid.extent.slice(), count = (slab.z_end - slab.z_begin) * grid.extent.slice();
         label_zones<T, Id>({grid.samples + first, count}, paths, std::span<Id>(arrays.zone).subspan(first, count), arrays.voxels);
     });

@@ -27,6 +27,10 @@ struct Slices {
 /// Throws Error{cancelled}, or what work throws.
 void for_each_slab(const Context& context, const Phase& phase, const Slices& slices, const std::function<void(const Slab&)>& work);
 
+/// The same for slabs of a given height.
+void for_each_slab_of(std::int64_t height, const Context& context, const Phase& phase, std::int64_t slices,
+                      const std::function<void(const Slab&)>& work);
+
 /// Calls visit(y, z) for every row of a volume: slabs of slices in 3D, of rows in 2D. Rows must not depend on each other.
 template <class Visit>
 void for_each_row(const Context& context, const Phase& phase, const Extent& extent, Visit&& visit) {

@@ -1,4 +1,4 @@
-#include "query/slab_work.h"
+#include "field/slab_work.h"
 
 #include <algorithm>
 #include <atomic>
@@ -25,8 +25,12 @@ std::int64_t slab_height(const Context& context, const Slices& slices) {
 }
 
 void for_each_slab(const Context& context, const Phase& phase, const Slices& slices, const std::function<void(const Slab&)>& work) {
-    const std::int64_t height = slab_height(context, slices);
-    const std::int64_t slabs = (slices.count + height - 1) / height;
+    for_each_slab_of(slab_height(context, slices), context, phase, slices.count, work);
+}
+
+void for_each_slab_of(std::int64_t height, const Context& context, const Phase& phase, std::int64_t slices,
+                      const std::function<void(const Slab&)>& work) {
+    const std::int64_t slabs = (slices + height - 1) / height;
     const std::thread::id caller = std::this_thread::get_id();
     std::atomic<std::int64_t> done{0};
     context.report(phase.name, phase.index, phase.count, 0);
@@ -34,7 +38,7 @@ void for_each_slab(const Context& context, const Phase& phase, const Slices& sli
     for_each_block(context.threads, slabs, [&](std::int64_t i) {
         const bool is_caller = std::this_thread::get_id() == caller;
         if (is_caller) stop_if_cancelled(context);
-        work(slab_at(i, height, slices.count));
+        work(slab_at(i, height, slices));
         const std::int64_t finished = ++done;
         if (is_caller) context.report(phase.name, phase.index, phase.count, static_cast<double>(finished) / static_cast<double>(slabs));
     });
