@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tree/parted_set.h"
+#include "critical/parted_set.h"
 
 namespace isoatlas {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "critical/critical_set.h"
-#include "tree/parted_set.h"
+#include "critical/parted_set.h"
 
 namespace isoatlas {
 

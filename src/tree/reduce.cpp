@@ -48,8 +48,8 @@ public:
 
     /// The next element of the part that the component just behind an element meets: right where the component is closed. In left, two
     /// branches of one component become one. Two open components may be one elsewhere, but nothing is removed from these.
-    [[nodiscard]] BigVector<Id> parents(const BitRanks& open, std::span<std::uint8_t> left) {
-        BigVector<Id> parent(ends_.size(), kNone<Id>);
+    [[nodiscard]] std::vector<Id> parents(const BitRanks& open, std::span<std::uint8_t> left) {
+        std::vector<Id> parent(ends_.size(), kNone<Id>);
         start([](Id) { return kNone<Id>; });
         for (std::size_t step = 0; step < ends_.size(); ++step) {
             const std::size_t x = at(step);
@@ -150,7 +150,7 @@ private:
     bool down_;
     Names names_;
     LocalNumbers<Id> numbers_;
-    BigVector<Component> components_;
+    std::vector<Component> components_;
 };
 
 constexpr std::uint8_t kOneAbove = branches_of(1, 0), kOneBelow = branches_of(0, 1), kGone = 0xff;
@@ -203,9 +203,9 @@ void reduce_part(PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, 
     Side<Id> above(ends, branches, true, set.first_maximum[part], set.first_maximum[part + 1]);
     Side<Id> below(ends, branches, false, set.first_minimum[part], set.first_minimum[part + 1]);
     for (std::size_t x = 0; x < arc.size(); ++x) arc[x] = static_cast<Id>(x);
-    BigVector<std::uint8_t> left(branches.begin(), branches.end());
+    std::vector<std::uint8_t> left(branches.begin(), branches.end());
     {
-        BigVector<Id> join = above.parents(open.maxima, left), split = below.parents(open.minima, left);
+        std::vector<Id> join = above.parents(open.maxima, left), split = below.parents(open.minima, left);
         peel<Id>(join, split, left, arc);
     }
     const auto survives = [&](std::size_t x) { return left[x] != kGone; };

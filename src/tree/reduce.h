@@ -12,7 +12,7 @@
 #include <span>
 
 #include "base/bit_ranks.h"
-#include "tree/parted_set.h"
+#include "critical/parted_set.h"
 
 namespace isoatlas {
 

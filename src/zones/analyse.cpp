@@ -8,6 +8,8 @@
 #include "base/parallel.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
+#include "critical/parted_domain.h"
+#include "tree/assemble.h"
 #include "zones/analysis_data.h"
 #include "zones/label.h"
 #include "zones/paths.h"
@@ -31,6 +33,21 @@ std::unique_ptr<IndexedArrays<Id>> find_trees(const GridView<T>& grid, GridScan 
     result->arrays.zone = std::move(criticals.basin);
     context.report("trees", 3, kPhases, 0);
     make_trees(std::move(criticals.set), result->arrays, context.threads);
+    return result;
+}
+
+/// The same trees when memory is short: nothing is accessed at random but a tile at a time.
+template <class Id>
+std::unique_ptr<IndexedArrays<Id>> find_trees_by_tiles(const Extent& extent, GridScan scan, const Context& context) {
+    auto result = std::make_unique<IndexedArrays<Id>>();
+    AnalysisArrays<Id>& arrays = result->arrays;
+    PartedCriticals<Id> criticals = parted_criticals<Id>(extent, std::move(scan), tiling_for(extent, context), context);
+    context.report("trees", 3, kPhases, 0);
+    arrays.value = std::move(criticals.value);
+    arrays.code = std::move(criticals.code);
+    arrays.contours.other = contour_arcs<Id>(std::move(criticals.set), criticals.part_of, context.threads);
+    context.report("restore", 3, kPhases, 0.5);
+    ISOATLAS_CHECK(restore_trees(arrays, extent.rank, context.threads));
     return result;
 }
 
@@ -73,7 +90,12 @@ Analysis analyse_trees(const VolumeView& volume, const AnalysisOptions& options,
         const GridView<T> grid{samples.data(), data->extent};
         context.report("classify", 0, kPhases, 0);
         GridScan scan = scan_grid(grid, tunnel_height_of(options.interpolant, options.tunnel_height), context);
-        if (fits_32_bits(data->extent, scan)) {
+        const bool is_narrow = fits_32_bits(data->extent, scan);
+        if (memory_is_limited() && is_narrow) {
+            data->arrays = find_trees_by_tiles<std::uint32_t>(data->extent, std::move(scan), context);
+        } else if (memory_is_limited()) {
+            data->arrays = find_trees_by_tiles<std::uint64_t>(data->extent, std::move(scan), context);
+        } else if (is_narrow) {
             data->arrays = find_trees<T, std::uint32_t>(grid, std::move(scan), context);
         } else {
             data->arrays = find_trees<T, std::uint64_t>(grid, std::move(scan), context);
