@@ -16,7 +16,9 @@ public:
 
     /// From several threads at once, too.
     void add(std::size_t x) {
-        std::atomic_ref<std::uint64_t>(words_[x / kBits]).fetch_or(std::uint64_t{1} << x % kBits, std::memory_order_relaxed);
+        const std::atomic_ref<std::uint64_t> word(words_[x / kBits]);
+        const std::uint64_t bit = std::uint64_t{1} << x % kBits;
+        if ((word.load(std::memory_order_relaxed) & bit) == 0) word.fetch_or(bit, std::memory_order_relaxed);
     }
     [[nodiscard]] bool has(std::size_t x) const { return words_[x / kBits] >> x % kBits & 1; }
 

@@ -54,26 +54,9 @@ Criticals<IdType> GridDomain<T, IdType>::critical(bool keep_basins, const Contex
     return result;
 }
 
-template <class T, class Id>
-BigVector<Id> basins_of_maxima(const GridView<T>& grid, const Context& context) {
-    const Extent& extent = grid.extent;
-    const BigVector<std::uint8_t> links = links_of_grid(grid, context);
-    const std::int64_t height = slab_height(extent, context);
-    std::vector<std::int64_t> first_maximum;
-    std::int64_t maxima = 0;
-    for (std::int64_t z = 0; z < extent.size[2]; z += height) {
-        first_maximum.push_back(maxima);
-        const std::int64_t slices = std::min(height, extent.size[2] - z);
-        maxima += std::ranges::count(std::span(links).subspan(z * extent.slice(), slices * extent.slice()), std::uint8_t{0});
-    }
-    return resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
-}
-
-#define ISOATLAS_GRID(T)                                                                    \
-    template class GridDomain<T, std::uint32_t>;                                            \
-    template class GridDomain<T, std::uint64_t>;                                            \
-    template BigVector<std::uint32_t> basins_of_maxima(const GridView<T>&, const Context&); \
-    template BigVector<std::uint64_t> basins_of_maxima(const GridView<T>&, const Context&);
+#define ISOATLAS_GRID(T)                         \
+    template class GridDomain<T, std::uint32_t>; \
+    template class GridDomain<T, std::uint64_t>;
 ISOATLAS_GRID(std::uint8_t)
 ISOATLAS_GRID(std::int8_t)
 ISOATLAS_GRID(std::uint16_t)

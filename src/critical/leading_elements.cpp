@@ -65,11 +65,10 @@ LeadingChunks<Id> leading_elements(const Extent& extent, GridScan& scan, std::sp
     return elements;
 }
 
-#define ISOATLAS_LEADING(Id)                                                                                            \
-    template BigVector<Id> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>,        \
-                                          const std::vector<std::int64_t>&, int);                                       \
-    template LeadingChunks<Id> leading_elements(const Extent&, GridScan&, std::span<const Id>, std::span<const Id>,     \
-                                                BigVector<Id>*, int);
+#define ISOATLAS_LEADING(Id)                                                                                     \
+    template BigVector<Id> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>, \
+                                          const std::vector<std::int64_t>&, int);                                \
+    template LeadingChunks<Id> leading_elements(const Extent&, GridScan&, std::span<const Id>, std::span<const Id>, BigVector<Id>*, int);
 ISOATLAS_LEADING(std::uint32_t)
 ISOATLAS_LEADING(std::uint64_t)
 #undef ISOATLAS_LEADING

@@ -26,8 +26,8 @@ template <class Id>
 [[nodiscard]] BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction,
                                            std::span<const std::uint8_t> links, const std::vector<std::int64_t>& first_number, int threads);
 
-/// Finds the extrema around all elements; consumes links and chunks of the scan. new_maximum, new_minimum: per number of an extremum the one
-/// to be used instead; empty: its own. upward: null, or where the basins of maxima are to be kept. Cost: O(voxels).
+/// Finds the extrema around all elements; consumes links and chunks of the scan. new_maximum, new_minimum: per number of an extremum the
+/// one to be used instead; empty: its own. upward: null, or where the basins of maxima are to be kept. Cost: O(voxels).
 template <class Id>
 [[nodiscard]] LeadingChunks<Id> leading_elements(const Extent& extent, GridScan& scan, std::span<const Id> new_maximum,
                                                  std::span<const Id> new_minimum, BigVector<Id>* upward, int threads);

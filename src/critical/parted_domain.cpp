@@ -118,10 +118,8 @@ PartedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const 
     LeadingChunks<Id> elements;
     result.set.first = first_of_tiles(scan, tiling);
     {
-        const Renumbering<Id> maxima =
-            renumber<Id>(scan, tiling, scan.maxima, Id{0}, [](ElementCode code) { return code.h0() == 0; });
-        const Renumbering<Id> minima =
-            renumber<Id>(scan, tiling, scan.minima, Id{1}, [](ElementCode code) { return code.l0() == 0; });
+        const Renumbering<Id> maxima = renumber<Id>(scan, tiling, scan.maxima, Id{0}, [](ElementCode code) { return code.h0() == 0; });
+        const Renumbering<Id> minima = renumber<Id>(scan, tiling, scan.minima, Id{1}, [](ElementCode code) { return code.l0() == 0; });
         elements = leading_elements<Id>(extent, scan, maxima.number, minima.number, nullptr, context.threads);
         result.set.first_maximum = maxima.first;
         result.set.first_minimum = minima.first;

@@ -16,6 +16,7 @@ public:
         for (int a = 0; a < 3; ++a) tiles_[a] = (extent.size[a] + side - 1) / side;
     }
     [[nodiscard]] std::int64_t count() const { return tiles_[0] * tiles_[1] * tiles_[2]; }
+    [[nodiscard]] std::int64_t side() const { return side_; }
     [[nodiscard]] std::int64_t tile_of_voxel(std::int64_t voxel) const {
         const std::int64_t row = voxel / extent_.size[0], x = voxel % extent_.size[0];
         return x / side_ + tiles_[0] * (row % extent_.size[1] / side_ + tiles_[1] * (row / extent_.size[1] / side_));

@@ -6,33 +6,14 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "tree/components.h"
+#include "tree/local_numbers.h"
 
 namespace isoatlas {
 namespace {
 
 template <class Id>
 constexpr Id kNone = std::numeric_limits<Id>::max();
-
-/// Numbers of a part's extrema: its own range first, then those of other parts that it names.
-template <class Id>
-class LocalNumbers {
-public:
-    LocalNumbers(Id first, Id end, std::vector<Id> foreign) : first_(first), own_(end - first), foreign_(std::move(foreign)) {
-        std::sort(foreign_.begin(), foreign_.end());
-        foreign_.erase(std::unique(foreign_.begin(), foreign_.end()), foreign_.end());
-    }
-    [[nodiscard]] std::size_t size() const { return own_ + foreign_.size(); }
-    [[nodiscard]] Id own() const { return own_; }
-    [[nodiscard]] Id local(Id number) const {
-        if (number - first_ < own_) return number - first_;  // wraps around below the range
-        return own_ + static_cast<Id>(std::lower_bound(foreign_.begin(), foreign_.end(), number) - foreign_.begin());
-    }
-    [[nodiscard]] Id global(Id local) const { return local < own_ ? first_ + local : foreign_[local - own_]; }
-
-private:
-    Id first_, own_;
-    std::vector<Id> foreign_;
-};
 
 constexpr int kOpen = 3;  // stands for the branches of an open extremum: it is no leaf to be removed
 
@@ -50,21 +31,21 @@ public:
     /// branches of one component become one. Two open components may be one elsewhere, but nothing is removed from these.
     [[nodiscard]] std::vector<Id> parents(const BitRanks& open, std::span<std::uint8_t> left) {
         std::vector<Id> parent(ends_.size(), kNone<Id>);
-        start([](Id) { return kNone<Id>; });
+        components_.start(numbers_.size(), [](Id) { return kNone<Id>; });
         for (std::size_t step = 0; step < ends_.size(); ++step) {
             const std::size_t x = at(step);
             const auto [first, second] = names(x);
             if (branches(x) == 0) {
-                components_[first].mark = static_cast<Id>(x);
+                components_.mark(first) = static_cast<Id>(x);
                 if (open.has(numbers_.global(first))) set_branches(left[x], kOpen);
                 continue;
             }
-            const Id a = find(first), b = branches(x) == 2 ? find(second) : a;
+            const Id a = components_.find(first), b = branches(x) == 2 ? components_.find(second) : a;
             for (const Id c : {a, b}) {
-                if (components_[c].mark != kNone<Id>) parent[components_[c].mark] = static_cast<Id>(x);
+                if (components_.mark(c) != kNone<Id>) parent[components_.mark(c)] = static_cast<Id>(x);
             }
             set_branches(left[x], a == b ? 1 : 2);
-            components_[join(a, b)].mark = static_cast<Id>(x);
+            components_.mark(components_.join(a, b)) = static_cast<Id>(x);
         }
         return parent;
     }
@@ -72,15 +53,15 @@ public:
     /// Names of what is left. left: per element what was counted and removed; survives(x).
     template <class Survives>
     void rename(std::span<const std::uint8_t> left, const Survives& survives) {
-        start([&](Id c) { return c >= numbers_.own() ? c : kNone<Id>; });
+        components_.start(numbers_.size(), [&](Id c) { return c >= numbers_.own() ? c : kNone<Id>; });
         for (std::size_t step = 0; step < ends_.size(); ++step) {
             const std::size_t x = at(step);
             const auto [first, second] = names(x);
             if (branches(x) == 0) {
-                if (survives(x)) components_[first].mark = first;
+                if (survives(x)) components_.mark(first) = first;
             } else {
-                const Id a = find(first), b = branches(x) == 2 ? find(second) : a;
-                const Id name_a = components_[a].mark, name_b = a == b ? kNone<Id> : components_[b].mark;
+                const Id a = components_.find(first), b = branches(x) == 2 ? components_.find(second) : a;
+                const Id name_a = components_.mark(a), name_b = a == b ? kNone<Id> : components_.mark(b);
                 Id name = name_a != kNone<Id> ? name_a : name_b;
                 if (survives(x)) {
                     const int count = (name_a != kNone<Id>)+(name_b != kNone<Id>);
@@ -89,7 +70,7 @@ public:
                     set_branches(branches_[x], count);
                     names(x) = {name, count == 2 ? name_b : name};
                 }
-                components_[join(a, b)].mark = name;
+                components_.mark(components_.join(a, b)) = name;
             }
         }
         for (std::size_t x = 0; x < ends_.size(); ++x) {
@@ -98,11 +79,6 @@ public:
     }
 
 private:
-    struct Component {
-        Id root, size;
-        Id mark;  // first its last element, then its name
-    };
-
     [[nodiscard]] std::size_t at(std::size_t step) const { return down_ ? step : ends_.size() - 1 - step; }
     [[nodiscard]] std::array<Id, 2>& names(std::size_t x) { return ends_[x].*names_; }
     [[nodiscard]] int side_of(std::uint8_t left) const { return down_ ? branches_above(left) : branches_below(left); }
@@ -125,32 +101,12 @@ private:
         return numbers;
     }
 
-    template <class Mark>
-    void start(const Mark& mark) {
-        components_.resize(numbers_.size());
-        for (Id c = 0; c < components_.size(); ++c) components_[c] = {c, 1, mark(c)};
-    }
-    [[nodiscard]] Id find(Id c) {
-        while (components_[c].root != c) {
-            components_[c].root = components_[components_[c].root].root;
-            c = components_[c].root;
-        }
-        return c;
-    }
-    Id join(Id a, Id b) {
-        if (a == b) return a;
-        if (components_[a].size < components_[b].size) std::swap(a, b);
-        components_[b].root = a;
-        components_[a].size += components_[b].size;
-        return a;
-    }
-
     std::span<Ends<Id>> ends_;
     std::span<std::uint8_t> branches_;
     bool down_;
     Names names_;
     LocalNumbers<Id> numbers_;
-    std::vector<Component> components_;
+    Components<Id> components_;  // marks: first the last element, then the name
 };
 
 constexpr std::uint8_t kOneAbove = branches_of(1, 0), kOneBelow = branches_of(0, 1), kGone = 0xff;

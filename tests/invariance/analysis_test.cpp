@@ -3,7 +3,6 @@
 
 #include <sstream>
 
-#include "base/memory_limit.h"
 #include "isoatlas/analysis.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
@@ -58,25 +57,6 @@ TEST(Invariance, ThreadsAndSlabsOnFlatAndThinVolumes) {
     for (const auto& size : {std::array<std::int64_t, 3>{40, 30, 1}, {1, 1, 50}, {1, 37, 11}, {50, 1, 1}}) {
         for (const int rank : {2, 3}) {
             expect_same_for_any_context(oracle::to_volume(oracle::make_grid(rank, size, oracle::Texture::ties8, raw)));
-        }
-    }
-}
-
-// With a limit the trees are made tile by tile; slab sizes are sizes of tiles then.
-TEST(Invariance, MemoryLimitAndTiles) {
-    std::vector<int> raw;
-    for (int i = 0; i < 3000; ++i) raw.push_back(i * 7919 % 9973);
-    for (const oracle::Texture texture : {oracle::Texture::uniform, oracle::Texture::ties4, oracle::Texture::smooth_quantised,
-                                          oracle::Texture::constant, oracle::Texture::checkerboard_ties}) {
-        for (const auto& [rank, size] : {std::pair(3, std::array<std::int64_t, 3>{14, 13, 12}), {2, {50, 40, 1}}, {3, {1, 1, 30}}}) {
-            const Volume volume = oracle::to_volume(oracle::make_grid(rank, size, texture, raw));
-            const std::string expected = everything(volume, context_of(1, 0));
-            const MemoryLimit limit(kLeastMemory, testing::TempDir());
-            for (const int threads : {1, 2}) {
-                for (const std::int64_t tile : {0, 1, 2, 5, 7}) {
-                    EXPECT_TRUE(everything(volume, context_of(threads, tile)) == expected) << threads << " threads, tiles of " << tile;
-                }
-            }
         }
     }
 }
