@@ -73,7 +73,7 @@ public:
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
-            analysis = analyse_trees(volume, options, shifted(context_, 1, volume.info->extent));
+            analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
             store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
@@ -81,8 +81,8 @@ public:
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = store::trees_of(*trees, context_.threads);
-            add_zones(*analysis, volume, false, shifted(context_, 1, volume.info->extent));
+            if (!analysis) analysis = store::arcs_of(*trees);
+            count_voxels(*analysis, volume, shifted(context_, 1, volume.info->extent));
             store::pack_store(folder_.file(kZones), contents, store::zone_arrays(*analysis));
             zones = std::make_unique<store::Container>(folder_.file(kZones));
         }

@@ -77,6 +77,7 @@ public:
         if (pieces_.empty()) close_file();
     }
     [[nodiscard]] bool active() const noexcept { return active_; }
+    [[nodiscard]] std::int64_t limit() const noexcept { return active_ ? limit_.load() : 0; }
 
     void* take(std::size_t bytes) {
         if (!active_ || bytes < kLeastPiece) return nullptr;
@@ -158,7 +159,8 @@ private:
     std::thread watcher_;
     std::atomic<bool> active_ = false;
     bool stop_ = false;
-    std::int64_t limit_ = 0, in_memory_ = 0;
+    std::atomic<std::int64_t> limit_ = 0;
+    std::int64_t in_memory_ = 0;
     std::string folder_;
     int file_ = -1;
     std::size_t end_ = 0;
@@ -217,6 +219,7 @@ std::int64_t peak_memory() {
 void* take_scratch(std::size_t bytes) { return scratch().take(bytes); }
 bool give_scratch(void* memory, std::size_t bytes) noexcept { return scratch().give(memory, bytes); }
 void forget_scratch(void* memory, std::size_t bytes) noexcept { scratch().forget(memory, bytes); }
+std::int64_t memory_limit() noexcept { return scratch().limit(); }
 bool memory_is_limited() noexcept { return scratch().active(); }
 
 }  // namespace isoatlas

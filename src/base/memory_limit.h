@@ -39,6 +39,8 @@ inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
 [[nodiscard]] bool give_scratch(void* memory, std::size_t bytes) noexcept;
 /// Frees the pages of a part of an array, where it lies in the file.
 void forget_scratch(void* memory, std::size_t bytes) noexcept;
+/// The limit in force, 0 for none.
+[[nodiscard]] std::int64_t memory_limit() noexcept;
 /// Is a limit in force? Then nothing is kept for reuse.
 [[nodiscard]] bool memory_is_limited() noexcept;
 

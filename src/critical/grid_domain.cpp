@@ -6,7 +6,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
-#include "critical/representatives.h"
+#include "critical/leading_elements.h"
 
 namespace isoatlas {
 namespace {
@@ -17,51 +17,9 @@ void stop_if_cancelled(const Context& context) {
     if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
 }
 
-template <class Id>
-BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
-                             const std::vector<std::int64_t>& first_number, int threads) {
-    BigVector<Id> basin(static_cast<std::size_t>(extent.voxels()));
-    const auto slabs = static_cast<std::int64_t>(first_number.size());
-    Basins<Id> basins(extent, height, direction, links, basin);
-    for_each_block(threads, slabs, [&](std::int64_t slab) { basins.forward(slab, first_number[slab]); });
-    if (slabs > 1) {
-        basins.exits();
-        for_each_block(threads, slabs, [&](std::int64_t slab) { basins.finish(slab); });
-    }
-    return basin;
-}
-
-/// An element and the extrema around it: they are looked up while elements lie in the order of the grid, and go with it when it is sorted.
-template <class Id>
-struct LeadingElement {
-    KeyedElement key;
-    std::array<Id, 2> above, below;
-};
-
-template <class Id>
-using Chunks = std::vector<BigVector<LeadingElement<Id>>>;
-
-template <class Id>
-Chunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const Representatives<Id>& leads, int threads) {
-    Chunks<Id> result(chunks.size());
-    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        result[c].resize(chunks[c].size());
-        for (std::size_t i = 0; i < chunks[c].size(); ++i) result[c][i] = {chunks[c][i], leads.above(chunks[c][i].code), {}};
-        release(chunks[c]);
-    });
-    return result;
-}
-
-template <class Id>
-void add_minima(Chunks<Id>& chunks, const Representatives<Id>& leads, int threads) {
-    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        for (LeadingElement<Id>& element : chunks[c]) element.below = leads.below(element.key.code);
-    });
-}
-
 /// Sorts the elements and takes them apart into arrays.
 template <class Id>
-CriticalSet<Id> sort_elements(Chunks<Id> chunks, const Above& above, int threads) {
+CriticalSet<Id> sort_elements(LeadingChunks<Id> chunks, const Above& above, int threads) {
     using Element = LeadingElement<Id>;
     CriticalSet<Id> set;
     const auto allocate = [&](std::size_t n) {
@@ -71,8 +29,8 @@ CriticalSet<Id> sort_elements(Chunks<Id> chunks, const Above& above, int threads
     };
     const auto put = [&](std::size_t i, const Element& element) {
         set.value[i] = element.key.value, set.code[i] = element.key.code.bits;
-        set.up_a[i] = element.above[0], set.up_b[i] = element.above[1];
-        set.low_a[i] = element.below[0], set.low_b[i] = element.below[1];
+        set.up_a[i] = element.ends.above[0], set.up_b[i] = element.ends.above[1];
+        set.low_a[i] = element.ends.below[0], set.low_b[i] = element.ends.below[1];
     };
     sort_chunks(
         threads, std::move(chunks), [](const Element& element) { return -element.key.value; },
@@ -88,15 +46,7 @@ Criticals<IdType> GridDomain<T, IdType>::critical(bool keep_basins, const Contex
     Criticals<Id> result;
     stop_if_cancelled(context);
     context.report("basins", 1, kPhases, 0);
-    result.basin = resolve_basins<Id>(extent, scan_.height, Direction::up, scan_.links, scan_.first_maximum, context.threads);
-    Chunks<Id> elements = with_maxima<Id>(std::move(scan_.chunks), {extent, result.basin}, context.threads);
-    if (!keep_basins) release(result.basin);
-    {
-        const BigVector<Id> down =
-            resolve_basins<Id>(extent, scan_.height, Direction::down, scan_.links, scan_.first_minimum, context.threads);
-        release(scan_.links);
-        add_minima<Id>(elements, {extent, down}, context.threads);
-    }
+    LeadingChunks<Id> elements = leading_elements<Id>(extent, scan_, {}, {}, keep_basins ? &result.basin : nullptr, context.threads);
     stop_if_cancelled(context);
     context.report("sort", 2, kPhases, 0);
     result.set = sort_elements<Id>(std::move(elements), above_, context.threads);
@@ -104,26 +54,9 @@ Criticals<IdType> GridDomain<T, IdType>::critical(bool keep_basins, const Contex
     return result;
 }
 
-template <class T, class Id>
-BigVector<Id> basins_of_maxima(const GridView<T>& grid, const Context& context) {
-    const Extent& extent = grid.extent;
-    const BigVector<std::uint8_t> links = links_of_grid(grid, context);
-    const std::int64_t height = slab_height(extent, context);
-    std::vector<std::int64_t> first_maximum;
-    std::int64_t maxima = 0;
-    for (std::int64_t z = 0; z < extent.size[2]; z += height) {
-        first_maximum.push_back(maxima);
-        const std::int64_t slices = std::min(height, extent.size[2] - z);
-        maxima += std::ranges::count(std::span(links).subspan(z * extent.slice(), slices * extent.slice()), std::uint8_t{0});
-    }
-    return resolve_basins<Id>(extent, height, Direction::up, links, first_maximum, context.threads);
-}
-
-#define ISOATLAS_GRID(T)                                                                    \
-    template class GridDomain<T, std::uint32_t>;                                            \
-    template class GridDomain<T, std::uint64_t>;                                            \
-    template BigVector<std::uint32_t> basins_of_maxima(const GridView<T>&, const Context&); \
-    template BigVector<std::uint64_t> basins_of_maxima(const GridView<T>&, const Context&);
+#define ISOATLAS_GRID(T)                         \
+    template class GridDomain<T, std::uint32_t>; \
+    template class GridDomain<T, std::uint64_t>;
 ISOATLAS_GRID(std::uint8_t)
 ISOATLAS_GRID(std::int8_t)
 ISOATLAS_GRID(std::uint16_t)

@@ -55,8 +55,4 @@ private:
     GridScan scan_;
 };
 
-/// The basins of critical(), made anew. Cost: O(voxels), 5 bytes a voxel with 32-bit ids.
-template <class T, class Id>
-[[nodiscard]] BigVector<Id> basins_of_maxima(const GridView<T>& grid, const Context& context);
-
 }  // namespace isoatlas

@@ -29,7 +29,7 @@ void for_arrays(Arrays& a, Visit&& visit) {
     visit("elements/code", a.code);
     visit("elements/towards_outside", a.contours.other);
 }
-constexpr const char* kVoxels = "events/voxels";
+constexpr const char* kVoxels = "elements/voxels";
 
 [[noreturn]] void contradiction(const Container& store, const char* what) {
     throw Error(ErrorKind::input,
@@ -58,12 +58,11 @@ void read_array(const Container& store, const char* name, BigVector<N>& numbers)
 }
 
 template <class Id>
-std::unique_ptr<IndexedArrays<Id>> read_trees(const Container& store, int threads) {
+std::unique_ptr<IndexedArrays<Id>> read_arcs(const Container& store) {
     auto result = std::make_unique<IndexedArrays<Id>>();
     AnalysisArrays<Id>& arrays = result->arrays;
     for_arrays(arrays, [&](const char* name, auto& numbers) { read_array(store, name, numbers); });
     check(arrays, store.contents().volume.extent, store);
-    if (!restore_trees(arrays, store.contents().volume.extent.rank, threads)) contradiction(store, "the contour tree is none");
     return result;
 }
 
@@ -81,7 +80,7 @@ std::vector<PackedArray> tree_arrays(const Analysis& analysis) {
 
 std::vector<PackedArray> zone_arrays(const Analysis& analysis) {
     return analysis.data().visit([]<class Id>(const IndexedArrays<Id>& held) -> std::vector<PackedArray> {
-        return {packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.voxels))};
+        return {packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.element_voxels))};
     });
 }
 
@@ -103,7 +102,7 @@ std::vector<PackedArray> copied_arrays(const Container& store) {
     return packs;
 }
 
-Analysis trees_of(const Container& store, int threads) {
+Analysis arcs_of(const Container& store) {
     const Contents& contents = store.contents();
     auto data = std::make_unique<Analysis::Data>();
     data->extent = contents.volume.extent;
@@ -112,18 +111,22 @@ Analysis trees_of(const Container& store, int threads) {
     const bool is_wide = std::any_of(contents.arrays.begin(), contents.arrays.end(),
                                      [](const StoredArray& a) { return a.name == "elements/towards_outside" && a.type == "uint64"; });
     if (is_wide) {
-        data->arrays = read_trees<std::uint64_t>(store, threads);
+        data->arrays = read_arcs<std::uint64_t>(store);
     } else {
-        data->arrays = read_trees<std::uint32_t>(store, threads);
+        data->arrays = read_arcs<std::uint32_t>(store);
     }
     return Analysis(std::move(data));
 }
 
 Analysis analysis_of(const Container& store, int threads) {
-    Analysis analysis = trees_of(store, threads);
-    analysis.data().visit([&](auto& held) {
-        read_array(store, kVoxels, held.arrays.voxels);
-        if (held.arrays.voxels.size() != held.arrays.tree.size()) contradiction(store, "not every event has its number of voxels");
+    Analysis analysis = arcs_of(store);
+    analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
+        AnalysisArrays<Id>& arrays = held.arrays;
+        if (!restore_trees(arrays, store.contents().volume.extent.rank, threads)) contradiction(store, "the contour tree is none");
+        read_array(store, kVoxels, arrays.element_voxels);
+        if (arrays.element_voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
+        add_up_voxels(arrays);
+        release(arrays.element_voxels);
     });
     return analysis;
 }

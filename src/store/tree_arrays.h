@@ -2,7 +2,7 @@
 //
 //   elements/value, code        per critical element, descending: value; ElementCode bits (field/order.h)
 //   elements/towards_outside    the contour tree (tree/contour_tree.h): per element the other end of its arc; one node more, the outside
-//   events/voxels               per event of the criticality tree: voxels of its zone
+//   elements/voxels             per critical element: voxels that belong to it (zones/count_voxels.h); those of an event are its zone
 //
 // Levels, genera, events and their measures follow from the first three and are made when they are read. Ids are uint32, or uint64 where
 // the engine needs them. Zones of voxels are not stored.
@@ -16,16 +16,17 @@
 
 namespace isoatlas::store {
 
-/// The arrays of the trees, and the one of the zones. The analysis must live until they are packed.
+/// Of find_arcs(), and of count_voxels() (zones/analyse.h). The analysis must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis);
 [[nodiscard]] std::vector<PackedArray> zone_arrays(const Analysis& analysis);
 
 /// All arrays of another store, which must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
 
-/// The analysis of a store: its trees alone, or with the sizes of zones. Throws Error{input} when arrays contradict each other.
-/// Cost: reads all of them, O(n alpha).
-[[nodiscard]] Analysis trees_of(const Container& store, int threads);
+/// What find_arcs() gave. Throws Error{input} when arrays contradict each other. Cost: reads them.
+[[nodiscard]] Analysis arcs_of(const Container& store);
+/// The analysis of a store, without zones of voxels. Throws Error{input} when arrays contradict each other. Cost: reads all of them, O(n
+/// alpha).
 [[nodiscard]] Analysis analysis_of(const Container& store, int threads);
 
 }  // namespace isoatlas::store

@@ -1,5 +1,6 @@
 #include "tree/merge_tree.h"
 
+#include <array>
 #include <utility>
 
 #include "base/check.h"
@@ -16,6 +17,15 @@ public:
     Sweep(std::size_t extrema, BigVector<Id>& parent) : components_(extrema), parent_(parent) {}
 
     void start(Id extremum, Id node) { components_[extremum] = {extremum, node, 1}; }
+
+    /// A node with so many branches: a leaf starts the component of its name.
+    void meet(int branches, const std::array<Id, 2>& names, Id node) {
+        if (branches == 0) {
+            start(names[0], node);
+        } else {
+            pass(names[0], names[branches - 1], node);
+        }
+    }
 
     /// The component of a passes node; b joins it when it is another one.
     void pass(Id a, Id b, Id node) {
@@ -47,46 +57,61 @@ private:
     BigVector<Id>& parent_;
 };
 
+/// count(i): branches of element i on the side that is swept first; names(i): of their components.
+template <class Id, class Count, class Names>
+BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
+    BigVector<Id> parent(n + 1, static_cast<Id>(n));
+    Sweep<Id> sweep(extrema, parent);
+    for (std::size_t i = 0; i < n; ++i) sweep.meet(count(i), names(i), static_cast<Id>(i));
+    return parent;
+}
+
+template <class Id, class Count, class Names>
+BigVector<Id> sweep_up(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
+    BigVector<Id> parent(n + 1, Id{0});
+    Sweep<Id> sweep(extrema, parent);
+    sweep.start(Id{0}, static_cast<Id>(n));  // the outside
+    for (std::size_t i = n; i-- > 0;) sweep.meet(count(i), names(i), static_cast<Id>(i));
+    return parent;
+}
+
 }  // namespace
 
 template <class Id>
-BigVector<Id> join_tree(const CriticalSet<Id>& critical) {
-    const std::size_t n = critical.size();
-    BigVector<Id> parent(n + 1, static_cast<Id>(n));
-    Sweep<Id> sweep(static_cast<std::size_t>(critical.maxima), parent);
-    for (std::size_t i = 0; i < n; ++i) {
-        const int h0 = ElementCode{critical.code[i]}.h0();
-        const auto node = static_cast<Id>(i);
-        if (h0 == 0) {
-            sweep.start(critical.up_a[i], node);
-        } else {
-            sweep.pass(critical.up_a[i], h0 == 2 ? critical.up_b[i] : critical.up_a[i], node);
-        }
-    }
-    return parent;
+BigVector<Id> join_tree(const CriticalSet<Id>& set) {
+    return sweep_down<Id>(
+        set.size(), static_cast<std::size_t>(set.maxima), [&](std::size_t i) { return ElementCode{set.code[i]}.h0(); },
+        [&](std::size_t i) { return std::array{set.up_a[i], set.up_b[i]}; });
 }
 
 template <class Id>
-BigVector<Id> split_tree(const CriticalSet<Id>& critical) {
-    const std::size_t n = critical.size();
-    BigVector<Id> parent(n + 1, Id{0});
-    Sweep<Id> sweep(static_cast<std::size_t>(critical.minima) + 1, parent);
-    sweep.start(Id{0}, static_cast<Id>(n));
-    for (std::size_t i = n; i-- > 0;) {
-        const int l0 = ElementCode{critical.code[i]}.l0();
-        const auto node = static_cast<Id>(i);
-        if (l0 == 0) {
-            sweep.start(critical.low_a[i], node);
-        } else {
-            sweep.pass(critical.low_a[i], l0 == 2 ? critical.low_b[i] : critical.low_a[i], node);
-        }
-    }
-    return parent;
+BigVector<Id> split_tree(const CriticalSet<Id>& set) {
+    return sweep_up<Id>(
+        set.size(), static_cast<std::size_t>(set.minima) + 1, [&](std::size_t i) { return ElementCode{set.code[i]}.l0(); },
+        [&](std::size_t i) { return std::array{set.low_a[i], set.low_b[i]}; });
 }
 
-template BigVector<std::uint32_t> join_tree(const CriticalSet<std::uint32_t>&);
-template BigVector<std::uint64_t> join_tree(const CriticalSet<std::uint64_t>&);
-template BigVector<std::uint32_t> split_tree(const CriticalSet<std::uint32_t>&);
-template BigVector<std::uint64_t> split_tree(const CriticalSet<std::uint64_t>&);
+template <class Id>
+BigVector<Id> join_tree(const NamedSet<Id>& set) {
+    return sweep_down<Id>(
+        set.size(), set.maxima, [&](std::size_t i) { return branches_above(set.branches[i]); },
+        [&](std::size_t i) { return set.ends[i].above; });
+}
+
+template <class Id>
+BigVector<Id> split_tree(const NamedSet<Id>& set) {
+    return sweep_up<Id>(
+        set.size(), set.minima + 1, [&](std::size_t i) { return branches_below(set.branches[i]); },
+        [&](std::size_t i) { return set.ends[i].below; });
+}
+
+#define ISOATLAS_MERGE_TREE(Id)                                \
+    template BigVector<Id> join_tree(const CriticalSet<Id>&);  \
+    template BigVector<Id> split_tree(const CriticalSet<Id>&); \
+    template BigVector<Id> join_tree(const NamedSet<Id>&);     \
+    template BigVector<Id> split_tree(const NamedSet<Id>&);
+ISOATLAS_MERGE_TREE(std::uint32_t)
+ISOATLAS_MERGE_TREE(std::uint64_t)
+#undef ISOATLAS_MERGE_TREE
 
 }  // namespace isoatlas

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "critical/critical_set.h"
+#include "critical/parted_set.h"
 
 namespace isoatlas {
 
@@ -15,5 +16,11 @@ BigVector<Id> join_tree(const CriticalSet<Id>& critical);
 /// parent.size() == size + 1; the highest element is its own parent.
 template <class Id>
 BigVector<Id> split_tree(const CriticalSet<Id>& critical);
+
+/// The same of elements that are not extrema of a field, but have names for what meets at them.
+template <class Id>
+BigVector<Id> join_tree(const NamedSet<Id>& set);
+template <class Id>
+BigVector<Id> split_tree(const NamedSet<Id>& set);
 
 }  // namespace isoatlas

@@ -7,8 +7,11 @@
 #include "base/memory_limit.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
+#include "critical/parted_domain.h"
 #include "field/slab_work.h"
+#include "tree/assemble.h"
 #include "zones/analysis_data.h"
+#include "zones/count_voxels.h"
 #include "zones/label.h"
 #include "zones/paths.h"
 #include "zones/trees.h"
@@ -23,15 +26,23 @@ bool fits_32_bits(const Extent& extent, const GridScan& scan) {
     return extent.voxels() < std::int64_t{1} << 31 && scan.elements < std::int64_t{1} << 30;
 }
 
-/// The basins stay in arrays.zone for add_zones(), unless memory is short: then they are made anew.
+/// The basins stay in arrays.zone for the zones.
 template <class T, class Id>
-std::unique_ptr<IndexedArrays<Id>> find_trees(const GridView<T>& grid, GridScan scan, const Context& context) {
-    auto result = std::make_unique<IndexedArrays<Id>>();
-    Criticals<Id> criticals = GridDomain<T, Id>(grid, std::move(scan)).critical(!memory_is_limited(), context);
-    result->arrays.zone = std::move(criticals.basin);
+CriticalSet<Id> critical_set(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays, const Context& context) {
+    Criticals<Id> criticals = GridDomain<T, Id>(grid, std::move(scan)).critical(true, context);
+    arrays.zone = std::move(criticals.basin);
     context.report("trees", 3, kPhases, 0);
-    make_trees(std::move(criticals.set), result->arrays, context.threads);
-    return result;
+    return std::move(criticals.set);
+}
+
+/// Value, code and arcs when memory is short: nothing is accessed at random but a tile at a time.
+template <class Id>
+void make_arcs_by_tiles(const Extent& extent, GridScan scan, AnalysisArrays<Id>& arrays, const Context& context) {
+    PartedCriticals<Id> criticals = parted_criticals<Id>(extent, std::move(scan), tiling_for(extent, context), context);
+    context.report("trees", 3, kPhases, 0);
+    arrays.value = std::move(criticals.value);
+    arrays.code = std::move(criticals.code);
+    arrays.contours.other = contour_arcs<Id>(std::move(criticals.set), criticals.part_of, context.threads);
 }
 
 /// Per maximum: its critical element.
@@ -60,9 +71,9 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
     });
 }
 
-}  // namespace
-
-Analysis analyse_trees(const VolumeView& volume, const AnalysisOptions& options, const Context& context) {
+/// Calls find(grid, scan, arrays) with arrays of the width that fits, and makes an analysis of them.
+template <class Find>
+Analysis analyse_with(const VolumeView& volume, const AnalysisOptions& options, const Context& context, const Find& find) {
     auto data = std::make_unique<Analysis::Data>();
     data->extent = volume.info->extent;
     data->interpolant = options.interpolant;
@@ -71,23 +82,37 @@ Analysis analyse_trees(const VolumeView& volume, const AnalysisOptions& options,
         const GridView<T> grid{samples.data(), data->extent};
         context.report("classify", 0, kPhases, 0);
         GridScan scan = scan_grid(grid, tunnel_height_of(options.interpolant, options.tunnel_height), context);
+        const auto find_with = [&]<class Id>(std::unique_ptr<IndexedArrays<Id>> held) {
+            find(grid, std::move(scan), held->arrays);
+            data->arrays = std::move(held);
+        };
         if (fits_32_bits(data->extent, scan)) {
-            data->arrays = find_trees<T, std::uint32_t>(grid, std::move(scan), context);
+            find_with(std::make_unique<IndexedArrays<std::uint32_t>>());
         } else {
-            data->arrays = find_trees<T, std::uint64_t>(grid, std::move(scan), context);
+            find_with(std::make_unique<IndexedArrays<std::uint64_t>>());
         }
     });
     return Analysis(std::move(data));
 }
 
-void add_zones(Analysis& analysis, const VolumeView& volume, bool of_voxels, const Context& context) {
+}  // namespace
+
+Analysis find_arcs(const VolumeView& volume, const AnalysisOptions& options, const Context& context) {
+    return analyse_with(volume, options, context,
+                        [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays) {
+                            if (memory_is_limited()) return make_arcs_by_tiles(grid.extent, std::move(scan), arrays, context);
+                            make_arcs(critical_set(grid, std::move(scan), arrays, context), arrays, context.threads);
+                        });
+}
+
+void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& context) {
     context.report("zones", 4, kPhases, 0);
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const GridView<T> grid{samples.data(), volume.info->extent};
         analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
-            if (held.arrays.zone.empty()) held.arrays.zone = basins_of_maxima<T, Id>(grid, context);
-            make_zones(grid, held.arrays, context);
-            if (!of_voxels) release(held.arrays.zone);
+            AnalysisArrays<Id>& arrays = held.arrays;
+            arrays.element_voxels = voxels_of_elements<T, Id>(grid, arrays.value, arrays.code, std::move(arrays.zone), context);
+            arrays.zone = {};
         });
     });
     context.report("zones", 4, kPhases, 1);
@@ -95,12 +120,18 @@ void add_zones(Analysis& analysis, const VolumeView& volume, bool of_voxels, con
 
 Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Context& context) {
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
-    Analysis analysis = analyse_trees(volume, options, context);
-    if (options.zones) {
-        add_zones(analysis, volume, true, context);
-    } else {
-        analysis.data().visit([](auto& held) { release(held.arrays.zone); });
-    }
+    const VolumeView view(volume);
+    Analysis analysis =
+        analyse_with(view, options, context, [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays) {
+            make_trees(critical_set(grid, std::move(scan), arrays, context), arrays, context.threads);
+            if (options.zones) {
+                context.report("zones", 4, kPhases, 0);
+                make_zones(grid, arrays, context);
+                context.report("zones", 4, kPhases, 1);
+            } else {
+                release(arrays.zone);
+            }
+        });
     return_big_memory();
     return analysis;
 }

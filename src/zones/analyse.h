@@ -1,4 +1,4 @@
-// analyse() in two steps, for callers that keep what the first one found.
+// What a store keeps of an analysis, found in two steps that can be years apart; all else follows from it (zones/trees.h).
 #pragma once
 
 #include "field/volume_view.h"
@@ -6,10 +6,11 @@
 
 namespace isoatlas {
 
-/// The trees. Zones are left out, whatever the options say.
-[[nodiscard]] Analysis analyse_trees(const VolumeView& volume, const AnalysisOptions& options, const Context& context);
+/// Critical elements and the arcs of the contour tree, nothing else: accessors of the result must not be called. Works while memory is
+/// limited (base/memory_limit.h).
+[[nodiscard]] Analysis find_arcs(const VolumeView& volume, const AnalysisOptions& options, const Context& context);
 
-/// Counts the voxels of every zone. of_voxels: keeps the zone of every voxel too.
-void add_zones(Analysis& analysis, const VolumeView& volume, bool of_voxels, const Context& context);
+/// Counts the voxels of every critical element: needs value and code.
+void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas

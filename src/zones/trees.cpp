@@ -37,7 +37,7 @@ void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank,
 }  // namespace
 
 template <class Id>
-void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
+BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     BigVector<Id> join, split;
     run_both(threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
     for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) release(*field);
@@ -46,7 +46,14 @@ void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
     if (!is_3d) std::fill(arrays.contours.half_chi.begin(), arrays.contours.half_chi.end(), 1);
     arrays.value = std::move(set.value);
     arrays.code = std::move(set.code);
-    make_events<Id>(join, arrays, set.rank, threads);
+    return join;
+}
+
+template <class Id>
+void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
+    const int rank = set.rank;
+    const BigVector<Id> join = make_arcs(std::move(set), arrays, threads);
+    make_events<Id>(join, arrays, rank, threads);
 }
 
 template <class Id>
@@ -60,9 +67,19 @@ bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads) {
     return true;
 }
 
-#define ISOATLAS_TREES(Id)                                               \
-    template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, int); \
-    template bool restore_trees(AnalysisArrays<Id>&, int, int);
+template <class Id>
+void add_up_voxels(AnalysisArrays<Id>& arrays) {
+    arrays.voxels.assign(arrays.tree.size(), Id{0});
+    for (std::size_t i = 0; i < arrays.element_voxels.size(); ++i) {
+        arrays.voxels[arrays.tree.event_of_element[i]] += arrays.element_voxels[i];
+    }
+}
+
+#define ISOATLAS_TREES(Id)                                                       \
+    template BigVector<Id> make_arcs(CriticalSet<Id>, AnalysisArrays<Id>&, int); \
+    template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, int);         \
+    template bool restore_trees(AnalysisArrays<Id>&, int, int);                  \
+    template void add_up_voxels(AnalysisArrays<Id>&);
 ISOATLAS_TREES(std::uint32_t)
 ISOATLAS_TREES(std::uint64_t)
 #undef ISOATLAS_TREES

@@ -6,6 +6,10 @@
 
 namespace isoatlas {
 
+/// Fills in value, code and the contour tree. Returns the join tree. Cost: O(n alpha).
+template <class Id>
+BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
+
 /// Fills in everything but the zones. Cost: O(n alpha).
 template <class Id>
 void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
@@ -14,5 +18,9 @@ void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
 /// store. Cost: O(n alpha).
 template <class Id>
 [[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads);
+
+/// Voxels of the zones of events, from those of the elements.
+template <class Id>
+void add_up_voxels(AnalysisArrays<Id>& arrays);
 
 }  // namespace isoatlas

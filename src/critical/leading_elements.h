@@ -1,0 +1,35 @@
+// Critical elements with the extrema around them: these are looked up while elements lie in the order of the grid, and go with an element
+// when it is sorted.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "critical/grid_scan.h"
+#include "critical/parted_set.h"
+#include "critical/representatives.h"
+
+namespace isoatlas {
+
+template <class Id>
+struct LeadingElement {
+    KeyedElement key;
+    Ends<Id> ends;
+};
+
+/// In the order of the grid.
+template <class Id>
+using LeadingChunks = std::vector<BigVector<LeadingElement<Id>>>;
+
+/// first_number: per slab, of GridScan. Cost: O(voxels).
+template <class Id>
+[[nodiscard]] BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction,
+                                           std::span<const std::uint8_t> links, const std::vector<std::int64_t>& first_number, int threads);
+
+/// Finds the extrema around all elements; consumes links and chunks of the scan. new_maximum, new_minimum: per number of an extremum the
+/// one to be used instead; empty: its own. upward: null, or where the basins of maxima are to be kept. Cost: O(voxels).
+template <class Id>
+[[nodiscard]] LeadingChunks<Id> leading_elements(const Extent& extent, GridScan& scan, std::span<const Id> new_maximum,
+                                                 std::span<const Id> new_minimum, BigVector<Id>* upward, int threads);
+
+}  // namespace isoatlas

@@ -1,0 +1,136 @@
+#include "critical/parted_domain.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "base/parallel_sort.h"
+#include "critical/leading_elements.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kMostTiles = std::int64_t{1} << 16;
+constexpr std::int64_t kBytesAVoxel = 64;  // of noise, while a tile is reduced
+constexpr std::int64_t kUnlimitedTile = std::int64_t{1} << 20;
+
+/// Numbers of extrema, tile after tile: those of a tile follow each other.
+template <class Id>
+struct Renumbering {
+    BigVector<Id> number;   // by old number
+    std::vector<Id> first;  // by tile, and of the end
+};
+
+/// Elements of extrema come in the order of their old numbers, which begin at least.
+template <class Id, class IsExtremum>
+Renumbering<Id> renumber(const GridScan& scan, const Tiling& tiling, std::int64_t extrema, Id least, const IsExtremum& is_extremum) {
+    Renumbering<Id> result;
+    result.number.resize(static_cast<std::size_t>(extrema) + least);
+    result.first.assign(static_cast<std::size_t>(tiling.count()) + 1, Id{0});
+    const auto for_extrema = [&](const auto& visit) {
+        for (const BigVector<KeyedElement>& chunk : scan.chunks) {
+            for (const KeyedElement& element : chunk) {
+                if (is_extremum(element.code)) visit(static_cast<std::size_t>(tiling.tile_of(element.code)));
+            }
+        }
+    };
+    for_extrema([&](std::size_t tile) { ++result.first[tile]; });
+    Id next = least;
+    for (Id& first : result.first) next += std::exchange(first, next);
+    std::vector<Id> number = result.first;
+    std::size_t old = 0;
+    for (; old < least; ++old) result.number[old] = static_cast<Id>(old);
+    for_extrema([&](std::size_t tile) { result.number[old++] = number[tile]++; });
+    return result;
+}
+
+std::vector<std::size_t> first_of_tiles(const GridScan& scan, const Tiling& tiling) {
+    std::vector<std::size_t> first(static_cast<std::size_t>(tiling.count()) + 1, 0);
+    for (const BigVector<KeyedElement>& chunk : scan.chunks) {
+        for (const KeyedElement& element : chunk) ++first[tiling.tile_of(element.code)];
+    }
+    std::size_t next = 0;
+    for (std::size_t& place : first) next += std::exchange(place, next);
+    return first;
+}
+
+/// Sorts the elements: keys by rank. Returns their ends, by rank.
+template <class Id>
+BigVector<Ends<Id>> sort_elements(LeadingChunks<Id> chunks, const Above& above, PartedCriticals<Id>& result, int threads) {
+    using Element = LeadingElement<Id>;
+    BigVector<Ends<Id>> ends;
+    const auto allocate = [&](std::size_t n) {
+        result.value.resize(n);
+        result.code.resize(n);
+        ends.resize(n);
+    };
+    const auto put = [&](std::size_t i, const Element& element) {
+        result.value[i] = element.key.value;
+        result.code[i] = element.key.code.bits;
+        ends[i] = element.ends;
+    };
+    sort_chunks(
+        threads, std::move(chunks), [](const Element& element) { return -element.key.value; },
+        [&](const Element& p, const Element& q) { return above(p.key, q.key); }, allocate, put);
+    return ends;
+}
+
+/// Hands the elements to their tiles, in the order of ranks.
+template <class Id>
+void cut(const BigVector<Ends<Id>>& ends, const Tiling& tiling, PartedCriticals<Id>& result) {
+    const std::size_t n = result.code.size();
+    result.part_of.resize(n);
+    result.set.branches.resize(n);
+    result.set.ends.resize(n);
+    std::vector<std::size_t> next = result.set.first;
+    for (std::size_t r = 0; r < n; ++r) {
+        const ElementCode code{result.code[r]};
+        const auto tile = static_cast<std::uint16_t>(tiling.tile_of(code));
+        const std::size_t i = next[tile]++;
+        result.part_of[r] = tile;
+        result.set.branches[i] = branches_of(code.h0(), code.l0());
+        result.set.ends[i] = ends[r];
+    }
+}
+
+}  // namespace
+
+Tiling tiling_for(const Extent& extent, const Context& context) {
+    std::int64_t side = context.slab_slices;
+    if (side <= 0) {
+        const std::int64_t limit = memory_limit();
+        const std::int64_t voxels = limit > 0 ? limit / 4 / thread_count(context.threads) / kBytesAVoxel : kUnlimitedTile;
+        const auto fits = [&](std::int64_t s) {
+            return std::min(s, extent.size[0]) * std::min(s, extent.size[1]) * std::min(s, extent.size[2]) <= voxels;
+        };
+        side = std::max({extent.size[0], extent.size[1], extent.size[2]});
+        while (side > 8 && !fits(side)) side -= (side + 7) / 8;
+    }
+    while (Tiling(extent, side).count() > kMostTiles) side += (side + 7) / 8;
+    return {extent, side};
+}
+
+template <class Id>
+PartedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const Tiling& tiling, const Context& context) {
+    PartedCriticals<Id> result;
+    context.report("basins", 1, 5, 0);
+    LeadingChunks<Id> elements;
+    result.set.first = first_of_tiles(scan, tiling);
+    {
+        const Renumbering<Id> maxima = renumber<Id>(scan, tiling, scan.maxima, Id{0}, [](ElementCode code) { return code.h0() == 0; });
+        const Renumbering<Id> minima = renumber<Id>(scan, tiling, scan.minima, Id{1}, [](ElementCode code) { return code.l0() == 0; });
+        elements = leading_elements<Id>(extent, scan, maxima.number, minima.number, nullptr, context.threads);
+        result.set.first_maximum = maxima.first;
+        result.set.first_minimum = minima.first;
+    }
+    context.report("sort", 2, 5, 0);
+    const BigVector<Ends<Id>> ends = sort_elements<Id>(std::move(elements), Above{GridSteps(extent)}, result, context.threads);
+    cut(ends, tiling, result);
+    return result;
+}
+
+template PartedCriticals<std::uint32_t> parted_criticals(const Extent&, GridScan, const Tiling&, const Context&);
+template PartedCriticals<std::uint64_t> parted_criticals(const Extent&, GridScan, const Tiling&, const Context&);
+
+}  // namespace isoatlas

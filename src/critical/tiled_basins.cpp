@@ -1,0 +1,90 @@
+#include "critical/tiled_basins.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
+#include "critical/grid_scan.h"
+#include "critical/leading_elements.h"
+
+namespace isoatlas {
+namespace {
+
+/// Per slab: how many maxima lie in the slabs before.
+std::vector<std::int64_t> first_of_slabs(const Extent& extent, std::int64_t height, std::span<const std::uint8_t> links) {
+    std::vector<std::int64_t> first;
+    std::int64_t maxima = 0;
+    for (std::int64_t z = 0; z < extent.size[2]; z += height) {
+        first.push_back(maxima);
+        const std::int64_t slices = std::min(height, extent.size[2] - z);
+        maxima += std::ranges::count(links.subspan(z * extent.slice(), slices * extent.slice()), std::uint8_t{0});
+    }
+    return first;
+}
+
+/// Visits the maxima in the order of their old numbers.
+template <class Visit>
+void for_maxima(std::span<const std::uint8_t> links, const Visit& visit) {
+    for (auto at = links.begin(); (at = std::find(at, links.end(), std::uint8_t{0})) != links.end(); ++at) visit(at - links.begin());
+}
+
+/// Calls visit(voxel, tile, border) for the voxels of a slice; border: a voxel of another tile may be a neighbour, also across an edge.
+template <class Visit>
+void for_voxels_of_slice(const Extent& extent, const Tiling& tiling, std::int64_t z, const Visit& visit) {
+    const std::int64_t nx = extent.size[0], ny = extent.size[1], side = tiling.side();
+    const auto is_border = [side](std::int64_t at) { return at % side == 0 || at % side == side - 1; };
+    const bool border_slice = extent.size[2] > 1 && is_border(z);
+    for (std::int64_t y = 0; y < ny; ++y) {
+        const bool border_row = border_slice || is_border(y);
+        const std::int64_t row = nx * (y + ny * z);
+        std::int64_t tile = tiling.tile_of_voxel(row);
+        for (std::int64_t first = 0; first < nx; first += side, ++tile) {
+            const std::int64_t last = std::min(first + side, nx) - 1;
+            for (std::int64_t x = first; x <= last; ++x) visit(row + x, tile, border_row || x == first || x == last);
+        }
+    }
+}
+
+}  // namespace
+
+template <class T, class Id>
+TiledBasins<Id> tiled_basins(const GridView<T>& grid, BigVector<Id> basin, const Tiling& tiling, const Context& context) {
+    const Extent& extent = grid.extent;
+    const BigVector<std::uint8_t> links = links_of_grid(grid, context);
+    if (basin.empty()) {
+        const std::int64_t height = slab_height(extent, context);
+        basin = resolve_basins<Id>(extent, height, Direction::up, links, first_of_slabs(extent, height, links), context.threads);
+    }
+    std::vector<Id> first(static_cast<std::size_t>(tiling.count()) + 1, Id{0});
+    for_maxima(links, [&](std::int64_t voxel) { ++first[tiling.tile_of_voxel(voxel)]; });
+    Id maxima = 0;
+    for (Id& of_tile : first) maxima += std::exchange(of_tile, maxima);
+    BigVector<Id> number;
+    number.reserve(maxima);
+    std::vector<Id> next = first;
+    for_maxima(links, [&](std::int64_t voxel) { number.push_back(next[tiling.tile_of_voxel(voxel)]++); });
+    TiledBasins<Id> result{std::move(basin), std::move(first), BitRanks(maxima)};
+    for_each_block(context.threads, extent.size[2], [&](std::int64_t z) {
+        for_voxels_of_slice(extent, tiling, z, [&](std::int64_t voxel, std::int64_t tile, bool border) {
+            const Id maximum = number[Basins<Id>::number(result.maximum[voxel])];
+            result.maximum[voxel] = maximum;
+            if (border || maximum < result.first[tile] || maximum >= result.first[tile + 1]) result.open.add(maximum);
+        });
+    });
+    return result;
+}
+
+#define ISOATLAS_TILED(T)                                                                                                          \
+    template TiledBasins<std::uint32_t> tiled_basins(const GridView<T>&, BigVector<std::uint32_t>, const Tiling&, const Context&); \
+    template TiledBasins<std::uint64_t> tiled_basins(const GridView<T>&, BigVector<std::uint64_t>, const Tiling&, const Context&);
+ISOATLAS_TILED(std::uint8_t)
+ISOATLAS_TILED(std::int8_t)
+ISOATLAS_TILED(std::uint16_t)
+ISOATLAS_TILED(std::int16_t)
+ISOATLAS_TILED(std::uint32_t)
+ISOATLAS_TILED(std::int32_t)
+ISOATLAS_TILED(float)
+ISOATLAS_TILED(double)
+#undef ISOATLAS_TILED
+
+}  // namespace isoatlas

@@ -1,0 +1,44 @@
+// Cutting a grid into boxes: parts with little surface, each small enough to be worked on in memory.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "field/order.h"
+
+namespace isoatlas {
+
+class Tiling {
+public:
+    /// Boxes of `side` voxels an axis.
+    Tiling(const Extent& extent, std::int64_t side) : extent_(extent), side_(side) {
+        for (int a = 0; a < 3; ++a) tiles_[a] = (extent.size[a] + side - 1) / side;
+    }
+    [[nodiscard]] std::int64_t count() const { return tiles_[0] * tiles_[1] * tiles_[2]; }
+    [[nodiscard]] std::int64_t side() const { return side_; }
+    [[nodiscard]] std::int64_t tile_of_voxel(std::int64_t voxel) const {
+        const std::int64_t row = voxel / extent_.size[0], x = voxel % extent_.size[0];
+        return x / side_ + tiles_[0] * (row % extent_.size[1] / side_ + tiles_[1] * (row / extent_.size[1] / side_));
+    }
+    /// The tile of the voxel that owns an element.
+    [[nodiscard]] std::int64_t tile_of(ElementCode code) const {
+        return tile_of_voxel(code.is_body() ? code.cell() : code.kind() == CodeKind::face ? code.index() / 3 : code.index());
+    }
+    /// The first voxel of a tile, and the one behind its last, along each axis.
+    [[nodiscard]] std::array<std::int64_t, 3> begin(std::int64_t tile) const {
+        return {tile % tiles_[0] * side_, tile / tiles_[0] % tiles_[1] * side_, tile / (tiles_[0] * tiles_[1]) * side_};
+    }
+    [[nodiscard]] std::array<std::int64_t, 3> end(std::int64_t tile) const {
+        std::array<std::int64_t, 3> last = begin(tile);
+        for (int a = 0; a < 3; ++a) last[a] = std::min(last[a] + side_, extent_.size[a]);
+        return last;
+    }
+
+private:
+    Extent extent_;
+    std::int64_t side_;
+    std::array<std::int64_t, 3> tiles_{};
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,17 @@
+// The contour tree of elements that are cut into parts, without an array of all elements that is accessed at random.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "critical/parted_set.h"
+
+namespace isoatlas {
+
+/// ContourTree::other of all elements and the outside, in the order of ranks. part_of: per element in the order of ranks, its part. The set
+/// is consumed. Memory at random: what reduce_part() needs for a part (as many at once as there are threads), and the branching survivors.
+/// Cost: O(n alpha).
+template <class Id>
+[[nodiscard]] BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> part_of, int threads);
+
+}  // namespace isoatlas

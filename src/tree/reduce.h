@@ -1,0 +1,32 @@
+// Reduction of a part: all arcs of the contour tree that a part of the elements decides on its own (docs/decisions).
+//
+// An extremum is open when it belongs to another part, or another part names it; so is the outside. A component of the sweep over the part
+// alone is closed when it holds no open extremum: it meets elements of this part only, so it is a component of the sweep over all elements
+// too, and the next element it meets is known. Leaves are removed as in contour_tree.h, open extrema never: so whatever has become a leaf
+// has a closed component behind it. What is removed is final, whatever the other parts hold, because the order of removals does not
+// matter (Carr, Snoeyink, Axen 2003).
+//
+// What is left is again a set of elements with names: the trees of the survivors of all parts give the other arcs.
+#pragma once
+
+#include <span>
+
+#include "base/bit_ranks.h"
+#include "critical/parted_set.h"
+
+namespace isoatlas {
+
+/// The extrema that are named by other parts than their own, by number.
+struct OpenExtrema {
+    BitRanks maxima, minima;
+};
+template <class Id>
+[[nodiscard]] OpenExtrema open_extrema(const PartedSet<Id>& set, int threads);
+
+/// Reduces one part. arc: per element of the part; afterwards the element (by its place in the part) at the other end of its arc towards
+/// the outside, or itself: it survives. Branches and ends of survivors become those that are left, each with the name of a survivor that is
+/// a leaf; a leaf names itself. Cost: O(n alpha) time; 32 bytes an element while it runs, for 32-bit ids.
+template <class Id>
+void reduce_part(PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<Id> arc);
+
+}  // namespace isoatlas

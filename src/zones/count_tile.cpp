@@ -1,0 +1,151 @@
+#include "zones/count_tile.h"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "critical/representatives.h"
+#include "tree/components.h"
+#include "tree/local_numbers.h"
+
+namespace isoatlas {
+namespace {
+
+template <class T, class Id>
+struct TileVoxel {
+    T value;
+    Id maximum;
+};
+
+/// Few different values: counted. Many: sorted.
+template <class T, class Id>
+void sort_descending(std::vector<TileVoxel<T, Id>>& voxels) {
+    using Voxel = TileVoxel<T, Id>;
+    if constexpr (std::is_integral_v<T> && sizeof(T) <= 2) {
+        constexpr int kHighest = std::numeric_limits<T>::max();
+        const auto [low, high] = std::minmax_element(voxels.begin(), voxels.end(), [](auto p, auto q) { return p.value < q.value; });
+        const int most = high->value, range = most - low->value + 1;
+        static_assert(kHighest <= 65535);
+        std::vector<std::size_t> place(static_cast<std::size_t>(range), 0);
+        for (const Voxel& voxel : voxels) ++place[most - voxel.value];
+        std::size_t next = 0;
+        for (std::size_t& of_value : place) next += std::exchange(of_value, next);
+        std::vector<Voxel> sorted(voxels.size());
+        for (const Voxel& voxel : voxels) sorted[place[most - voxel.value]++] = voxel;
+        voxels.swap(sorted);
+    } else {
+        sort_by_steps(
+            std::span(voxels), [](const Voxel& voxel) { return -static_cast<double>(voxel.value); },
+            [](const Voxel& p, const Voxel& q) { return p.value > q.value; });
+    }
+}
+
+template <class T, class Id>
+std::vector<TileVoxel<T, Id>> voxels_of_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile,
+                                             std::span<const Id> maximum) {
+    const auto begin = tiling.begin(tile), end = tiling.end(tile);
+    std::vector<TileVoxel<T, Id>> voxels;
+    voxels.reserve(static_cast<std::size_t>((end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2])));
+    for (std::int64_t z = begin[2]; z < end[2]; ++z) {
+        for (std::int64_t y = begin[1]; y < end[1]; ++y) {
+            const std::int64_t row = grid.extent.size[0] * (y + grid.extent.size[1] * z);
+            for (std::int64_t v = row + begin[0]; v < row + end[0]; ++v) voxels.push_back({grid.samples[v], maximum[v]});
+        }
+    }
+    return voxels;
+}
+
+/// The sweep over the elements of a tile.
+template <class Id>
+class TileSweep {
+public:
+    TileSweep(const TiledBasins<Id>& basins, const LocalNumbers<Id>& numbers) : last_(numbers.size(), Id{0}), name_(numbers.size()) {
+        components_.start(numbers.size(), [](Id c) { return c; });
+        for (Id c = 0; c < name_.size(); ++c) {
+            const Id maximum = numbers.global(c);
+            name_[c] = basins.open.has(maximum) ? static_cast<Id>(basins.open.rank(maximum)) : kNoName<Id>;
+        }
+    }
+    /// Returns the names of the open components that it meets.
+    [[nodiscard]] std::array<Id, 2> pass(Id element, Id first, Id second) {
+        const Id a = components_.find(first), b = components_.find(second);
+        const std::array<Id, 2> names{name_[a], a == b ? kNoName<Id> : name_[b]};
+        const Id both = components_.join(a, b);
+        name_[both] = names[0] != kNoName<Id> ? names[0] : names[1];
+        last_[both] = element;
+        return names;
+    }
+    [[nodiscard]] Id find(Id maximum) { return components_.find(maximum); }
+    [[nodiscard]] Id last(Id component) const { return last_[component]; }
+    [[nodiscard]] Id name(Id component) const { return name_[component]; }
+
+private:
+    Components<Id> components_;
+    std::vector<Id> last_, name_;
+};
+
+}  // namespace
+
+template <class T, class Id>
+void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile, const TiledBasins<Id>& basins,
+                const CountedElements<Id>& elements, OpenVoxelBuckets<T, Id>& open) {
+    using Record = OpenVoxels<T, Id>;
+    std::vector<TileVoxel<T, Id>> voxels = voxels_of_tile<T, Id>(grid, tiling, tile, basins.maximum);
+    sort_descending(voxels);
+    const Representatives<Id> leads(grid.extent, basins.maximum);
+    const Id begin = basins.first[tile], end = basins.first[tile + 1];
+    std::vector<std::array<Id, 2>> above(elements.code.size());
+    std::vector<Id> foreign;
+    const auto note = [&](Id maximum) {
+        if (maximum < begin || maximum >= end) foreign.push_back(maximum);
+    };
+    for (std::size_t e = 0; e < above.size(); ++e) {
+        above[e] = leads.above(ElementCode{elements.code[e]});
+        for (const Id maximum : above[e]) note(maximum);
+    }
+    for (const TileVoxel<T, Id>& voxel : voxels) note(voxel.maximum);
+    const LocalNumbers<Id> numbers(begin, end, std::move(foreign));
+
+    TileSweep<Id> sweep(basins, numbers);
+    std::vector<Record> records;
+    std::fill(elements.voxels.begin(), elements.voxels.end(), Id{0});
+    std::size_t next = 0;
+    const auto pass_down_to = [&](double value) {
+        for (; next < above.size() && elements.value[next] >= value; ++next) {
+            elements.names[next] = sweep.pass(static_cast<Id>(next), numbers.local(above[next][0]), numbers.local(above[next][1]));
+        }
+    };
+    for (const TileVoxel<T, Id>& voxel : voxels) {
+        pass_down_to(static_cast<double>(voxel.value));
+        const Id component = sweep.find(numbers.local(voxel.maximum)), name = sweep.name(component);
+        if (name == kNoName<Id>) {
+            ++elements.voxels[sweep.last(component)];
+        } else if (!records.empty() && records.back().value == voxel.value && records.back().name == name) {
+            ++records.back().count;
+        } else {
+            records.push_back({voxel.value, name, 1});
+        }
+    }
+    pass_down_to(-std::numeric_limits<double>::infinity());
+    open.add(records);
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
+#define ISOATLAS_COUNT_TILE(T)                                                                                   \
+    template void count_tile(const GridView<T>&, const Tiling&, std::int64_t, const TiledBasins<std::uint32_t>&, \
+                             const CountedElements<std::uint32_t>&, OpenVoxelBuckets<T, std::uint32_t>&);        \
+    template void count_tile(const GridView<T>&, const Tiling&, std::int64_t, const TiledBasins<std::uint64_t>&, \
+                             const CountedElements<std::uint64_t>&, OpenVoxelBuckets<T, std::uint64_t>&);
+ISOATLAS_COUNT_TILE(std::uint8_t)
+ISOATLAS_COUNT_TILE(std::int8_t)
+ISOATLAS_COUNT_TILE(std::uint16_t)
+ISOATLAS_COUNT_TILE(std::int16_t)
+ISOATLAS_COUNT_TILE(std::uint32_t)
+ISOATLAS_COUNT_TILE(std::int32_t)
+ISOATLAS_COUNT_TILE(float)
+ISOATLAS_COUNT_TILE(double)
+#undef ISOATLAS_COUNT_TILE
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace isoatlas

@@ -1,0 +1,31 @@
+// Voxels per critical element within a tile: a voxel belongs to the lowest element of its component that is not below its value.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "critical/tiled_basins.h"
+#include "field/grid.h"
+#include "zones/open_voxels.h"
+
+namespace isoatlas {
+
+/// The elements of a tile, descending, and what is found out about them.
+template <class Id>
+struct CountedElements {
+    std::span<const double> value;
+    std::span<const std::uint64_t> code;
+    std::span<Id> voxels;                ///< of components that lie within the tile
+    std::span<std::array<Id, 2>> names;  ///< of components above that span tiles; kNoName: there is none
+};
+template <class Id>
+constexpr Id kNoName = static_cast<Id>(-1);
+
+/// Names are ranks in basins.open. open: where voxels of components that span tiles go. Cost: O(voxels log voxels) of the tile.
+template <class T, class Id>
+void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile, const TiledBasins<Id>& basins,
+                const CountedElements<Id>& elements, OpenVoxelBuckets<T, Id>& open);
+
+}  // namespace isoatlas

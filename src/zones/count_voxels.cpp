@@ -1,0 +1,133 @@
+#include "zones/count_voxels.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/check.h"
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "critical/parted_domain.h"
+#include "tree/components.h"
+#include "zones/count_tile.h"
+
+namespace isoatlas {
+namespace {
+
+/// Elements tile after tile, descending within a tile.
+template <class Id>
+struct TiledElements {
+    BigVector<std::uint16_t> tile;   // by rank
+    std::vector<std::size_t> first;  // per tile, and of the end
+    BigVector<double> value;
+    BigVector<std::uint64_t> code;
+    BigVector<Id> voxels;
+    BigVector<std::array<Id, 2>> names;
+
+    TiledElements(std::span<const double> by_rank, std::span<const std::uint64_t> codes, const Tiling& tiling)
+        : tile(codes.size()),
+          first(static_cast<std::size_t>(tiling.count()) + 1, 0),
+          value(codes.size()),
+          code(codes.size()),
+          voxels(codes.size()),
+          names(codes.size()) {
+        for (std::size_t r = 0; r < codes.size(); ++r) {
+            tile[r] = static_cast<std::uint16_t>(tiling.tile_of(ElementCode{codes[r]}));
+            ++first[tile[r]];
+        }
+        std::size_t end = 0;
+        for (std::size_t& of_tile : first) end += std::exchange(of_tile, end);
+        std::vector<std::size_t> next = first;
+        for (std::size_t r = 0; r < codes.size(); ++r) {
+            const std::size_t i = next[tile[r]]++;
+            value[i] = by_rank[r];
+            code[i] = codes[r];
+        }
+    }
+    [[nodiscard]] CountedElements<Id> of(std::size_t t) {
+        const std::size_t count = first[t + 1] - first[t];
+        return {std::span(value).subspan(first[t], count), std::span(code).subspan(first[t], count),
+                std::span(voxels).subspan(first[t], count), std::span(names).subspan(first[t], count)};
+    }
+};
+
+/// Values that cut the elements into so many runs, about equal.
+std::vector<double> bounds_of_buckets(std::span<const double> value, std::size_t buckets) {
+    std::vector<double> bounds;
+    for (std::size_t b = 1; b < buckets; ++b) {
+        const double bound = value[b * value.size() / buckets];
+        if (bounds.empty() || bound < bounds.back()) bounds.push_back(bound);
+    }
+    return bounds;
+}
+
+std::size_t bucket_count(std::int64_t voxels, std::size_t bytes) {
+    constexpr std::int64_t kMost = 1024, kUnlimited = std::int64_t{1} << 28;
+    const std::int64_t limit = memory_limit() > 0 ? memory_limit() : kUnlimited;
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(voxels * static_cast<std::int64_t>(bytes) / (limit / 32), 1, kMost));
+}
+
+/// All elements in the order of ranks: counts within tiles are taken over, voxels of open components go to the last element of theirs.
+template <class T, class Id>
+BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elements, std::size_t names, OpenVoxelBuckets<T, Id>& open) {
+    const std::size_t n = value.size();
+    BigVector<Id> voxels(n);
+    Components<Id, BigAllocator<Id>> components;  // marks: the last element
+    components.start(names, [](Id) { return Id{0}; });
+    std::vector<std::size_t> next = elements.first;
+    std::size_t r = 0;
+    const auto pass = [&] {
+        const std::size_t i = next[elements.tile[r]]++;
+        voxels[r] = elements.voxels[i];
+        auto [a, b] = elements.names[i];
+        if (a == kNoName<Id>) std::swap(a, b);
+        if (a != kNoName<Id>) {
+            a = components.find(a);
+            if (b != kNoName<Id>) a = components.join(a, components.find(b));
+            components.mark(a) = static_cast<Id>(r);
+        }
+        ++r;
+    };
+    for (std::size_t bucket = 0; bucket < open.count(); ++bucket) {
+        for (const OpenVoxels<T, Id>& record : open.take(bucket)) {
+            while (r < n && value[r] >= static_cast<double>(record.value)) pass();
+            voxels[components.mark(components.find(record.name))] += record.count;
+        }
+    }
+    while (r < n) pass();
+    return voxels;
+}
+
+}  // namespace
+
+template <class T, class Id>
+BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
+                                 BigVector<Id> basin, const Context& context) {
+    const Tiling tiling = tiling_for(grid.extent, context);
+    TiledBasins<Id> basins = tiled_basins(grid, std::move(basin), tiling, context);
+    const std::size_t names = basins.open.count();
+    TiledElements<Id> elements(value, code, tiling);
+    OpenVoxelBuckets<T, Id> open(bounds_of_buckets(value, bucket_count(grid.extent.voxels(), sizeof(OpenVoxels<T, Id>))));
+    for_each_block(context.threads, tiling.count(),
+                   [&](std::int64_t tile) { count_tile(grid, tiling, tile, basins, elements.of(static_cast<std::size_t>(tile)), open); });
+    release(basins.maximum);
+    return merge(value, elements, names, open);
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
+#define ISOATLAS_COUNT_VOXELS(T)                                                                                                      \
+    template BigVector<std::uint32_t> voxels_of_elements(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
+                                                         BigVector<std::uint32_t>, const Context&);                                   \
+    template BigVector<std::uint64_t> voxels_of_elements(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
+                                                         BigVector<std::uint64_t>, const Context&);
+ISOATLAS_COUNT_VOXELS(std::uint8_t)
+ISOATLAS_COUNT_VOXELS(std::int8_t)
+ISOATLAS_COUNT_VOXELS(std::uint16_t)
+ISOATLAS_COUNT_VOXELS(std::int16_t)
+ISOATLAS_COUNT_VOXELS(std::uint32_t)
+ISOATLAS_COUNT_VOXELS(std::int32_t)
+ISOATLAS_COUNT_VOXELS(float)
+ISOATLAS_COUNT_VOXELS(double)
+#undef ISOATLAS_COUNT_VOXELS
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace isoatlas

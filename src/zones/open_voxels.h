@@ -1,0 +1,85 @@
+// Voxels whose component spans several tiles: how many of which value belong to which name, to be read again in descending order.
+//
+// They are kept in buckets of descending ranges of values: tiles write to the end of every bucket, and one bucket at a time is read and
+// sorted.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/big_vector.h"
+#include "base/parallel_sort.h"
+
+namespace isoatlas {
+
+template <class T, class Id>
+struct OpenVoxels {
+    T value;
+    Id name, count;
+};
+
+template <class T, class Id>
+class OpenVoxelBuckets {
+public:
+    using Record = OpenVoxels<T, Id>;
+
+    /// bounds: strictly descending; the bucket behind bound b holds values of at most bounds[b].
+    explicit OpenVoxelBuckets(std::vector<double> bounds) : bounds_(std::move(bounds)), buckets_(bounds_.size() + 1) {}
+
+    [[nodiscard]] std::size_t count() const { return buckets_.size(); }
+
+    /// records: in descending order. From several threads at once, too.
+    void add(std::span<const Record> records) {
+        std::size_t bucket = 0;
+        for (std::size_t first = 0, i = 0; first < records.size(); first = i) {
+            while (bucket < bounds_.size() && static_cast<double>(records[first].value) <= bounds_[bucket]) ++bucket;
+            for (i = first; i < records.size(); ++i) {
+                if (bucket < bounds_.size() && static_cast<double>(records[i].value) <= bounds_[bucket]) break;
+            }
+            append(buckets_[bucket], records.subspan(first, i - first));
+        }
+    }
+
+    /// The records of a bucket in descending order; they are gone from here.
+    [[nodiscard]] std::vector<Record> take(std::size_t bucket) {
+        std::vector<Record> records;
+        for (BigVector<Record>& chunk : buckets_[bucket].chunks) {
+            records.insert(records.end(), chunk.begin(), chunk.end());
+            release(chunk);
+        }
+        sort_by_steps(
+            std::span(records), [](const Record& record) { return -static_cast<double>(record.value); },
+            [](const Record& p, const Record& q) { return p.value > q.value; });
+        return records;
+    }
+
+private:
+    static constexpr std::size_t kChunk = std::size_t{1} << 17;
+    struct Bucket {
+        std::vector<BigVector<Record>> chunks;
+        std::mutex mutex;
+    };
+
+    static void append(Bucket& bucket, std::span<const Record> records) {
+        const std::lock_guard lock(bucket.mutex);
+        while (!records.empty()) {
+            if (bucket.chunks.empty() || bucket.chunks.back().size() == kChunk) {
+                bucket.chunks.emplace_back();
+                bucket.chunks.back().reserve(kChunk);
+            }
+            BigVector<Record>& chunk = bucket.chunks.back();
+            const std::size_t count = std::min(records.size(), kChunk - chunk.size());
+            chunk.insert(chunk.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(count));
+            records = records.subspan(count);
+        }
+    }
+
+    std::vector<double> bounds_;
+    std::vector<Bucket> buckets_;
+};
+
+}  // namespace isoatlas
