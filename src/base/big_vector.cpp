@@ -127,8 +127,6 @@ void free_big(void* memory, std::size_t bytes) noexcept {
     }
 }
 
-void forget(std::span<std::byte> part) noexcept { forget_scratch(part.data(), part.size()); }
-
 void return_big_memory() noexcept { pool().give_back(); }
 
 }  // namespace isoatlas

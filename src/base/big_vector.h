@@ -16,9 +16,6 @@ namespace isoatlas {
 /// Memory for `bytes`; throws std::bad_alloc.
 [[nodiscard]] void* allocate_big(std::size_t bytes);
 void free_big(void* memory, std::size_t bytes) noexcept;
-/// Says that a part of a BigVector is not needed any more; where memory is limited (base/memory_limit.h) its pages go at once. What it
-/// holds is undefined afterwards.
-void forget(std::span<std::byte> part) noexcept;
 /// Gives the memory that is kept for reuse back to the system.
 void return_big_memory() noexcept;
 

@@ -16,7 +16,9 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "base/check.h"
 #include "isoatlas/error.h"
@@ -60,7 +62,8 @@ public:
         const std::lock_guard lock(mutex_);
         ISOATLAS_CHECK(!active_);
         limit_ = limit, folder_ = folder;
-        in_memory_ = 0, end_ = 0;
+        in_memory_ = 0;
+        statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
         active_ = true;
         stop_ = false;
         watcher_ = std::thread([this] { watch(); });
@@ -74,34 +77,40 @@ public:
         watcher_.join();
         const std::lock_guard lock(mutex_);
         active_ = false;
-        if (pieces_.empty()) close_file();
+        ::close(statm_.exchange(-1));
+        close_unused_file();
     }
     [[nodiscard]] bool active() const noexcept { return active_; }
     [[nodiscard]] std::int64_t limit() const noexcept { return active_ ? limit_.load() : 0; }
 
     void* take(std::size_t bytes) {
         if (!active_ || bytes < kLeastPiece) return nullptr;
-        const std::lock_guard lock(mutex_);
+        const std::size_t size = rounded(bytes);
+        std::unique_lock lock(mutex_);
         // A quarter of the limit for arrays in memory; the rest is for pages of the file and the program.
         if (in_memory_ + static_cast<std::int64_t>(bytes) <= limit_ / 4) {
             in_memory_ += static_cast<std::int64_t>(bytes);
             return nullptr;
         }
         if (file_ < 0) file_ = open_scratch(folder_);
-        const std::size_t size = rounded(bytes);
-        const auto offset = static_cast<off_t>(end_);
+        const std::optional<off_t> unused = reuse(size);
+        const off_t offset = unused ? *unused : static_cast<off_t>(std::exchange(end_, end_ + size));
+        ++calls_;
+        lock.unlock();  // the disk may take its time, and the watcher must not wait for it
         // Blocks are reserved now: a full disk is an error here, and not a signal when a page is written.
-        if (const int error = ::posix_fallocate(file_, offset, static_cast<off_t>(size)); error != 0) scratch_failed(folder_, error);
-        void* mapped = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, offset);
-        if (mapped == MAP_FAILED) scratch_failed(folder_, errno);
-        end_ += size;
+        const int error = unused ? 0 : ::posix_fallocate(file_, offset, static_cast<off_t>(size));
+        void* mapped = error == 0 ? ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, offset) : MAP_FAILED;
+        const int reason = error != 0 ? error : errno;
+        lock.lock();
+        --calls_;
+        if (mapped == MAP_FAILED) scratch_failed(folder_, reason);
         pieces_.emplace(static_cast<char*>(mapped), Piece{offset, size});
         return mapped;
     }
 
     bool give(void* memory, std::size_t bytes) noexcept {
         if (bytes < kLeastPiece) return false;
-        const std::lock_guard lock(mutex_);
+        std::unique_lock lock(mutex_);
         const auto found = pieces_.find(static_cast<char*>(memory));
         if (found == pieces_.end()) {
             in_memory_ = std::max<std::int64_t>(in_memory_ - static_cast<std::int64_t>(bytes), 0);
@@ -109,21 +118,23 @@ public:
         }
         const Piece piece = found->second;
         pieces_.erase(found);
+        ++calls_;
+        lock.unlock();
         ::munmap(memory, piece.size);
-        ::fallocate(file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, piece.offset, static_cast<off_t>(piece.size));
-        if (pieces_.empty() && !active_) close_file();
+        lock.lock();
+        --calls_;
+        add_unused(piece);
+        if (!active_) close_unused_file();
         return true;
     }
 
-    void forget(void* memory, std::size_t bytes) noexcept {
-        if (!active_) return;
+    /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then.
+    std::int64_t check() {
+        const std::int64_t left = limit_ - limit_ / 5 - resident_memory(statm_);
+        if (left > 0) return left;
         const std::lock_guard lock(mutex_);
-        auto* const begin = static_cast<char*>(memory);
-        auto found = pieces_.upper_bound(begin);
-        if (found == pieces_.begin() || begin >= (--found)->first + found->second.size) return;
-        const std::size_t head = (kPage - reinterpret_cast<std::uintptr_t>(begin) % kPage) % kPage;
-        const std::size_t pages = bytes > head ? (bytes - head) / kPage * kPage : 0;
-        if (pages > 0) ::madvise(begin + head, pages, MADV_REMOVE);
+        for (const auto& [memory, piece] : pieces_) ::madvise(memory, piece.size, MADV_DONTNEED);
+        return 0;
     }
 
 private:
@@ -132,26 +143,51 @@ private:
         std::size_t size;
     };
 
-    void close_file() {
-        if (file_ >= 0) ::close(file_);
+    /// The smallest part of the file that nobody uses and that is large enough: its pages are in memory already, or its blocks on the disk.
+    std::optional<off_t> reuse(std::size_t size) {
+        auto best = unused_.end();
+        for (auto part = unused_.begin(); part != unused_.end(); ++part) {
+            if (part->second >= size && (best == unused_.end() || part->second < best->second)) best = part;
+        }
+        if (best == unused_.end()) return std::nullopt;
+        const auto [offset, all] = *best;
+        unused_.erase(best);
+        if (all > size) unused_.emplace(offset + static_cast<off_t>(size), all - size);
+        return offset;
+    }
+
+    void add_unused(const Piece& piece) {
+        auto part = unused_.emplace(piece.offset, piece.size).first;
+        const auto next = std::next(part);
+        if (next != unused_.end() && part->first + static_cast<off_t>(part->second) == next->first) {
+            part->second += next->second;
+            unused_.erase(next);
+        }
+        if (part == unused_.begin()) return;
+        const auto before = std::prev(part);
+        if (before->first + static_cast<off_t>(before->second) != part->first) return;
+        before->second += part->second;
+        unused_.erase(part);
+    }
+
+    void close_unused_file() {
+        if (file_ < 0 || !pieces_.empty() || calls_ > 0) return;
+        ::close(file_);
         file_ = -1;
+        unused_.clear();
+        end_ = 0;
     }
 
     /// Sleeps as long as the memory that is left lasts for a thread that touches page after page.
     void watch() {
-        const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-        const std::int64_t most = limit_ - limit_ / 5;
-        constexpr std::int64_t kBytesPerMillisecond = 8 << 20;
+        constexpr std::int64_t kBytesPerMicrosecond = 8 << 10;
         std::unique_lock lock(mutex_);
         while (!stop_) {
-            const std::int64_t left = most - resident_memory(statm);
-            if (left <= 0) {
-                for (const auto& [memory, piece] : pieces_) ::madvise(memory, piece.size, MADV_DONTNEED);
-            }
-            const std::int64_t milliseconds = std::clamp<std::int64_t>(left / kBytesPerMillisecond, 1, 50);
-            wake_.wait_for(lock, std::chrono::milliseconds(milliseconds), [this] { return stop_; });
+            lock.unlock();
+            const std::int64_t microseconds = std::clamp<std::int64_t>(check() / kBytesPerMicrosecond, 1000, 50000);
+            lock.lock();
+            wake_.wait_for(lock, std::chrono::microseconds(microseconds), [this] { return stop_; });
         }
-        ::close(statm);
     }
 
     std::mutex mutex_;
@@ -163,8 +199,11 @@ private:
     std::int64_t in_memory_ = 0;
     std::string folder_;
     int file_ = -1;
+    std::atomic<int> statm_ = -1;
+    int calls_ = 0;  // that use the file right now
     std::size_t end_ = 0;
     std::map<char*, Piece> pieces_;
+    std::map<off_t, std::size_t> unused_;  // parts of the file, from offset to size; no two are neighbours
 };
 
 Scratch& scratch() {
@@ -218,7 +257,9 @@ std::int64_t peak_memory() {
 
 void* take_scratch(std::size_t bytes) { return scratch().take(bytes); }
 bool give_scratch(void* memory, std::size_t bytes) noexcept { return scratch().give(memory, bytes); }
-void forget_scratch(void* memory, std::size_t bytes) noexcept { scratch().forget(memory, bytes); }
+void check_memory() {
+    if (scratch().active()) scratch().check();
+}
 std::int64_t memory_limit() noexcept { return scratch().limit(); }
 bool memory_is_limited() noexcept { return scratch().active(); }
 

@@ -37,8 +37,8 @@ inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
 /// give_scratch: false: not from here.
 [[nodiscard]] void* take_scratch(std::size_t bytes);
 [[nodiscard]] bool give_scratch(void* memory, std::size_t bytes) noexcept;
-/// Frees the pages of a part of an array, where it lies in the file.
-void forget_scratch(void* memory, std::size_t bytes) noexcept;
+/// For loops that read many arrays at a time, now and then: looks after the limit at once, as the watcher may be late on a busy machine.
+void check_memory();
 /// The limit in force, 0 for none.
 [[nodiscard]] std::int64_t memory_limit() noexcept;
 /// Is a limit in force? Then nothing is kept for reuse.

@@ -117,7 +117,6 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         const std::span<T> bucket = std::span(sorted).subspan(first[b], first[b + 1] - first[b]);
         sort_by_steps(bucket, key, before);
         for (std::size_t i = 0; i < bucket.size(); ++i) put(first[b] + i, bucket[i]);
-        forget(std::as_writable_bytes(bucket));
     });
 }
 

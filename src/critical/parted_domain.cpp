@@ -81,16 +81,13 @@ template <class Id>
 void cut(const BigVector<Ends<Id>>& ends, const Tiling& tiling, PartedCriticals<Id>& result) {
     const std::size_t n = result.code.size();
     result.part_of.resize(n);
-    result.set.branches.resize(n);
-    result.set.ends.resize(n);
+    result.set.elements.resize(n);
     std::vector<std::size_t> next = result.set.first;
     for (std::size_t r = 0; r < n; ++r) {
         const ElementCode code{result.code[r]};
         const auto tile = static_cast<std::uint16_t>(tiling.tile_of(code));
-        const std::size_t i = next[tile]++;
         result.part_of[r] = tile;
-        result.set.branches[i] = branches_of(code.h0(), code.l0());
-        result.set.ends[i] = ends[r];
+        result.set.elements[next[tile]++] = {ends[r], branches_of(code.h0(), code.l0())};
     }
 }
 

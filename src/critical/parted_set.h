@@ -36,16 +36,23 @@ struct NamedSet {
     [[nodiscard]] std::size_t size() const { return ends.size(); }
 };
 
+/// An element of a part. Side by side, because it is read in the order of ranks: from all parts in turn.
+template <class Id>
+struct PartedElement {
+    Ends<Id> ends;
+    std::uint8_t branches;
+};
+constexpr std::uint8_t kRemoved = 0xff;  ///< for branches: tree/reduce.h
+
 template <class Id>
 struct PartedSet {
-    BigVector<std::uint8_t> branches;
-    BigVector<Ends<Id>> ends;
+    BigVector<PartedElement<Id>> elements;
     std::vector<std::size_t> first;  ///< element of each part, and of the end
     /// Number of each part, and of the end. The outside is minimum 0 and belongs to no part.
     std::vector<Id> first_maximum, first_minimum;
 
     [[nodiscard]] std::size_t parts() const { return first.size() - 1; }
-    [[nodiscard]] std::size_t size() const { return ends.size(); }
+    [[nodiscard]] std::size_t size() const { return elements.size(); }
     /// The part's own piece of an array with an entry per element.
     template <class Array>
     [[nodiscard]] auto of(std::size_t part, Array& array) const {

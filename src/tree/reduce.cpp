@@ -24,15 +24,15 @@ public:
     using Names = std::array<Id, 2> Ends<Id>::*;
 
     /// The names in ends become numbers within the part, until rename(). first, end: of its own extrema.
-    Side(std::span<Ends<Id>> ends, std::span<std::uint8_t> branches, bool down, Id first, Id end)
-        : ends_(ends), branches_(branches), down_(down), names_(down ? &Ends<Id>::above : &Ends<Id>::below), numbers_(number(first, end)) {}
+    Side(std::span<PartedElement<Id>> elements, bool down, Id first, Id end)
+        : elements_(elements), down_(down), names_(down ? &Ends<Id>::above : &Ends<Id>::below), numbers_(number(first, end)) {}
 
     /// The next element of the part that the component just behind an element meets: right where the component is closed. In left, two
     /// branches of one component become one. Two open components may be one elsewhere, but nothing is removed from these.
     [[nodiscard]] std::vector<Id> parents(const BitRanks& open, std::span<std::uint8_t> left) {
-        std::vector<Id> parent(ends_.size(), kNone<Id>);
+        std::vector<Id> parent(elements_.size(), kNone<Id>);
         components_.start(numbers_.size(), [](Id) { return kNone<Id>; });
-        for (std::size_t step = 0; step < ends_.size(); ++step) {
+        for (std::size_t step = 0; step < elements_.size(); ++step) {
             const std::size_t x = at(step);
             const auto [first, second] = names(x);
             if (branches(x) == 0) {
@@ -50,11 +50,11 @@ public:
         return parent;
     }
 
-    /// Names of what is left. left: per element what was counted and removed; survives(x).
-    template <class Survives>
-    void rename(std::span<const std::uint8_t> left, const Survives& survives) {
+    /// Names of what is left. left: per element what was counted and not removed.
+    void rename(std::span<const std::uint8_t> left) {
+        const auto survives = [&](std::size_t x) { return left[x] != kRemoved; };
         components_.start(numbers_.size(), [&](Id c) { return c >= numbers_.own() ? c : kNone<Id>; });
-        for (std::size_t step = 0; step < ends_.size(); ++step) {
+        for (std::size_t step = 0; step < elements_.size(); ++step) {
             const std::size_t x = at(step);
             const auto [first, second] = names(x);
             if (branches(x) == 0) {
@@ -67,49 +67,48 @@ public:
                     const int count = (name_a != kNone<Id>)+(name_b != kNone<Id>);
                     ISOATLAS_CHECK(count == side_of(left[x]));
                     if (count == 0) name = first;  // nobody goes by this name any more
-                    set_branches(branches_[x], count);
+                    set_branches(elements_[x].branches, count);
                     names(x) = {name, count == 2 ? name_b : name};
                 }
                 components_.mark(components_.join(a, b)) = name;
             }
         }
-        for (std::size_t x = 0; x < ends_.size(); ++x) {
+        for (std::size_t x = 0; x < elements_.size(); ++x) {
             for (Id& name : names(x)) name = numbers_.global(name);
         }
     }
 
 private:
-    [[nodiscard]] std::size_t at(std::size_t step) const { return down_ ? step : ends_.size() - 1 - step; }
-    [[nodiscard]] std::array<Id, 2>& names(std::size_t x) { return ends_[x].*names_; }
+    [[nodiscard]] std::size_t at(std::size_t step) const { return down_ ? step : elements_.size() - 1 - step; }
+    [[nodiscard]] std::array<Id, 2>& names(std::size_t x) { return elements_[x].ends.*names_; }
     [[nodiscard]] int side_of(std::uint8_t left) const { return down_ ? branches_above(left) : branches_below(left); }
-    [[nodiscard]] int branches(std::size_t x) const { return side_of(branches_[x]); }
+    [[nodiscard]] int branches(std::size_t x) const { return side_of(elements_[x].branches); }
     void set_branches(std::uint8_t& of, int count) const {
         of = down_ ? branches_of(count, branches_below(of)) : branches_of(branches_above(of), count);
     }
 
     [[nodiscard]] LocalNumbers<Id> number(Id first, Id end) {
         std::vector<Id> foreign;
-        for (const Ends<Id>& ends : ends_) {
-            for (const Id name : ends.*names_) {
+        for (const PartedElement<Id>& element : elements_) {
+            for (const Id name : element.ends.*names_) {
                 if (name < first || name >= end) foreign.push_back(name);
             }
         }
         LocalNumbers<Id> numbers(first, end, std::move(foreign));
-        for (Ends<Id>& ends : ends_) {
-            for (Id& name : ends.*names_) name = numbers.local(name);
+        for (PartedElement<Id>& element : elements_) {
+            for (Id& name : element.ends.*names_) name = numbers.local(name);
         }
         return numbers;
     }
 
-    std::span<Ends<Id>> ends_;
-    std::span<std::uint8_t> branches_;
+    std::span<PartedElement<Id>> elements_;
     bool down_;
     Names names_;
     LocalNumbers<Id> numbers_;
     Components<Id> components_;  // marks: first the last element, then the name
 };
 
-constexpr std::uint8_t kOneAbove = branches_of(1, 0), kOneBelow = branches_of(0, 1), kGone = 0xff;
+constexpr std::uint8_t kOneAbove = branches_of(1, 0), kOneBelow = branches_of(0, 1);
 
 /// Removes leaves as long as the other ends of their arcs are known. A leaf of one tree had one child in the other and is passed over
 /// there: alive() follows parents through elements that are gone.
@@ -117,7 +116,7 @@ template <class Id>
 void peel(std::span<Id> join, std::span<Id> split, std::span<std::uint8_t> left, std::span<Id> arc) {
     const auto alive = [&](std::span<Id> parent, std::size_t x) {
         Id next = parent[x];
-        while (next != kNone<Id> && left[next] == kGone) next = parent[next];
+        while (next != kNone<Id> && left[next] == kRemoved) next = parent[next];
         return parent[x] = next;
     };
     for (std::size_t seed = 0; seed < left.size(); ++seed) {
@@ -126,7 +125,7 @@ void peel(std::span<Id> join, std::span<Id> split, std::span<std::uint8_t> left,
             const Id y = alive(upper ? join : split, x);
             if (y == kNone<Id>) break;
             arc[x] = y;
-            left[x] = kGone;
+            left[x] = kRemoved;
             left[y] = static_cast<std::uint8_t>(left[y] - (upper ? kOneAbove : kOneBelow));
             x = y;
         }
@@ -144,9 +143,9 @@ OpenExtrema open_extrema(const PartedSet<Id>& set, int threads) {
                 if (name < first[part] || name >= first[part + 1]) bits.add(name);
             }
         };
-        for (const Ends<Id>& ends : set.of(part, set.ends)) {
-            mark(open.maxima, set.first_maximum, ends.above);
-            mark(open.minima, set.first_minimum, ends.below);
+        for (const PartedElement<Id>& element : set.of(part, set.elements)) {
+            mark(open.maxima, set.first_maximum, element.ends.above);
+            mark(open.minima, set.first_minimum, element.ends.below);
         }
     });
     return open;
@@ -154,19 +153,21 @@ OpenExtrema open_extrema(const PartedSet<Id>& set, int threads) {
 
 template <class Id>
 void reduce_part(PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<Id> arc) {
-    const std::span<Ends<Id>> ends = set.of(part, set.ends);
-    const std::span<std::uint8_t> branches = set.of(part, set.branches);
-    Side<Id> above(ends, branches, true, set.first_maximum[part], set.first_maximum[part + 1]);
-    Side<Id> below(ends, branches, false, set.first_minimum[part], set.first_minimum[part + 1]);
-    for (std::size_t x = 0; x < arc.size(); ++x) arc[x] = static_cast<Id>(x);
-    std::vector<std::uint8_t> left(branches.begin(), branches.end());
+    const std::span<PartedElement<Id>> elements = set.of(part, set.elements);
+    Side<Id> above(elements, true, set.first_maximum[part], set.first_maximum[part + 1]);
+    Side<Id> below(elements, false, set.first_minimum[part], set.first_minimum[part + 1]);
+    std::vector<std::uint8_t> left;
+    left.reserve(elements.size());
+    for (const PartedElement<Id>& element : elements) left.push_back(element.branches);
     {
         std::vector<Id> join = above.parents(open.maxima, left), split = below.parents(open.minima, left);
         peel<Id>(join, split, left, arc);
     }
-    const auto survives = [&](std::size_t x) { return left[x] != kGone; };
-    above.rename(left, survives);
-    below.rename(left, survives);
+    above.rename(left);
+    below.rename(left);
+    for (std::size_t x = 0; x < left.size(); ++x) {
+        if (left[x] == kRemoved) elements[x].branches = kRemoved;
+    }
 }
 
 #define ISOATLAS_REDUCE(Id)                                       \

@@ -89,19 +89,19 @@ private:
 
 template <class T, class Id>
 void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile, const TiledBasins<Id>& basins,
-                const CountedElements<Id>& elements, OpenVoxelBuckets<T, Id>& open) {
+                std::span<const KeyedElement> elements, std::span<CountedElement<Id>> counted, OpenVoxelBuckets<T, Id>& open) {
     using Record = OpenVoxels<T, Id>;
     std::vector<TileVoxel<T, Id>> voxels = voxels_of_tile<T, Id>(grid, tiling, tile, basins.maximum);
     sort_descending(voxels);
     const Representatives<Id> leads(grid.extent, basins.maximum);
     const Id begin = basins.first[tile], end = basins.first[tile + 1];
-    std::vector<std::array<Id, 2>> above(elements.code.size());
+    std::vector<std::array<Id, 2>> above(elements.size());
     std::vector<Id> foreign;
     const auto note = [&](Id maximum) {
         if (maximum < begin || maximum >= end) foreign.push_back(maximum);
     };
     for (std::size_t e = 0; e < above.size(); ++e) {
-        above[e] = leads.above(ElementCode{elements.code[e]});
+        above[e] = leads.above(elements[e].code);
         for (const Id maximum : above[e]) note(maximum);
     }
     for (const TileVoxel<T, Id>& voxel : voxels) note(voxel.maximum);
@@ -109,18 +109,18 @@ void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile
 
     TileSweep<Id> sweep(basins, numbers);
     std::vector<Record> records;
-    std::fill(elements.voxels.begin(), elements.voxels.end(), Id{0});
     std::size_t next = 0;
     const auto pass_down_to = [&](double value) {
-        for (; next < above.size() && elements.value[next] >= value; ++next) {
-            elements.names[next] = sweep.pass(static_cast<Id>(next), numbers.local(above[next][0]), numbers.local(above[next][1]));
+        for (; next < above.size() && elements[next].value >= value; ++next) {
+            const std::array<Id, 2> names = sweep.pass(static_cast<Id>(next), numbers.local(above[next][0]), numbers.local(above[next][1]));
+            counted[next] = {0, names};
         }
     };
     for (const TileVoxel<T, Id>& voxel : voxels) {
         pass_down_to(static_cast<double>(voxel.value));
         const Id component = sweep.find(numbers.local(voxel.maximum)), name = sweep.name(component);
         if (name == kNoName<Id>) {
-            ++elements.voxels[sweep.last(component)];
+            ++counted[sweep.last(component)].voxels;
         } else if (!records.empty() && records.back().value == voxel.value && records.back().name == name) {
             ++records.back().count;
         } else {
@@ -134,9 +134,11 @@ void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
 #define ISOATLAS_COUNT_TILE(T)                                                                                   \
     template void count_tile(const GridView<T>&, const Tiling&, std::int64_t, const TiledBasins<std::uint32_t>&, \
-                             const CountedElements<std::uint32_t>&, OpenVoxelBuckets<T, std::uint32_t>&);        \
+                             std::span<const KeyedElement>, std::span<CountedElement<std::uint32_t>>,            \
+                             OpenVoxelBuckets<T, std::uint32_t>&);                                               \
     template void count_tile(const GridView<T>&, const Tiling&, std::int64_t, const TiledBasins<std::uint64_t>&, \
-                             const CountedElements<std::uint64_t>&, OpenVoxelBuckets<T, std::uint64_t>&);
+                             std::span<const KeyedElement>, std::span<CountedElement<std::uint64_t>>,            \
+                             OpenVoxelBuckets<T, std::uint64_t>&);
 ISOATLAS_COUNT_TILE(std::uint8_t)
 ISOATLAS_COUNT_TILE(std::int8_t)
 ISOATLAS_COUNT_TILE(std::uint16_t)

@@ -12,20 +12,19 @@
 
 namespace isoatlas {
 
-/// The elements of a tile, descending, and what is found out about them.
+/// What is found out about an element of a tile.
 template <class Id>
-struct CountedElements {
-    std::span<const double> value;
-    std::span<const std::uint64_t> code;
-    std::span<Id> voxels;                ///< of components that lie within the tile
-    std::span<std::array<Id, 2>> names;  ///< of components above that span tiles; kNoName: there is none
+struct CountedElement {
+    Id voxels;                ///< of components that lie within the tile
+    std::array<Id, 2> names;  ///< of components above that span tiles; kNoName: there is none
 };
 template <class Id>
 constexpr Id kNoName = static_cast<Id>(-1);
 
-/// Names are ranks in basins.open. open: where voxels of components that span tiles go. Cost: O(voxels log voxels) of the tile.
+/// elements: of the tile, descending. Names are ranks in basins.open. open: where voxels of components that span tiles go. Cost: O(voxels
+/// log voxels) of the tile.
 template <class T, class Id>
 void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile, const TiledBasins<Id>& basins,
-                const CountedElements<Id>& elements, OpenVoxelBuckets<T, Id>& open);
+                std::span<const KeyedElement> elements, std::span<CountedElement<Id>> counted, OpenVoxelBuckets<T, Id>& open);
 
 }  // namespace isoatlas

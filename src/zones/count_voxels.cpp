@@ -13,40 +13,30 @@
 namespace isoatlas {
 namespace {
 
+constexpr std::size_t kChecked = 1 << 13;  // elements between two looks at the memory
+
 /// Elements tile after tile, descending within a tile.
 template <class Id>
 struct TiledElements {
     BigVector<std::uint16_t> tile;   // by rank
     std::vector<std::size_t> first;  // per tile, and of the end
-    BigVector<double> value;
-    BigVector<std::uint64_t> code;
-    BigVector<Id> voxels;
-    BigVector<std::array<Id, 2>> names;
+    BigVector<KeyedElement> key;
+    BigVector<CountedElement<Id>> counted;
 
-    TiledElements(std::span<const double> by_rank, std::span<const std::uint64_t> codes, const Tiling& tiling)
-        : tile(codes.size()),
-          first(static_cast<std::size_t>(tiling.count()) + 1, 0),
-          value(codes.size()),
-          code(codes.size()),
-          voxels(codes.size()),
-          names(codes.size()) {
-        for (std::size_t r = 0; r < codes.size(); ++r) {
-            tile[r] = static_cast<std::uint16_t>(tiling.tile_of(ElementCode{codes[r]}));
+    TiledElements(std::span<const double> value, std::span<const std::uint64_t> code, const Tiling& tiling)
+        : tile(code.size()), first(static_cast<std::size_t>(tiling.count()) + 1, 0), key(code.size()), counted(code.size()) {
+        for (std::size_t r = 0; r < code.size(); ++r) {
+            tile[r] = static_cast<std::uint16_t>(tiling.tile_of(ElementCode{code[r]}));
             ++first[tile[r]];
         }
         std::size_t end = 0;
         for (std::size_t& of_tile : first) end += std::exchange(of_tile, end);
         std::vector<std::size_t> next = first;
-        for (std::size_t r = 0; r < codes.size(); ++r) {
-            const std::size_t i = next[tile[r]]++;
-            value[i] = by_rank[r];
-            code[i] = codes[r];
-        }
+        for (std::size_t r = 0; r < code.size(); ++r) key[next[tile[r]]++] = {value[r], ElementCode{code[r]}};
     }
-    [[nodiscard]] CountedElements<Id> of(std::size_t t) {
-        const std::size_t count = first[t + 1] - first[t];
-        return {std::span(value).subspan(first[t], count), std::span(code).subspan(first[t], count),
-                std::span(voxels).subspan(first[t], count), std::span(names).subspan(first[t], count)};
+    template <class Array>
+    [[nodiscard]] auto of(std::size_t t, Array& array) const {
+        return std::span(array).subspan(first[t], first[t + 1] - first[t]);
     }
 };
 
@@ -76,9 +66,10 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
     std::vector<std::size_t> next = elements.first;
     std::size_t r = 0;
     const auto pass = [&] {
-        const std::size_t i = next[elements.tile[r]]++;
-        voxels[r] = elements.voxels[i];
-        auto [a, b] = elements.names[i];
+        if (r % kChecked == 0) check_memory();
+        const CountedElement<Id>& element = elements.counted[next[elements.tile[r]]++];
+        voxels[r] = element.voxels;
+        auto [a, b] = element.names;
         if (a == kNoName<Id>) std::swap(a, b);
         if (a != kNoName<Id>) {
             a = components.find(a);
@@ -107,9 +98,13 @@ BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double
     const std::size_t names = basins.open.count();
     TiledElements<Id> elements(value, code, tiling);
     OpenVoxelBuckets<T, Id> open(bounds_of_buckets(value, bucket_count(grid.extent.voxels(), sizeof(OpenVoxels<T, Id>))));
-    for_each_block(context.threads, tiling.count(),
-                   [&](std::int64_t tile) { count_tile(grid, tiling, tile, basins, elements.of(static_cast<std::size_t>(tile)), open); });
+    for_each_block(context.threads, tiling.count(), [&](std::int64_t tile) {
+        const auto t = static_cast<std::size_t>(tile);
+        count_tile<T, Id>(grid, tiling, tile, basins, elements.of(t, elements.key), elements.of(t, elements.counted), open);
+        check_memory();
+    });
     release(basins.maximum);
+    release(elements.key);
     return merge(value, elements, names, open);
 }
 
