@@ -1,0 +1,88 @@
+// Active objects: which objects and contours there are at an isovalue, from the trees alone. No sample is looked at.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "isoatlas/analysis.h"
+#include "isoatlas/cut.h"
+
+namespace isoatlas {
+
+/// A contour as in CutContour, without its hits.
+struct ActiveContour {
+    std::int64_t id;      ///< index of a voxel: highest of the object (outer), lowest of the cavity (inner)
+    std::int64_t object;  ///< id of its object
+    Shell shell;
+    std::int64_t genus;  ///< 2D: 0
+};
+
+/// An object as in CutObject, without what only its voxels can tell.
+struct ActiveObject {
+    std::int64_t id;     ///< index of its highest voxel
+    std::int64_t event;  ///< the event whose zone contains tau
+    ZoneRange zone;      ///< the isovalues at which it is what it is here: one step down for this object is to zone.tau_low
+    double above;        ///< one step up along its largest part: the value of that part's event; zone.tau_high when there is none
+    std::int64_t chi, b1, b2;
+    std::int64_t voxels_least, voxels_most;  ///< bounds of its voxels; equal when the trees tell
+    std::int64_t contours;                   ///< how many it has
+    std::int64_t first_contour;              ///< in ActiveObjects::contours: the outer one first, then cavities by id; -1: not asked for
+};
+
+/// Everything at one isovalue. Objects by descending voxels_most, then ascending id: in the order of Cut when all bounds are equal.
+struct ActiveObjects {
+    double tau = 0;
+    std::vector<ActiveObject> objects;
+    std::vector<ActiveContour> contours;  ///< grouped by object, in the order of objects; empty when not asked for
+    std::int64_t contour_count = 0;
+};
+
+struct ActiveOptions {
+    bool contours = true;          ///< list the contours, not only count them
+    bool integer_samples = false;  ///< all samples are whole numbers: bounds of voxel counts are equal more often
+};
+
+/// How the objects of one isovalue lie in those of a lower one.
+struct ObjectChanges {
+    struct Group {
+        std::int64_t lower;               ///< id of an object at the lower isovalue
+        std::vector<std::int64_t> upper;  ///< ids of the objects at the higher one that lie in it; none: it appears on the way down
+        bool changes;                     ///< more than its extent changes on the way: objects, tunnels or cavities
+    };
+    std::vector<Group> groups;              ///< by id; those that do not change only when asked for
+    std::int64_t events = 0;                ///< how many events lie between
+    std::int64_t appeared = 0, merged = 0;  ///< on the way down: groups without an object above; objects that are lost in a larger one
+};
+
+/// Answers for any isovalue. Queries may come from many threads.
+class ActiveIndex {
+public:
+    /// The analysis must live as long as this. Cost: O(events) time and 17 bytes an event; the first query for contours O(elements) time
+    /// and 13 bytes an element more (ids of 32 bits).
+    explicit ActiveIndex(const Analysis& analysis);
+    ActiveIndex(ActiveIndex&&) noexcept;
+    ActiveIndex& operator=(ActiveIndex&&) noexcept;
+    ~ActiveIndex();
+
+    /// The same objects and contours as cut(). Throws Error{usage} when tau is not finite.
+    /// Cost: O((1 + objects + contours) log events). Source: theory.md sections 4 to 7 (T3, T6).
+    [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options = {}) const;
+
+    /// What happens between two isovalues, whichever is higher. all: list also objects that stay what they are.
+    /// Cost: O((1 + objects at both) log events).
+    [[nodiscard]] ObjectChanges changes(double tau, double other_tau, bool all = false) const;
+
+    /// The next isovalue up or down at which something happens anywhere, as the highest isovalue of what comes then: down, the value of the
+    /// next event; up, that of the event before the last one. Nothing: no event is left on that side. Cost: O(log events).
+    [[nodiscard]] std::optional<double> event_below(double tau) const;
+    [[nodiscard]] std::optional<double> event_above(double tau) const;
+
+    struct Data;
+
+private:
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace isoatlas
