@@ -6,8 +6,10 @@
 #include <memory>
 #include <string>
 
+#include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/objects.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
 
@@ -20,15 +22,51 @@ struct AtlasReads {
     std::int64_t bricks = 0;   ///< of 16 samples a side
 };
 
+/// What one query has cost. A cell belongs to the brick of its first corner.
+struct QueryCost : AtlasReads {
+    std::int64_t cells_loaded = 0;   ///< of the bricks that were read; those that were present cost nothing
+    std::int64_t cells_visited = 0;  ///< of the bricks whose samples were looked at, present or not
+    std::int64_t cells_active = 0;   ///< that the surface asked for passes through (cells at the border of the volume included)
+    /// How much of what was read, or looked at, belongs to the surface; 0 when nothing was.
+    [[nodiscard]] double load_utility() const { return ratio(cells_active, cells_loaded); }
+    [[nodiscard]] double travel_utility() const { return ratio(cells_active, cells_visited); }
+    QueryCost& operator+=(const QueryCost& other);
+
+private:
+    static double ratio(std::int64_t a, std::int64_t b) { return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b); }
+};
+
+/// A number that is known exactly when both are equal.
+struct Bounds {
+    std::int64_t least = 0, most = 0;
+};
+
+/// What the surface at an isovalue is, and what it will cost, before any brick is read.
+struct SurfacePreview {
+    double tau = 0;
+    std::int64_t objects = 0, contours = 0, tunnels = 0;
+    Bounds voxels;                  ///< of all objects together
+    Bounds cells;                   ///< that the surface passes through
+    Bounds points;                  ///< of the compact, closed surface, without articulation points (about one for 1000 points)
+    Bounds triangles;               ///< of the same (2D: segments)
+    Bounds bricks, bytes, extents;  ///< to be read by a first query; fewer when bricks are present
+};
+
 /// Does a file begin like a store? False for files that cannot be read.
 [[nodiscard]] bool is_atlas(const std::string& path);
+
+struct AtlasOptions {
+    /// How much memory samples may take that no query needs at the moment; those not used for longest go first. 0: any, what was read
+    /// stays. A query that alone needs more gets more until it is done.
+    std::int64_t cache_bytes = 0;
+};
 
 /// A store, open for reading. Queries may come from many threads.
 class Atlas {
 public:
     /// Cost: reads the table of contents and what there is about every brick. Throws Error: input (missing, no store, damaged),
     /// unsupported (a later version).
-    explicit Atlas(const std::string& path);
+    explicit Atlas(const std::string& path, const AtlasOptions& options = {});
     Atlas(Atlas&&) noexcept;
     Atlas& operator=(Atlas&&) noexcept;
     ~Atlas();
@@ -40,23 +78,43 @@ public:
     [[nodiscard]] std::int64_t file_bytes() const;
 
     /// The same as cut() and extract() of the volume, with the interpolant of the store whatever the options say. Bricks that the isovalue
-    /// does not divide and that no active cell touches are not read.
-    [[nodiscard]] Cut cut(double tau, const CutOptions& options = {}, const Context& context = {}) const;
-    [[nodiscard]] Surface extract(double tau, const ExtractOptions& options = {}, const Context& context = {}) const;
+    /// does not divide and that no active cell touches are not read. What the query has cost is added to `cost`.
+    [[nodiscard]] Cut cut(double tau, const CutOptions& options = {}, const Context& context = {}, QueryCost* cost = nullptr) const;
+    [[nodiscard]] Surface extract(double tau, const ExtractOptions& options = {}, const Context& context = {},
+                                  QueryCost* cost = nullptr) const;
+
+    /// The objects and contours at an isovalue, as in cut(), from the trees alone: no brick is read. Throws Error: usage (tau is not
+    /// finite), input (damaged). Cost: the first call reads the trees; then O((1 + what is listed) log events).
+    [[nodiscard]] ActiveObjects active(double tau, bool contours = true) const;
+    /// Who answers that, and what lies between two isovalues; lives as long as the Atlas. Cost: the first call reads the trees.
+    [[nodiscard]] const ActiveIndex& active_index() const;
+
+    /// What extract() and cut() of the whole volume would find and cost. For 8-bit samples, and for 16-bit ones of up to voxels / 256
+    /// different values, voxels, cells and points are exact; else bounded by the values around tau. Cost: the first call reads the trees;
+    /// then O(bricks + objects log events).
+    [[nodiscard]] SurfacePreview preview(double tau) const;
+
+    /// The table of objects, as from rank_objects(). Cost: reads the table, which is stored. Without the gate, and for more than 1024
+    /// entries where there are so many, the volume is read and analysed again.
+    [[nodiscard]] ObjectTable objects(const RankOptions& options = {}, const Context& context = {}) const;
 
     /// The trees, without zones of voxels.
     [[nodiscard]] Analysis analysis() const;
     /// All samples. Cost: reads all bricks.
     [[nodiscard]] Volume volume(const Context& context = {}) const;
 
+    /// Of all queries so far.
     [[nodiscard]] AtlasReads reads() const;
     /// Compares every byte that has a checksum with it, and the samples, which it returns, with those the store was made of. Throws
     /// Error{input} for the first that differs. Cost: reads the whole store.
     Volume check(const Context& context = {}) const;
-    /// Forgets the bricks that earlier queries have read. Not while a query runs.
+    /// Forgets the bricks that earlier queries have read.
     void clear_cache() const;
+    /// Memory of the samples that are present, in pages of the system.
+    [[nodiscard]] std::int64_t present_bytes() const;
 
 private:
+    friend struct AtlasAccess;
     struct Data;
     std::unique_ptr<Data> data_;
 };

@@ -16,6 +16,7 @@
 //   }
 #pragma once
 
+#include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/build.h"
@@ -24,6 +25,7 @@
 #include "isoatlas/dump.h"
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
+#include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"

@@ -23,6 +23,10 @@ struct ObjectEntry {
     std::int64_t cavities;           ///< b2 at best_tau
     double hypervolume;              ///< sum over the object just above `merges` of (value - merges); the rank
     std::array<double, 3> position;  ///< voxel coordinates of the highest voxel
+    double tau_low, tau_high;        ///< for isovalues in (tau_low, tau_high] the object has the tunnels and cavities of best_tau
+    std::int64_t inside;             ///< position in ObjectTable::entries of the closest entry that contains this one; -1: none
+    bool outline;                    ///< best_tau shows everything that is not background
+    bool trunk;                      ///< of the object that is there at every isovalue
     std::string note;                ///< "largest", "outline", "inside 3", ...
 };
 
@@ -40,5 +44,8 @@ struct RankOptions {
 /// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3).
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
+
+/// The first entries alone (0: all): what rank_objects() gives with that many at most.
+[[nodiscard]] ObjectTable first_entries(ObjectTable table, std::int64_t top);
 
 }  // namespace isoatlas

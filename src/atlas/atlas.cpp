@@ -4,7 +4,11 @@
 #include <cmath>
 #include <mutex>
 
+#include "atlas/access.h"
+#include "atlas/census_arrays.h"
+#include "atlas/object_arrays.h"
 #include "atlas/object_window.h"
+#include "base/lazy.h"
 #include "critical/bodies.h"
 #include "mesh/extract_level.h"
 #include "query/cut_level.h"
@@ -27,44 +31,70 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(at[0] + origin[0], at[1] + origin[1], at[2] + origin[2]);
 }
 
+/// What answers from the trees alone.
+struct Trees {
+    Analysis analysis;
+    ActiveIndex active;
+
+    explicit Trees(const store::Container& store) : analysis(store::analysis_of(store, 0)), active(analysis) {}
+};
+
 }  // namespace
 
 struct Atlas::Data {
     store::Container store;
     std::unique_ptr<StoredSamples> samples;
+    Lazy<std::unique_ptr<Trees>> trees;
+    Lazy<LevelCensus> census;
+    Lazy<ObjectTable> objects;
     mutable std::mutex mutex;
     store::IoCounters reads;
 
-    explicit Data(const std::string& path) : store(path), samples(stored_samples(store)) {}
+    Data(const std::string& path, const AtlasOptions& options) : store(path), samples(stored_samples(store, options.cache_bytes)) {}
 
     void count(const store::IoCounters& counters) {
         const std::lock_guard lock(mutex);
         reads += counters;
     }
+    /// cost: may be null.
+    void count(const LevelQuery& spent, std::int64_t active, QueryCost* cost) {
+        count(spent);
+        if (cost == nullptr) return;
+        QueryCost query;
+        query.bytes = spent.bytes, query.extents = spent.extents, query.bricks = spent.bricks;
+        query.cells_loaded = spent.samples, query.cells_visited = spent.visited, query.cells_active = active;
+        *cost += query;
+    }
 
     /// One object from its own part of the store; nothing when the whole is cheaper, or the voxel lies in no object.
-    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context) {
-        store::IoCounters counters;
+    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost) {
+        LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
-        const std::optional<StoredWindow> window = window_of_object(*samples, options.objects[0], tau, height, context, counters);
-        count(counters);
-        if (!window) return std::nullopt;
+        const std::optional<StoredWindow> window = window_of_object(*samples, options.objects[0], tau, height, context, spent);
+        if (!window) {
+            count(spent, 0, cost);
+            return std::nullopt;
+        }
         options.objects = {local_voxel(*window, options.objects[0])};
-        Surface surface = extract_level(window->at(tau), options, context);
+        Surface surface;
+        std::int64_t active = 0;
+        extract_level(window->at(tau), options, context, surface, cost == nullptr ? nullptr : &active);
+        count(spent, active, cost);
         for (std::vector<std::int64_t>* ids : {&surface.object, &surface.contour}) {
             for (std::int64_t& id : *ids) id = whole_voxel(*window, id);
         }
         return surface;
     }
 
-    /// Runs query(level).
+    /// Runs query(level, active): it fills in the number of active cells; null when nobody asks.
     template <class Query>
-    auto at_level(double tau, const Context& context, Query&& query) {
-        store::IoCounters counters;
-        const StoredLevel level = samples->classify(tau, context, counters);
-        const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, counters); };
-        auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample});
-        count(counters);
+    auto at_level(double tau, const Context& context, QueryCost* cost, Query&& query) {
+        LevelQuery spent;
+        std::int64_t active = 0;
+        const StoredLevel level = samples->classify(tau, context, spent);
+        const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, spent); };
+        auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample}, cost == nullptr ? nullptr : &active);
+        count(spent, active, cost);
         return answer;
     }
 };
@@ -78,7 +108,7 @@ bool is_atlas(const std::string& path) try {
     return false;
 }
 
-Atlas::Atlas(const std::string& path) : data_(std::make_unique<Data>(path)) {}
+Atlas::Atlas(const std::string& path, const AtlasOptions& options) : data_(std::make_unique<Data>(path, options)) {}
 Atlas::Atlas(Atlas&&) noexcept = default;
 Atlas& Atlas::operator=(Atlas&&) noexcept = default;
 Atlas::~Atlas() = default;
@@ -87,20 +117,46 @@ const VolumeInfo& Atlas::info() const { return data_->store.contents().volume; }
 Interpolant Atlas::interpolant() const { return data_->store.contents().parameters.interpolant; }
 double Atlas::tunnel_height() const { return data_->store.contents().parameters.tunnel_height; }
 
-Cut Atlas::cut(double tau, const CutOptions& options, const Context& context) const {
+Cut Atlas::cut(double tau, const CutOptions& options, const Context& context, QueryCost* cost) const {
     CutOptions own = options;
     own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
-    return data_->at_level(tau, context, [&](const TauLevel& level) { return cut_level(level, own, context); });
+    return data_->at_level(tau, context, cost, [&](const TauLevel& level, std::int64_t* active) {
+        Cut cut = cut_level(level, own, context);
+        if (active != nullptr) *active = cut.active_cells;
+        return cut;
+    });
 }
 
-Surface Atlas::extract(double tau, const ExtractOptions& options, const Context& context) const {
+Surface Atlas::extract(double tau, const ExtractOptions& options, const Context& context, QueryCost* cost) const {
     ExtractOptions own = options;
     own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
     if (own.objects.size() == 1 && own.contours.empty() && std::isfinite(tau)) {
-        std::optional<Surface> surface = data_->extract_object(tau, own, context);
+        std::optional<Surface> surface = data_->extract_object(tau, own, context, cost);
         if (surface) return std::move(*surface);
     }
-    return data_->at_level(tau, context, [&](const TauLevel& level) { return extract_level(level, own, context); });
+    return data_->at_level(tau, context, cost, [&](const TauLevel& level, std::int64_t* active) {
+        Surface surface;
+        extract_level(level, own, context, surface, active);
+        return surface;
+    });
+}
+
+ActiveObjects Atlas::active(double tau, bool contours) const {
+    return active_index().at(tau, {.contours = contours, .integer_samples = !is_floating(info().type)});
+}
+
+const ActiveIndex& Atlas::active_index() const {
+    return data_->trees.get([this] { return std::make_unique<Trees>(data_->store); })->active;
+}
+
+ObjectTable Atlas::objects(const RankOptions& options, const Context& context) const {
+    if (options.gate && has_objects(data_->store)) {
+        const ObjectTable& stored = data_->objects.get([this] { return objects_of(data_->store); });
+        const auto count = static_cast<std::int64_t>(stored.entries.size());
+        if (count < kStoredEntries || (options.top > 0 && options.top <= count)) return first_entries(stored, options.top);
+    }
+    const Volume whole = volume(context);
+    return rank_objects(whole, analyse(whole, {.interpolant = interpolant(), .tunnel_height = tunnel_height()}, context), options, context);
 }
 
 Analysis Atlas::analysis() const { return store::analysis_of(data_->store, 0); }
@@ -136,5 +192,20 @@ AtlasReads Atlas::reads() const {
 }
 
 void Atlas::clear_cache() const { data_->samples->clear(); }
+std::int64_t Atlas::present_bytes() const { return data_->samples->present_bytes(); }
+
+QueryCost& QueryCost::operator+=(const QueryCost& other) {
+    bytes += other.bytes, extents += other.extents, bricks += other.bricks;
+    cells_loaded += other.cells_loaded, cells_visited += other.cells_visited, cells_active += other.cells_active;
+    return *this;
+}
+
+const LevelCensus& AtlasAccess::census(const Atlas& atlas) {
+    return atlas.data_->census.get([&] { return census_of(atlas.data_->store); });
+}
+StoredSamples& AtlasAccess::samples(const Atlas& atlas) { return *atlas.data_->samples; }
+void AtlasAccess::count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost) {
+    atlas.data_->count(spent, active, cost);
+}
 
 }  // namespace isoatlas

@@ -2,6 +2,8 @@
 #include "isoatlas/build.h"
 
 #include "atlas/build_folder.h"
+#include "atlas/census_arrays.h"
+#include "atlas/object_arrays.h"
 #include "base/big_vector.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
@@ -14,6 +16,7 @@
 #include "store/pack.h"
 #include "store/tree_arrays.h"
 #include "zones/analyse.h"
+#include "zones/rank.h"
 
 namespace isoatlas {
 namespace {
@@ -73,7 +76,7 @@ public:
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
-            analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
+            analysis = has_table(volume) ? analyse(volume, options) : find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
             store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
@@ -81,9 +84,16 @@ public:
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = store::arcs_of(*trees);
+            if (!analysis) analysis = has_table(volume) ? analyse(volume, options) : store::arcs_of(*trees);
+            std::vector<store::PackedArray> table;
+            if (has_table(volume)) {
+                table = object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries}));
+                release_zones(*analysis);
+            }
             count_voxels(*analysis, volume, shifted(context_, 1, volume.info->extent));
-            store::pack_store(folder_.file(kZones), contents, store::zone_arrays(*analysis));
+            std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
+            for (store::PackedArray& array : table) arrays.push_back(std::move(array));
+            store::pack_store(folder_.file(kZones), contents, arrays);
             zones = std::make_unique<store::Container>(folder_.file(kZones));
         }
         analysis.reset();
@@ -93,11 +103,22 @@ public:
     }
 
 private:
+    /// Ranking objects takes zones of voxels and all trees: random access to more than fits where memory is short. What is in the store
+    /// must not depend on the memory, so the size decides.
+    static bool has_table(const VolumeView& volume) { return volume.info->extent.voxels() <= kTableVoxels; }
+
+    [[nodiscard]] Analysis analyse(const VolumeView& volume, AnalysisOptions options) const {
+        options.zones = true;
+        return analyse_view(volume, options, shifted(context_, 1, volume.info->extent));
+    }
+
     void pack(const VolumeView& volume, const store::Contents& contents, const std::vector<const store::Container*>& phases) {
         std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context_);
         for (const store::Container* phase : phases) {
             for (store::PackedArray& array : store::copied_arrays(*phase)) arrays.push_back(std::move(array));
         }
+        const LevelCensus census = take_census(volume, context_);
+        for (store::PackedArray& array : census_arrays(census)) arrays.push_back(std::move(array));
         report_packing(arrays, context_);
         report_.bytes = store::pack_store(path_, contents, arrays);
         folder_.remove();

@@ -58,7 +58,7 @@ bool grow(Box& bricks, const Box& object, const StoredWindow& window, const Bric
 }  // namespace
 
 std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_t voxel, double tau, double tunnel_height,
-                                             const Context& context, store::IoCounters& counters) {
+                                             const Context& context, LevelQuery& query) {
     const BrickGrid& grid = samples.grid();
     if (grid.extent.rank == 2 || voxel < 0 || voxel >= grid.extent.voxels()) return std::nullopt;
     const std::array<std::int64_t, 3> at = grid.extent.voxel(voxel);
@@ -71,7 +71,7 @@ std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_
     alone.threads = 1;
     alone.progress = nullptr;
     while (2 * bricks.count() <= grid.count()) {
-        StoredWindow window = samples.classify_window(tau, bricks, counters);
+        StoredWindow window = samples.classify_window(tau, bricks, query);
         const std::array<std::int64_t, 3>& origin = window.window.origin;
         const std::int64_t local = window.info.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
         const std::optional<Box> object = bounds_of(window, local, tau, tunnel_height, alone);

@@ -11,6 +11,6 @@ namespace isoatlas {
 /// end of the volume: then its contours and their normals are those of the volume. Nothing when the box would be most of the volume, or in
 /// 2D: then the whole is cheaper. Cost: proportional to the last box.
 [[nodiscard]] std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_t voxel, double tau, double tunnel_height,
-                                                           const Context& context, store::IoCounters& counters);
+                                                           const Context& context, LevelQuery& query);
 
 }  // namespace isoatlas

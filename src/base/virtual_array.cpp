@@ -1,7 +1,9 @@
 #include "base/virtual_array.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <new>
 
 namespace isoatlas {
@@ -17,8 +19,13 @@ VirtualArray::~VirtualArray() {
     if (data_ != nullptr) munmap(data_, bytes_);
 }
 
-void VirtualArray::clear() {
-    if (data_ != nullptr) madvise(data_, bytes_, MADV_DONTNEED);
+std::size_t VirtualArray::page_bytes() {
+    static const auto kBytes = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    return kBytes;
+}
+
+void VirtualArray::give_back(std::size_t first, std::size_t bytes) {
+    if (first < bytes_) madvise(data_ + first, std::min(bytes, bytes_ - first), MADV_DONTNEED);
 }
 
 }  // namespace isoatlas

@@ -15,8 +15,11 @@ public:
 
     [[nodiscard]] std::byte* data() { return data_; }
     [[nodiscard]] const std::byte* data() const { return data_; }
-    /// Gives all memory back; afterwards everything is zero.
-    void clear();
+    /// Bytes of a page of memory.
+    [[nodiscard]] static std::size_t page_bytes();
+    /// Gives the memory of whole pages back; they are zero afterwards. first: a multiple of page_bytes(). bytes may reach into the last
+    /// page, or beyond the end.
+    void give_back(std::size_t first, std::size_t bytes);
 
 private:
     std::byte* data_;

@@ -5,6 +5,7 @@
 #include "critical/bodies.h"
 #include "field/slab_work.h"
 #include "mesh/cells.h"
+#include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
 #include "mesh/hits.h"
 #include "mesh/huge_pages.h"
@@ -24,6 +25,12 @@ bool is_mirrored(const VolumeInfo& info) {
     return handedness(info.geometry) < 0;
 }
 
+template <class Visit>
+void for_arrays(Surface& surface, Visit&& visit) {
+    visit(surface.points), visit(surface.normals), visit(surface.triangles), visit(surface.segments), visit(surface.object),
+        visit(surface.contour);
+}
+
 template <class T>
 class Extraction {
 public:
@@ -40,7 +47,7 @@ public:
           cells_(grid_, level.tau, domain_, map_, options, flip_) {}
 
     void run(Surface& surface) {
-        if (domain_.is_empty()) return;
+        if (domain_.is_empty()) return for_arrays(surface, [](auto& array) { array.clear(); });
         count();
         allocate(surface);
         write_hits(surface);
@@ -74,14 +81,17 @@ private:
         turn_counts_into_places(layout_);
     }
 
-    /// The arrays are filled with zeros while they grow: one thread each.
+    /// The arrays are filled with zeros while they grow: one thread each. Every entry will be written.
     void allocate(Surface& surface) const {
         const auto points = static_cast<std::size_t>(layout_.back().point), simplices = static_cast<std::size_t>(layout_.back().triangle);
         for_each_block(context_.threads, 4, [&](std::int64_t array) {
-            if (array == 0) domain_.is_2d() ? resize_fresh(surface.segments, simplices) : resize_fresh(surface.triangles, simplices);
+            if (array == 0) {
+                resize_fresh(surface.segments, domain_.is_2d() ? simplices : 0);
+                resize_fresh(surface.triangles, domain_.is_2d() ? 0 : simplices);
+            }
             if (array == 1) resize_fresh(surface.points, points);
-            if (array == 2 && options_.normals) resize_fresh(surface.normals, points);
-            if (array == 3 && components_ != nullptr) resize_fresh(surface.contour, points);
+            if (array == 2) resize_fresh(surface.normals, options_.normals ? points : 0);
+            if (array == 3) resize_fresh(surface.contour, components_ != nullptr ? points : 0);
         });
     }
 
@@ -120,8 +130,13 @@ private:
 }  // namespace
 
 Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context) {
-    const VolumeInfo& info = level.info();
     Surface surface;
+    extract_level(level, options, context, surface);
+    return surface;
+}
+
+void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface, std::int64_t* cells) {
+    const VolumeInfo& info = level.info();
     surface.tau = level.tau;
     surface.reported_tau = info.calibration.reported(level.tau);
     surface.space = info.geometry.space;
@@ -139,12 +154,15 @@ Surface extract_level(const TauLevel& level, const ExtractOptions& options, cons
         using T = typename decltype(samples)::value_type;
         Extraction<T>(level, samples, options, context, components ? &*components : nullptr).run(surface);
     });
+    if (cells != nullptr) {
+        *cells =
+            selects ? count_cells(level, options.boundary, *components, chosen, context) : count_cells(level, options.boundary, context);
+    }
     if (selects) keep_contours(chosen, surface);
     if (options.ids)
         write_ids(*components, context, surface);
     else
-        surface.contour.clear();
-    return surface;
+        surface.object.clear(), surface.contour.clear();
 }
 
 Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {

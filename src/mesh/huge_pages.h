@@ -9,11 +9,15 @@ namespace isoatlas {
 /// Asks for huge pages in a range of fresh memory; does nothing where that is not possible.
 void prefer_huge_pages(void* memory, std::size_t bytes);
 
-/// v.resize(count) for an empty vector.
+/// v.resize(count) when nobody needs what is in v. A vector that was used before gets room to grow.
 template <class T>
 void resize_fresh(std::vector<T>& v, std::size_t count) {
-    v.reserve(count);
-    prefer_huge_pages(v.data(), count * sizeof(T));
+    if (count > v.capacity()) {
+        const std::size_t room = v.empty() ? count : count + count / 8;
+        v.clear();
+        v.reserve(room);
+        prefer_huge_pages(v.data(), room * sizeof(T));
+    }
     v.resize(count);
 }
 

@@ -23,6 +23,9 @@ public:
     /// Only words that the bricks call busy need be looked at. Rows hold anything until they are written.
     explicit HighBits(const LevelBricks& bricks);
 
+    /// The bricks are others now: other words are busy. What rows hold stays.
+    void set_busy(const LevelBricks& bricks) { busy_ = BusyWords(bricks, words_); }
+
     [[nodiscard]] const Extent& extent() const { return extent_; }
     /// Words of a row; one more zero word follows, so word w + 1 may always be read.
     [[nodiscard]] std::int64_t words() const { return words_; }

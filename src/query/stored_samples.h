@@ -9,7 +9,7 @@
 #include <memory>
 #include <mutex>
 
-#include "base/virtual_array.h"
+#include "query/brick_cache.h"
 #include "query/tau_level.h"
 #include "store/brick_reader.h"
 
@@ -33,16 +33,39 @@ struct StoredWindow {
     }
 };
 
+/// The classes at an isovalue, kept so that those at the next one need not start anew.
+struct KeptLevel {
+    std::optional<StoredLevel> level{};  ///< nothing yet
+    std::optional<double> tau{};
+    std::vector<std::uint8_t> beside{};  ///< per brick: not divided, but its samples are needed
+};
+
+/// A question while it is being answered: what it has cost, and the bricks that stay present for it.
+struct LevelQuery : store::IoCounters {
+    std::int64_t visited = 0;  ///< samples of the bricks that were looked at, present or not
+    BrickLease held{};
+};
+
 class StoredSamples {
 public:
     virtual ~StoredSamples() = default;
 
-    /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view().
+    /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view()
+    /// as long as the query lives.
     /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only words that are busy
     /// (query/busy_words.h) need be looked at.
-    [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, store::IoCounters& counters) = 0;
+    [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, LevelQuery& query) = 0;
+    /// The same for another isovalue than that of `kept`, which becomes this one: only bricks with a sample between the two are classified
+    /// again. Returns how many these are. When it throws, `kept` must not be used again.
+    virtual std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) = 0;
     /// The same for the bricks of a box alone (bricks, not samples). Cost: proportional to the box.
-    [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, store::IoCounters& counters) = 0;
+    [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, LevelQuery& query) = 0;
+    /// What classify() would read of a store that was just opened: the divided bricks at least, at most also those beside bricks of
+    /// another class. Reads nothing.
+    struct Foreseen {
+        store::IoCounters least, most;
+    };
+    [[nodiscard]] virtual Foreseen foresee(double tau) const = 0;
     [[nodiscard]] virtual VolumeView view() const = 0;
     [[nodiscard]] virtual const store::BrickGrid& grid() const = 0;
     /// Lowest and highest sample; reads nothing.
@@ -53,11 +76,13 @@ public:
     virtual void read_all(std::span<std::byte> samples, const Context& context, store::IoCounters& counters) = 0;
     /// Reads all bricks; throws Error{input} where what is said about one is not so.
     virtual void check(const Context& context) const = 0;
-    /// Forgets the samples that are present.
+    /// Forgets the samples that are present, but for those that queries hold.
     virtual void clear() = 0;
+    /// Memory of the samples that are present.
+    [[nodiscard]] virtual std::int64_t present_bytes() const = 0;
 };
 
-/// The store must outlive what is returned.
-[[nodiscard]] std::unique_ptr<StoredSamples> stored_samples(const store::Container& store);
+/// The store must outlive what is returned. cache_bytes: how much memory samples may take that no query holds, in pages; 0: any.
+[[nodiscard]] std::unique_ptr<StoredSamples> stored_samples(const store::Container& store, std::int64_t cache_bytes);
 
 }  // namespace isoatlas

@@ -1,6 +1,7 @@
 #include "store/brick_reader.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -65,11 +66,11 @@ std::int64_t BrickReader<T>::voxel_at(std::int64_t brick, std::int64_t place) co
 }
 
 template <class T>
-auto BrickReader<T>::extents_of(std::span<const std::int64_t> bricks) const -> std::vector<Extent> {
+auto BrickReader<T>::extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const -> std::vector<Extent> {
     std::vector<Extent> extents;
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const auto begin = static_cast<std::int64_t>(offset_[static_cast<std::size_t>(bricks[i])]), end = begin + bytes_of(bricks[i]);
-        if (!extents.empty() && begin - extents.back().end <= kGap && end - extents.back().begin <= kLongest) {
+        if (!extents.empty() && begin - extents.back().end <= kGap && end - extents.back().begin <= longest) {
             extents.back().last = i + 1;
             extents.back().end = std::max(extents.back().end, end);
         } else {
@@ -92,16 +93,43 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
 }
 
 template <class T>
-IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, int threads,
-                                const std::function<void(std::int64_t, std::span<const T>)>& sink) const {
+void BrickReader<T>::sort_by_offset(std::vector<std::int64_t>& bricks) const {
     const auto offset = [&](std::int64_t brick) { return std::pair(offset_[static_cast<std::size_t>(brick)], brick); };
     std::sort(bricks.begin(), bricks.end(), [&](std::int64_t p, std::int64_t q) { return offset(p) < offset(q); });
-    const std::vector<Extent> extents = extents_of(bricks);
-    IoCounters counters{0, 0, static_cast<std::int64_t>(bricks.size())};
+}
+
+template <class T>
+IoCounters BrickReader<T>::count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const {
+    IoCounters counters{.bricks = static_cast<std::int64_t>(bricks.size())};
+    for (const std::int64_t brick : bricks) counters.samples += grid_.box(brick).count();
     for (const Extent& extent : extents) {
         counters.bytes += extent.end - extent.begin;
         counters.extents += extent.end > extent.begin;
     }
+    return counters;
+}
+
+template <class T>
+IoCounters BrickReader<T>::cost_of(std::vector<std::int64_t> bricks) const {
+    sort_by_offset(bricks);
+    return count(bricks, extents_of(bricks, kLongest));
+}
+
+// A part may need more reads than the whole, at most one for each brick; and no byte that lies in no gap of the whole.
+template <class T>
+IoCounters BrickReader<T>::most_of_part(std::vector<std::int64_t> bricks) const {
+    sort_by_offset(bricks);
+    IoCounters most = count(bricks, extents_of(bricks, std::numeric_limits<std::int64_t>::max()));
+    most.extents = std::count_if(bricks.begin(), bricks.end(), [this](std::int64_t brick) { return bytes_of(brick) > 0; });
+    return most;
+}
+
+template <class T>
+IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, int threads,
+                                const std::function<void(std::int64_t, std::span<const T>)>& sink) const {
+    sort_by_offset(bricks);
+    const std::vector<Extent> extents = extents_of(bricks, kLongest);
+    const IoCounters counters = count(bricks, extents);
     for_each_block(threads, static_cast<std::int64_t>(extents.size()), [&](std::int64_t e) {
         const Extent& extent = extents[static_cast<std::size_t>(e)];
         std::vector<std::byte> bytes(static_cast<std::size_t>(extent.end - extent.begin));

@@ -13,8 +13,9 @@ namespace isoatlas::store {
 /// What reading has cost.
 struct IoCounters {
     std::int64_t bytes = 0, extents = 0, bricks = 0;
+    std::int64_t samples = 0;  ///< of the bricks
     IoCounters& operator+=(const IoCounters& other) {
-        bytes += other.bytes, extents += other.extents, bricks += other.bricks;
+        bytes += other.bytes, extents += other.extents, bricks += other.bricks, samples += other.samples;
         return *this;
     }
 };
@@ -29,6 +30,10 @@ public:
     [[nodiscard]] T low(std::int64_t brick) const { return low_[static_cast<std::size_t>(brick)]; }
     [[nodiscard]] T high(std::int64_t brick) const { return high_[static_cast<std::size_t>(brick)]; }
 
+    /// What read() of a list costs.
+    [[nodiscard]] IoCounters cost_of(std::vector<std::int64_t> bricks) const;
+    /// The most that read() of a part of the list costs.
+    [[nodiscard]] IoCounters most_of_part(std::vector<std::int64_t> bricks) const;
     /// Voxels of the highest and the lowest sample of a brick; ties as in the total order (field/order.h).
     [[nodiscard]] std::int64_t highest_voxel(std::int64_t brick) const {
         return voxel_at(brick, highest_[static_cast<std::size_t>(brick)]);
@@ -48,7 +53,9 @@ private:
         std::int64_t begin, end;  ///< bytes in volume/data
     };
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const;
-    [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks) const;
+    void sort_by_offset(std::vector<std::int64_t>& bricks) const;
+    [[nodiscard]] IoCounters count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const;
+    [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const;
     [[nodiscard]] std::int64_t voxel_at(std::int64_t brick, std::int64_t place) const;
     void decode(std::int64_t brick, std::span<const std::byte> packed,
                 const std::function<void(std::int64_t, std::span<const T>)>& sink) const;

@@ -120,9 +120,16 @@ void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& c
 
 Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Context& context) {
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
-    const VolumeView view(volume);
+    return analyse_view(volume, options, context);
+}
+
+void release_zones(Analysis& analysis) {
+    analysis.data().visit([](auto& held) { release(held.arrays.zone); });
+}
+
+Analysis analyse_view(const VolumeView& volume, const AnalysisOptions& options, const Context& context) {
     Analysis analysis =
-        analyse_with(view, options, context, [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays) {
+        analyse_with(volume, options, context, [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays) {
             make_trees(critical_set(grid, std::move(scan), arrays, context), arrays, context.threads);
             if (options.zones) {
                 context.report("zones", 4, kPhases, 0);

@@ -13,4 +13,9 @@ namespace isoatlas {
 /// Counts the voxels of every critical element: needs value and code.
 void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& context);
 
+/// analyse() for samples that lie anywhere.
+[[nodiscard]] Analysis analyse_view(const VolumeView& volume, const AnalysisOptions& options, const Context& context);
+/// Forgets the zones of voxels.
+void release_zones(Analysis& analysis);
+
 }  // namespace isoatlas

@@ -37,8 +37,8 @@ Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double>
         return sums.sum[e] - static_cast<double>(sums.voxels[e]) * base;
     };
     // The child that goes on, and the highest event of the object; children come before their parents.
-    std::vector<std::int64_t> next_above(events, -1);
-    std::vector<double> best(events, -1);
+    BigVector<std::int64_t> next_above(events, std::int64_t{-1});
+    BigVector<double> best(events, -1.0);
     result.highest.resize(events);
     std::iota(result.highest.begin(), result.highest.end(), std::int64_t{0});
     for (std::size_t e = 0; e < events; ++e) {
@@ -47,7 +47,7 @@ Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double>
         result.highest[p] = std::min(result.highest[p], result.highest[e]);
         if (const double h = hypervolume(e); h > best[p]) best[p] = h, next_above[p] = static_cast<std::int64_t>(e);
     }
-    std::vector<Branch>& branches = result.branch;
+    BigVector<Branch>& branches = result.branch;
     for (std::size_t e = events; e-- > 0;) {
         const bool root = tree.is_root(e);
         if (!root && next_above[tree.parent[e]] == static_cast<std::int64_t>(e)) continue;

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "zones/analysis_data.h"
 
@@ -24,14 +23,14 @@ struct Branch {
 
 /// Over the object of each event at its low end.
 struct ObjectSums {
-    std::vector<std::int64_t> voxels;
-    std::vector<double> sum;  ///< of values
+    BigVector<std::int64_t> voxels;
+    BigVector<double> sum;  ///< of values
 };
 
 struct Branches {
-    std::vector<Branch> branch;          ///< by descending hypervolume, ties: higher top first; [0] is the trunk
-    std::vector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
-    std::vector<std::int64_t> highest;   ///< per event: event of the highest element of its object
+    BigVector<Branch> branch;          ///< by descending hypervolume, ties: higher top first; [0] is the trunk
+    BigVector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
+    BigVector<std::int64_t> highest;   ///< per event: event of the highest element of its object
     ObjectSums objects;
 };
 

@@ -65,10 +65,10 @@ double quiet_places(std::span<const T> samples, const Extent& extent) {
 
 }  // namespace
 
-double estimate_noise(const Volume& volume) {
+double estimate_noise(const VolumeView& volume) {
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const double quantum = std::is_floating_point_v<T> ? 0 : 1 / std::sqrt(12.0);
-        return std::max({second_differences(samples, volume.info.extent), quiet_places(samples, volume.info.extent), quantum});
+        return std::max({second_differences(samples, volume.info->extent), quiet_places(samples, volume.info->extent), quantum});
     });
 }
 

@@ -9,6 +9,7 @@
 #include "zones/analysis_data.h"
 #include "zones/branches.h"
 #include "zones/noise.h"
+#include "zones/rank.h"
 #include "zones/stable_isovalue.h"
 
 namespace isoatlas {
@@ -39,7 +40,8 @@ struct BranchHistogram {
         added.assign(static_cast<std::size_t>(std::max(1.0, to - from)), 0);
     }
     void add(double value, double count) {
-        const double bin = (value - low) / (high - low) * static_cast<double>(added.size());
+        const double range = high - low;  // 0: a constant volume
+        const double bin = range > 0 && std::isfinite(range) ? (value - low) / range * static_cast<double>(added.size()) : 0;
         added[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(added.size() - 1)))] += count;
     }
 };
@@ -47,9 +49,8 @@ struct BranchHistogram {
 template <class Id>
 class Ranking {
 public:
-    Ranking(const Volume& volume, const AnalysisArrays<Id>& arrays, const AnalysisIndex<Id>& index, bool is_3d)
-        : volume_(volume), arrays_(arrays), index_(index), is_3d_(is_3d) {
-        std::vector<double> sum(arrays.tree.size(), 0);
+    Ranking(const VolumeView& volume, const AnalysisArrays<Id>& arrays, bool is_3d) : volume_(volume), arrays_(arrays), is_3d_(is_3d) {
+        BigVector<double> sum(arrays.tree.size(), 0.0);
         lowest_ = std::numeric_limits<double>::infinity();
         visit_samples(volume, [&](auto samples) {
             for (std::size_t v = 0; v < samples.size(); ++v) {
@@ -70,7 +71,7 @@ public:
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         measure(rows);
         for (const Row& row : rows) table.entries.push_back(entry(row, rows));
-        return table;
+        return first_entries(std::move(table), 0);
     }
 
 private:
@@ -78,11 +79,11 @@ private:
 
     /// Branches that noise does not explain and that are not tiny beside the largest; the trunk first.
     [[nodiscard]] std::vector<std::int64_t> essential(double noise, const RankOptions& options) const {
-        const auto n = static_cast<double>(volume_.info.extent.voxels());
+        const auto n = static_cast<double>(volume_.info->extent.voxels());
         const double least_height = 1.1 * noise * std::sqrt(2 * std::log(n)), least_hypervolume = 2 * noise * std::pow(n, 2.0 / 3);
         const auto least_voxels = static_cast<std::int64_t>(std::clamp(n / 2000, 1.0, 27.0));
         std::vector<std::int64_t> kept{0};
-        const std::vector<Branch>& all = branches_.branch;
+        const BigVector<Branch>& all = branches_.branch;
         for (std::size_t i = 1; i < all.size(); ++i) {
             const Branch& b = all[i];
             if (options.gate && b.hypervolume < kRelativeSize * all[1].hypervolume) break;  // sorted by hypervolume
@@ -95,8 +96,8 @@ private:
 
     /// Histograms along the kept branches: own voxels by value, whole merged branches at the value where they merge.
     [[nodiscard]] std::vector<BranchHistogram> histograms(const std::vector<std::int64_t>& kept) const {
-        const bool integer = !is_floating(volume_.info.type);
-        std::vector<std::int64_t> slot(branches_.branch.size(), -1);
+        const bool integer = !is_floating(volume_.info->type);
+        BigVector<std::int64_t> slot(branches_.branch.size(), std::int64_t{-1});
         std::vector<BranchHistogram> result;
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
@@ -142,8 +143,8 @@ private:
 
     /// The event of every row, and the voxels of its object at tau.
     void measure(std::vector<Row>& rows) const {
-        const Extent& extent = volume_.info.extent;
-        const bool uniform = std::all_of(volume_.info.geometry.coordinates.begin(), volume_.info.geometry.coordinates.end(),
+        const Extent& extent = volume_.info->extent;
+        const bool uniform = std::all_of(volume_.info->geometry.coordinates.begin(), volume_.info->geometry.coordinates.end(),
                                          [](const auto& c) { return c.size() < 2; });
         std::vector<bool> wanted(arrays_.tree.size(), false);
         std::multimap<std::int64_t, Row*> of_event;
@@ -151,9 +152,7 @@ private:
             row.event = branches_.branch[row.branch].top;
             while (!arrays_.tree.is_root(row.event) && value_of(arrays_.tree.parent[row.event]) >= row.tau)
                 row.event = arrays_.tree.parent[row.event];
-            for (auto c = index_.first_child[row.event]; c < index_.first_child[row.event + 1]; ++c) {
-                row.voxels += branches_.objects.voxels[index_.children[c]];
-            }
+            row.voxels = branches_.objects.voxels[row.event] - static_cast<std::int64_t>(arrays_.voxels[row.event]);  // of its children
             wanted[row.event] = true;
             of_event.emplace(row.event, &row);
         }
@@ -166,7 +165,7 @@ private:
         });
         for (Row& row : rows) {
             row.measure =
-                uniform ? static_cast<double>(row.voxels) * voxel_measure(volume_.info.geometry, extent, 0) : rectilinear_measure(row);
+                uniform ? static_cast<double>(row.voxels) * voxel_measure(volume_.info->geometry, extent, 0) : rectilinear_measure(row);
         }
     }
 
@@ -177,9 +176,12 @@ private:
             inside[e] = static_cast<std::int64_t>(e) == row.event || (!arrays_.tree.is_root(e) && inside[arrays_.tree.parent[e]]);
         }
         double sum = 0;
-        for (std::int64_t v = 0; v < volume_.info.extent.voxels(); ++v) {
-            if (inside[arrays_.zone[v]] && volume_.value(v) >= row.tau) sum += voxel_measure(volume_.info.geometry, volume_.info.extent, v);
-        }
+        visit_samples(volume_, [&](auto samples) {
+            for (std::size_t v = 0; v < samples.size(); ++v) {
+                if (inside[arrays_.zone[v]] && static_cast<double>(samples[v]) >= row.tau)
+                    sum += voxel_measure(volume_.info->geometry, volume_.info->extent, static_cast<std::int64_t>(v));
+            }
+        });
         return sum;
     }
 
@@ -194,21 +196,25 @@ private:
         const auto contours = static_cast<std::int64_t>(arrays_.measures.contours[row.event]);
         entry.cavities = is_3d_ ? contours - 1 : 0;
         entry.tunnels = 1 + entry.cavities - static_cast<std::int64_t>(arrays_.measures.chi[row.event]);
-        entry.position = element_position(code, volume_.info.extent);
-        entry.note = note(row, rows);
+        entry.position = element_position(code, volume_.info->extent);
+        const bool root = arrays_.tree.is_root(row.event);
+        entry.tau_low = root ? -std::numeric_limits<double>::infinity() : value_of(arrays_.tree.parent[row.event]);
+        entry.tau_high = value_of(row.event);
+        entry.inside = closest_around(row, rows);
+        entry.outline = row.outline;
+        entry.trunk = row.branch == 0;
         return entry;
     }
 
     /// The closest other row that contains this one: on the way down from its event, the first with a row of a lower isovalue.
-    [[nodiscard]] std::string note(const Row& row, const std::vector<Row>& rows) const {
-        if (row.outline) return "outline";
+    [[nodiscard]] std::int64_t closest_around(const Row& row, const std::vector<Row>& rows) const {
         std::int64_t closest = -1;
         for (std::size_t j = 0; j < rows.size(); ++j) {
             if (!(rows[j].tau < row.tau)) continue;
             if (closest >= 0 && rows[j].tau <= rows[closest].tau) continue;
             if (contains(rows[j].event, row.event)) closest = static_cast<std::int64_t>(j);
         }
-        return closest >= 0 ? "inside " + std::to_string(closest + 1) : row.branch == 0 ? "largest" : "";
+        return closest;
     }
 
     [[nodiscard]] bool contains(std::int64_t outer, std::int64_t inner) const {
@@ -216,9 +222,8 @@ private:
         return inner == outer;
     }
 
-    const Volume& volume_;
+    const VolumeView volume_;
     const AnalysisArrays<Id>& arrays_;
-    const AnalysisIndex<Id>& index_;
     bool is_3d_;
     double lowest_ = 0;
     Branches branches_;
@@ -226,13 +231,17 @@ private:
 
 }  // namespace
 
-ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context&) {
-    if (volume.info.extent != analysis.extent())
+ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options) {
+    if (volume.info->extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
     return analysis.data().visit([&](const auto& held) {
         if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
-        return Ranking(volume, held.arrays, held.index(), analysis.extent().rank == 3).table(options);
+        return Ranking(volume, held.arrays, analysis.extent().rank == 3).table(options);
     });
+}
+
+ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context&) {
+    return rank_objects(VolumeView(volume), analysis, options);
 }
 
 }  // namespace isoatlas

@@ -7,34 +7,21 @@
 
 #include <atomic>
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
-#include "oracle/mesh_checks.h"
+#include "oracle/stores.h"
 #include "store/brick_grid.h"
 #include "store/brick_writer.h"
 
 namespace oracle {
 namespace {
 
-namespace fs = std::filesystem;
 using isoatlas::Atlas;
 using isoatlas::Surface;
 using isoatlas::Volume;
-
-class Stores : public testing::Test {
-protected:
-    Stores() : path_((fs::temp_directory_path() / ("isoatlas_atlas_" + std::to_string(::getpid()) + ".atlas")).string()) {}
-    ~Stores() override { fs::remove(path_); }
-    Stores(const Stores&) = delete;
-    Stores& operator=(const Stores&) = delete;
-
-public:
-    std::string path_;
-};
 
 std::string text(const isoatlas::Cut& cut) {
     std::ostringstream out;
@@ -50,34 +37,13 @@ std::string text(const isoatlas::Cut& cut) {
     return out.str();
 }
 
-bool same(const Surface& p, const Surface& q) {
-    return p.points == q.points && p.normals == q.normals && p.triangles == q.triangles && p.segments == q.segments &&
-           p.object == q.object && p.contour == q.contour && p.tau == q.tau && p.interpolant == q.interpolant;
-}
-
-/// Bricks of 16 samples a side need larger volumes than the oracle can bear; classes come in words of 64 samples along x.
-Grid arbitrary_volume() {
-    std::array<Index, 3> size{};
-    const bool is_long = *rc::gen::inRange(0, 3) == 0;
-    for (Index& n : size) n = *rc::gen::inRange<Index>(1, is_long ? 20 : 36);
-    if (is_long) size[0] = *rc::gen::inRange<Index>(60, 200);
-    const int rank = *rc::gen::inRange(0, 5) == 0 ? 2 : 3;
-    if (rank == 2) size[2] = 1;
-    const auto texture = static_cast<Texture>(*rc::gen::inRange(0, kTextures));
-    const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000000);
-    std::vector<int> raw(static_cast<std::size_t>(size[0] * size[1] * size[2]) + 40);
-    std::uint64_t state = seed * 2 + 1;
-    for (int& r : raw) r = static_cast<int>((state = state * 6364136223846793005U + 1442695040888963407U) >> 33) % 10000;
-    return make_grid(rank, size, texture, raw);
-}
-
 RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameCutsAndSurfaces, ()) {
     const Grid grid = arbitrary_volume();
     Volume volume = to_volume(grid, arbitrary_type(grid));
     volume.info.geometry = arbitrary_geometry(grid);
     const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant()};
     isoatlas::build_atlas(path_, volume, options, arbitrary_context());
-    const Atlas atlas(path_);
+    const Atlas atlas(path_, {.cache_bytes = *rc::gen::element<std::int64_t>(0, 1, 9000, 100000)});
     for (int query = 0; query < 6; ++query) {
         double tau = grid.value[*rc::gen::inRange<std::size_t>(0, grid.value.size())];
         if (*rc::gen::inRange(0, 2) == 0) tau += 0.25;

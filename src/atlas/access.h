@@ -1,0 +1,18 @@
+// What the other parts of this folder need of an Atlas.
+#pragma once
+
+#include "isoatlas/atlas.h"
+#include "query/level_census.h"
+#include "query/stored_samples.h"
+
+namespace isoatlas {
+
+struct AtlasAccess {
+    /// Read when it is first asked for.
+    [[nodiscard]] static const LevelCensus& census(const Atlas& atlas);
+    [[nodiscard]] static StoredSamples& samples(const Atlas& atlas);
+    /// Adds to what Atlas::reads() tells, and to `cost`.
+    static void count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost);
+};
+
+}  // namespace isoatlas

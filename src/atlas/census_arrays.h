@@ -1,0 +1,23 @@
+// A census (query/level_census.h) as arrays of a store, and back.
+//
+//   census/value                         ascending
+//   census/samples                       samples of at least that value
+//   census/cells_high, cells_low         cells whose highest, lowest corner is at least that value
+//   census/hits_high, hits_low           the same for edges of the grid
+#pragma once
+
+#include <vector>
+
+#include "query/level_census.h"
+#include "store/container.h"
+#include "store/pack.h"
+
+namespace isoatlas {
+
+/// The census must live until the arrays are packed.
+[[nodiscard]] std::vector<store::PackedArray> census_arrays(const LevelCensus& census);
+
+/// Throws Error{input} when it contradicts itself.
+[[nodiscard]] LevelCensus census_of(const store::Container& store);
+
+}  // namespace isoatlas

@@ -1,0 +1,118 @@
+#include "isoatlas/navigator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "atlas/access.h"
+#include "mesh/extract_level.h"
+
+namespace isoatlas {
+
+struct Navigator::Data {
+    const Atlas& atlas;
+    ExtractOptions options;
+    KeptLevel level{};
+    Surface surface{};
+    std::optional<double> tau{}, before{};
+    std::int64_t changed_bricks = 0;
+    QueryCost cost{};
+
+    Data(const Atlas& from, const ExtractOptions& how) : atlas(from), options(how) {
+        options.interpolant = from.interpolant();
+        options.tunnel_height = from.tunnel_height();
+    }
+
+    /// One object comes from the bricks around it alone, whatever was there before.
+    [[nodiscard]] bool shows_one() const { return options.objects.size() == 1 && options.contours.empty(); }
+
+    void move(double to, const Context& context) {
+        before = std::exchange(tau, std::nullopt);
+        cost = {};
+        if (shows_one()) {
+            surface = atlas.extract(to, options, context, &cost);
+            changed_bricks = 0;
+        } else {
+            extract_all(to, context);
+        }
+        tau = to;
+    }
+
+    void extract_all(double to, const Context& context) {
+        LevelQuery spent;
+        std::int64_t active = 0;
+        StoredSamples& samples = AtlasAccess::samples(atlas);
+        KeptLevel next = std::exchange(level, {});  // lost when anything throws
+        changed_bricks = samples.reclassify(next, to, context, spent);
+        const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
+        extract_level(TauLevel{samples.view(), to, next.level->high, &next.level->bricks, {}, sample}, options, context, surface, &active);
+        level = std::move(next);
+        AtlasAccess::count(atlas, spent, active, &cost);
+    }
+
+    /// The shown object among the active ones; nothing when it is not named by its id.
+    [[nodiscard]] std::optional<ActiveObject> shown_object() const {
+        if (!shows_one()) return std::nullopt;
+        const ActiveObjects active = atlas.active(*tau, false);
+        const auto found = std::find_if(active.objects.begin(), active.objects.end(),
+                                        [this](const ActiveObject& object) { return object.id == options.objects[0]; });
+        return found == active.objects.end() ? std::nullopt : std::optional(*found);
+    }
+
+    bool move_to(std::optional<double> to, const Context& context) {
+        if (!to || *to == *tau || !std::isfinite(*to)) return false;
+        move(*to, context);
+        return true;
+    }
+
+    void require_position() const {
+        if (tau) return;
+        throw Error(ErrorKind::usage, {.what = "the navigator stands at no isovalue yet", .next = "call go_to first"});
+    }
+};
+
+Navigator::Navigator(const Atlas& atlas, const ExtractOptions& options) : data_(std::make_unique<Data>(atlas, options)) {}
+Navigator::Navigator(Navigator&&) noexcept = default;
+Navigator& Navigator::operator=(Navigator&&) noexcept = default;
+Navigator::~Navigator() = default;
+
+std::optional<double> Navigator::tau() const { return data_->tau; }
+const Surface& Navigator::surface() const { return data_->surface; }
+
+const Surface& Navigator::go_to(double tau, const Context& context) {
+    data_->move(tau, context);
+    return data_->surface;
+}
+
+const Surface& Navigator::step(double delta, const Context& context) {
+    data_->require_position();
+    return go_to(*data_->tau + delta, context);
+}
+
+const Surface& Navigator::show(std::vector<std::int64_t> objects, double tau, const Context& context) {
+    data_->options.objects = std::move(objects);
+    return go_to(tau, context);
+}
+
+bool Navigator::to_event_below(const Context& context) {
+    data_->require_position();
+    const std::optional<ActiveObject> object = data_->shown_object();
+    return data_->move_to(object ? object->zone.tau_low : data_->atlas.active_index().event_below(*data_->tau), context);
+}
+
+bool Navigator::to_event_above(const Context& context) {
+    data_->require_position();
+    const std::optional<ActiveObject> object = data_->shown_object();
+    if (object && object->above == object->zone.tau_high) return false;  // it begins here
+    return data_->move_to(object ? object->above : data_->atlas.active_index().event_above(*data_->tau), context);
+}
+
+ObjectChanges Navigator::changes() const {
+    if (!data_->tau || !data_->before) return {};
+    return data_->atlas.active_index().changes(*data_->before, *data_->tau);
+}
+
+const QueryCost& Navigator::cost() const { return data_->cost; }
+std::int64_t Navigator::changed_bricks() const { return data_->changed_bricks; }
+
+}  // namespace isoatlas

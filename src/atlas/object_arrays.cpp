@@ -1,0 +1,99 @@
+#include "atlas/object_arrays.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace isoatlas {
+namespace {
+
+/// Calls visit(name, type, member of ObjectEntry) for everything that is stored of an entry.
+template <class Visit>
+void for_members(Visit&& visit) {
+    visit("objects/id", "int64", &ObjectEntry::id);
+    visit("objects/event", "int64", &ObjectEntry::event);
+    visit("objects/appears", "float64", &ObjectEntry::appears);
+    visit("objects/merges", "float64", &ObjectEntry::merges);
+    visit("objects/best_tau", "float64", &ObjectEntry::best_tau);
+    visit("objects/tau_low", "float64", &ObjectEntry::tau_low);
+    visit("objects/tau_high", "float64", &ObjectEntry::tau_high);
+    visit("objects/voxels", "int64", &ObjectEntry::voxels);
+    visit("objects/measure", "float64", &ObjectEntry::measure);
+    visit("objects/tunnels", "int64", &ObjectEntry::tunnels);
+    visit("objects/cavities", "int64", &ObjectEntry::cavities);
+    visit("objects/hypervolume", "float64", &ObjectEntry::hypervolume);
+    visit("objects/inside", "int64", &ObjectEntry::inside);
+    visit("objects/outline", "uint8", &ObjectEntry::outline);
+    visit("objects/trunk", "uint8", &ObjectEntry::trunk);
+}
+
+template <class T>
+store::PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
+    const auto held = std::make_shared<std::vector<T>>(std::move(numbers));
+    store::PackedArray array = store::packed<T>(name, type, *held);
+    array.feed = [held, feed = std::move(array.feed)](const store::Put& put) { feed(put); };
+    return array;
+}
+
+/// How a member lies in the file.
+template <class Member>
+using Stored = std::conditional_t<std::is_same_v<Member, bool>, std::uint8_t, Member>;
+
+[[noreturn]] void contradiction(const store::Container& store) {
+    throw Error(ErrorKind::input, {.file = store.path(),
+                                   .where = "objects",
+                                   .what = "the table contradicts itself",
+                                   .next = "the store is damaged: build it again from the volume"});
+}
+
+void check(const ObjectTable& table, const store::Container& store) {
+    const std::int64_t voxels = store.contents().volume.extent.voxels();
+    for (const ObjectEntry& entry : table.entries) {
+        if (entry.id < 0 || entry.id >= voxels || entry.inside < -1) contradiction(store);
+        // What contains an entry has a lower isovalue: the way from one to the next ends.
+        if (entry.inside < 0) continue;
+        const auto inside = static_cast<std::size_t>(entry.inside);
+        if (inside >= table.entries.size() || !(table.entries[inside].best_tau < entry.best_tau)) contradiction(store);
+    }
+}
+
+}  // namespace
+
+std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
+    std::vector<store::PackedArray> arrays;
+    for_members([&]<class Member>(const char* name, const char* type, Member ObjectEntry::* member) {
+        std::vector<Stored<Member>> numbers;
+        for (const ObjectEntry& entry : table.entries) numbers.push_back(static_cast<Stored<Member>>(entry.*member));
+        arrays.push_back(owned(name, type, std::move(numbers)));
+    });
+    arrays.push_back(owned<std::int64_t>("objects/branches", "int64", {table.branches}));
+    arrays.push_back(owned<double>("objects/noise", "float64", {table.noise}));
+    return arrays;
+}
+
+bool has_objects(const store::Container& store) {
+    const std::vector<store::StoredArray>& arrays = store.contents().arrays;
+    return std::any_of(arrays.begin(), arrays.end(), [](const store::StoredArray& array) { return array.name == "objects/id"; });
+}
+
+ObjectTable objects_of(const store::Container& store) {
+    ObjectTable table;
+    table.entries.resize(static_cast<std::size_t>(store.contents().array("objects/id", "int64").count()));
+    for_members([&]<class Member>(const char* name, const char* type, Member ObjectEntry::* member) {
+        const auto numbers = store.all<Stored<Member>>(name, type);
+        if (numbers.size() != table.entries.size()) contradiction(store);
+        for (std::size_t i = 0; i < numbers.size(); ++i) table.entries[i].*member = static_cast<Member>(numbers[i]);
+    });
+    const auto branches = store.all<std::int64_t>("objects/branches", "int64");
+    const auto noise = store.all<double>("objects/noise", "float64");
+    if (branches.size() != 1 || noise.size() != 1) contradiction(store);
+    table.branches = branches[0], table.noise = noise[0];
+    check(table, store);
+    const Extent& extent = store.contents().volume.extent;
+    for (ObjectEntry& entry : table.entries) {
+        const std::array<std::int64_t, 3> voxel = extent.voxel(entry.id);
+        for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
+    }
+    return table;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,31 @@
+// The table of essential objects (isoatlas/objects.h) as arrays of a store, and back: nobody should have to analyse the volume again to
+// ask which objects are in it.
+//
+//   objects/id, event, voxels, tunnels, cavities, inside      int64, per entry, by rank
+//   objects/appears, merges, best_tau, measure, hypervolume, tau_low, tau_high     float64
+//   objects/outline, trunk                                     uint8
+//   objects/branches, noise                                    one number each
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "isoatlas/objects.h"
+#include "store/container.h"
+#include "store/pack.h"
+
+namespace isoatlas {
+
+/// Of volumes of at most so many voxels the table is stored.
+inline constexpr std::int64_t kTableVoxels = std::int64_t{1} << 24;
+/// At most so many entries are stored.
+inline constexpr std::int64_t kStoredEntries = 1024;
+
+/// table: ranked with the gate and at most kStoredEntries entries. The arrays live on their own.
+[[nodiscard]] std::vector<store::PackedArray> object_arrays(const ObjectTable& table);
+
+[[nodiscard]] bool has_objects(const store::Container& store);
+/// Throws Error{input} when it contradicts itself.
+[[nodiscard]] ObjectTable objects_of(const store::Container& store);
+
+}  // namespace isoatlas

@@ -1,0 +1,40 @@
+// What a surface is and costs, before anything of it is read.
+#include <algorithm>
+#include <cmath>
+
+#include "atlas/access.h"
+
+namespace isoatlas {
+namespace {
+
+Bounds bounds(std::int64_t least, std::int64_t most) { return {least, most}; }
+
+}  // namespace
+
+// Triangles: three edges each, every edge shared by two, so with P points and Euler number chi there are 2 (P - chi) of them (theory.md
+// section 2). Every point is a hit, but for articulation points.
+SurfacePreview Atlas::preview(double tau) const {
+    const ActiveObjects active = this->active(tau, false);  // refuses what is not finite
+    const bool is_3d = info().extent.rank == 3;
+    SurfacePreview preview;
+    preview.tau = tau;
+    preview.objects = static_cast<std::int64_t>(active.objects.size());
+    preview.contours = active.contour_count;
+    for (const ActiveObject& object : active.objects) preview.tunnels += object.b1;
+    const LevelCensus::Counts counts = AtlasAccess::census(*this).at(tau, !is_floating(info().type));
+    preview.voxels = counts.samples;
+    preview.cells = counts.cells;
+    preview.points = preview.triangles = counts.hits;
+    if (is_3d) {
+        const std::int64_t chi = 2 * (preview.contours - preview.tunnels);  // tunnels: the sum of the genera
+        for (std::int64_t* count : {&preview.triangles.least, &preview.triangles.most})
+            *count = std::max<std::int64_t>(0, 2 * (*count - chi));
+    }
+    const StoredSamples::Foreseen reads = AtlasAccess::samples(*this).foresee(tau);
+    preview.bricks = bounds(reads.least.bricks, reads.most.bricks);
+    preview.bytes = bounds(reads.least.bytes, reads.most.bytes);
+    preview.extents = bounds(reads.least.extents, reads.most.extents);
+    return preview;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,65 @@
+// The classes of whole bricks and of rows of a brick, as bits.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <functional>
+
+#include "query/high_bits.h"
+
+namespace isoatlas {
+
+/// Sets bits [p, p + 16) of a row of classes; positions as in HighBits.
+inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
+    row[p / 64] |= bits << p % 64;
+    if (p % 64 > 48) row[p / 64 + 1] |= bits >> (64 - p % 64);
+}
+
+/// The same for `count` (at most 16) bits that hold something.
+inline void replace_bits(std::uint64_t* row, std::int64_t p, std::int64_t count, std::uint64_t bits) {
+    const std::uint64_t mask = 0xffff >> (store::kBrickSide - count);
+    row[p / 64] &= ~(mask << p % 64);
+    if (p % 64 > 48) row[p / 64 + 1] &= ~(mask >> (64 - p % 64));
+    put_bits(row, p, bits);
+}
+
+/// Which of 16 samples are at least `least`, as bits.
+template <class T>
+std::uint64_t bits_of_samples(const T* values, T least) {
+    std::array<std::uint8_t, store::kBrickSide> flags;
+    for (std::int64_t i = 0; i < store::kBrickSide; ++i) flags[static_cast<std::size_t>(i)] = values[i] >= least;
+    std::array<std::uint64_t, 2> eight;
+    std::memcpy(eight.data(), flags.data(), sizeof eight);
+    constexpr std::uint64_t kGather = 0x0102040810204080;  // bit 0 of each byte to the top byte
+    return eight[0] * kGather >> 56 | eight[1] * kGather >> 56 << 8;
+}
+
+/// The classes of `count` (at most 16) samples.
+template <class T>
+std::uint64_t bits_of_samples(const T* values, std::int64_t count, T least) {
+    if (count == store::kBrickSide) return bits_of_samples(values, least);
+    std::uint64_t bits = 0;
+    for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[x] >= least} << x;
+    return bits;
+}
+
+/// Is any brick around a brick of another class, or the grid at an end?
+[[nodiscard]] bool may_touch(const store::BrickGrid& grid, std::int64_t brick, const std::vector<BrickClass>& classes);
+
+/// Is a brick High or Low as a whole, with something else within two samples, or High at an end of the grid?
+[[nodiscard]] bool is_beside_surface(const HighBits& high, const store::BrickGrid& grid, std::int64_t brick,
+                                     const std::vector<BrickClass>& classes);
+/// All of these.
+[[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const store::BrickGrid& grid,
+                                                       const std::vector<BrickClass>& classes, int threads);
+
+/// The flags of bricks, and of those around them.
+[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const store::BrickGrid& grid, std::vector<std::uint8_t> flags);
+
+/// The numbers of the flagged bricks.
+[[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);
+
+/// Calls visit(brick) for all bricks, a layer at a time.
+void for_bricks(const store::BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit);
+
+}  // namespace isoatlas

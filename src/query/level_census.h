@@ -1,0 +1,52 @@
+// How much is there at an isovalue? Samples, hits and active cells, counted for all isovalues at once while a store is built.
+//
+// A cell is active at tau when its lowest corner is below tau and its highest is not; so is an edge of the grid hit. So four numbers for
+// each of some values tell: cells and edges whose highest end is at least that value, and whose lowest is. For integers of few values these
+// are all values, and the answer is exact; else the two values around an isovalue bound it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/volume_view.h"
+#include "isoatlas/atlas.h"
+#include "isoatlas/context.h"
+
+namespace isoatlas {
+
+struct LevelCensus {
+    std::vector<double> value;                                              ///< ascending, from the lowest sample to the highest
+    std::vector<std::uint64_t> samples;                                     ///< of at least this value
+    std::vector<std::uint64_t> cells_high, cells_low, hits_high, hits_low;  ///< whose highest, lowest end is at least this value
+
+    struct Counts {
+        Bounds samples, hits, cells;
+    };
+    /// At an isovalue; padding counts as in Cut. whole: samples are whole numbers.
+    [[nodiscard]] Counts at(double tau, bool whole) const;
+};
+
+/// The values that are counted for finite samples from low to high: all that there are, or as many as are worth their room.
+[[nodiscard]] std::vector<double> census_values(double low, double high, bool whole, std::int64_t voxels);
+
+/// Counts by bin, of a part of a volume; parts add up. Bin 0 is the padding, bin i + 1 holds what lies from value[i] to below value[i + 1].
+struct CensusPart {
+    using Counts = std::vector<std::uint64_t>;
+    Counts samples, cells_high, cells_low, hits_high, hits_low;
+
+    explicit CensusPart(std::size_t values);
+    void add(const CensusPart& other);
+    [[nodiscard]] LevelCensus finish(std::vector<double> values) const;
+};
+
+/// Layers of cells z, first <= z < last: between the slices z and z + 1, from -1 in 3D; the slices themselves, from 0, in 2D.
+/// slab: the slices from `begin` on, at least those of these layers that exist. Cost: 1 pass, 4 bytes a voxel of a slice.
+template <class T>
+[[nodiscard]] CensusPart count_layers(const T* slab, std::int64_t begin, const Extent& extent, std::span<const double> values,
+                                      std::int64_t first, std::int64_t last);
+
+/// The same for any threads. Samples are finite. Cost: two passes over the samples.
+[[nodiscard]] LevelCensus take_census(const VolumeView& volume, const Context& context);
+
+}  // namespace isoatlas
