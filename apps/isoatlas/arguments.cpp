@@ -95,6 +95,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
     if (verb == "tree") {
         app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
         add_output(app, arguments, ".json .graphml .csv .vtu", false);
+    } else if (verb == "info") {
+        add_tau(app, typed, "What the surface at this isovalue is and costs, before it is read (of a store)");
     } else if (verb == "objects") {
         add_tau(app, typed, "List every object at this isovalue");
         app.add_option("--top", arguments.top, "At most N objects (without --tau: 24)")

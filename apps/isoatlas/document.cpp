@@ -60,9 +60,15 @@ Json document(const std::string& name, const VolumeInfo& info, Interpolant inter
     return json;
 }
 
-void add_reads(Json& json, const std::optional<AtlasReads>& reads) {
+void add_reads(Json& json, const std::optional<QueryCost>& reads) {
     Json& entry = json["reads"] = nullptr;
-    if (reads) entry = {{"bytes", reads->bytes}, {"extents", reads->extents}, {"bricks", reads->bricks}};
+    if (!reads) return;
+    entry = {{"bytes", reads->bytes}, {"extents", reads->extents}, {"bricks", reads->bricks}};
+    entry["cells_loaded"] = reads->cells_loaded;
+    entry["cells_visited"] = reads->cells_visited;
+    entry["cells_active"] = reads->cells_active;
+    entry["load_utility"] = reads->cells_loaded > 0 ? Json(reads->load_utility()) : Json(nullptr);
+    entry["travel_utility"] = reads->cells_visited > 0 ? Json(reads->travel_utility()) : Json(nullptr);
 }
 
 void print(Terminal& terminal, const Json& json) { terminal.out() << "{\n" << members(json) << "\n}\n"; }

@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, double tunnel_height,
                             Boundary boundary = Boundary::closed);
 
-/// "reads": what has been read of a store; null for a volume file.
-void add_reads(Json& json, const std::optional<AtlasReads>& reads);
+/// "reads": what a store was asked for this document; null for a volume file.
+void add_reads(Json& json, const std::optional<QueryCost>& reads);
 
 void print(Terminal& terminal, const Json& json);
 /// Prints `head` with one more member: name: [item(0), ..., item(count - 1)].

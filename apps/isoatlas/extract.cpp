@@ -26,15 +26,14 @@ const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
 
 /// The best isovalue of the objects asked for. With --best and no --object, the first line of the table is the object.
 double best_tau(const Arguments& arguments, Source& source, ExtractOptions& options) {
-    const Analysis analysis = source.analysis(true);
-    ObjectTable table = rank_objects(source.volume(), analysis, {}, source.context());
+    ObjectTable table = source.objects({});
     if (options.objects.empty()) {
         if (table.entries.empty()) no_such_entry(arguments, "nothing in this volume rises above the noise");
         options.objects = {table.entries[0].id};
     }
     const auto known = [&](std::int64_t id) { return find(table, id) != nullptr; };
     if (!std::all_of(options.objects.begin(), options.objects.end(), known)) {
-        table = rank_objects(source.volume(), analysis, {.top = 0, .gate = false}, source.context());
+        table = source.objects({.top = 0, .gate = false});
     }
     double tau = 0;
     for (std::size_t i = 0; i < options.objects.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -58,6 +59,38 @@ Values read_values(VolumeReader& reader, Session& session) {
     }
     values.known = values.low <= values.high;
     return values;
+}
+
+Json json_of(const Bounds& bounds) { return {{"least", bounds.least}, {"most", bounds.most}}; }
+
+Json to_json(const SurfacePreview& preview, double tau) {
+    return {{"tau", tau},
+            {"objects", preview.objects},
+            {"contours", preview.contours},
+            {"tunnels", preview.tunnels},
+            {"voxels", json_of(preview.voxels)},
+            {"active_cells", json_of(preview.cells)},
+            {"points", json_of(preview.points)},
+            {"triangles", json_of(preview.triangles)},
+            {"bricks", json_of(preview.bricks)},
+            {"bytes", json_of(preview.bytes)},
+            {"extents", json_of(preview.extents)}};
+}
+
+/// "1,234", or "1,200 to 1,300".
+std::string text_of(const Bounds& bounds) {
+    if (bounds.least == bounds.most) return count_text(bounds.least);
+    return count_text(bounds.least) + " to " + count_text(bounds.most);
+}
+
+void print_preview(std::ostream& out, const SurfacePreview& preview, double tau) {
+    out << fmt::format("surface      at {}: {}, {}, {}\n", tau, counted(preview.objects, "object"), counted(preview.contours, "contour"),
+                       counted(preview.tunnels, "tunnel"));
+    out << "             voxels inside " << text_of(preview.voxels) << "; active cells " << text_of(preview.cells) << "\n";
+    out << "             points " << text_of(preview.points) << "; triangles " << text_of(preview.triangles)
+        << " (compact, without articulation points)\n";
+    out << "to be read   bytes " << text_of(preview.bytes) << " in " << text_of(preview.extents) << " reads, bricks "
+        << text_of(preview.bricks) << '\n';
 }
 
 Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
@@ -123,29 +156,41 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
     out << "analysis     " << cost_text(info, arguments.threads) << '\n';
 }
 
+[[noreturn]] void refuse_tau(const Arguments& arguments) {
+    throw Error(ErrorKind::usage, {.file = arguments.file,
+                                   .what = "--tau asks what a surface will cost, and only a store knows before it is read",
+                                   .next = "isoatlas build " + shell_word(arguments.file) + " -o FILE.atlas; or isoatlas objects --tau T"});
+}
+
 }  // namespace
 
 int run_info(const Arguments& arguments, Terminal& terminal) {
     Session session(arguments, terminal);
     VolumeInfo info;
     Values values;
+    std::optional<SurfacePreview> preview;
     if (is_atlas(arguments.file)) {
         const Atlas atlas(arguments.file);
         const std::array<double, 2> range = atlas.range();
         info = atlas.info();
         info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()));
         values = {true, range[0], range[1], 0};
+        if (arguments.tau) preview = atlas.preview(Scale(info).stored(*arguments.tau));
     } else {
+        if (arguments.tau) refuse_tau(arguments);
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
         info = reader->info();
         values = read_values(*reader, session);
     }
     if (arguments.voxel_units) info.geometry = Geometry{};
     if (arguments.json) {
-        print(terminal, to_json(info, values, cost_of_analysis(info, arguments.threads)));
+        Json json = to_json(info, values, cost_of_analysis(info, arguments.threads));
+        if (preview) json["preview"] = to_json(*preview, *arguments.tau);
+        print(terminal, json);
         return 0;
     }
     print_text(terminal, info, values, arguments);
+    if (preview) print_preview(terminal.out(), *preview, *arguments.tau);
     terminal.next("isoatlas objects " + shell_word(arguments.file) + reading_options(arguments));
     return 0;
 }

@@ -59,7 +59,7 @@ std::string extract_command(const Arguments& arguments, std::int64_t id, const s
 
 // The table: objects at their own best isovalues.
 
-Json entry_json(const ObjectEntry& entry, const Volume& volume, const Scale& scale) {
+Json entry_json(const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
     Json json{{"id", entry.id}, {"event", entry.event}};
     json["appears"] = number(scale.reported(entry.appears));
     json["merges"] = number(scale.reported(entry.merges));
@@ -71,40 +71,41 @@ Json entry_json(const ObjectEntry& entry, const Volume& volume, const Scale& sca
     json["cavities"] = entry.cavities;
     json["voxels"] = entry.voxels;
     json["measure"] = entry.measure;
-    json["hypervolume"] = entry.hypervolume * volume.info.calibration.slope;
+    json["hypervolume"] = entry.hypervolume * info.calibration.slope;
     json["position"] = entry.position;
-    json["position_physical"] = to_physical(volume.info.geometry, entry.position);
+    json["position_physical"] = to_physical(info.geometry, entry.position);
     json["note"] = entry.note;
     return json;
 }
 
-void print_table_json(Terminal& terminal, const Volume& volume, const Analysis& analysis, const ObjectTable& table) {
-    const Scale scale(volume.info);
-    Json head = document("objects", volume.info, analysis.interpolant(), analysis.tunnel_height());
+void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table) {
+    const VolumeInfo& info = source.info();
+    const Scale scale(info);
+    Json head = document("objects", info, source.interpolant(), source.tunnel_height());
     head["tau"] = nullptr;
     head["branches"] = table.branches;
-    head["noise"] = table.noise * volume.info.calibration.slope;
+    head["noise"] = table.noise * info.calibration.slope;
+    add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
-          [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], volume, scale); });
+          [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], info, scale); });
 }
 
-std::string best_tau_text(const ObjectEntry& entry, const Analysis& analysis, const Scale& scale) {
-    const ZoneRange zone = analysis.event(entry.event).zone;
-    return scale.text_within(entry.best_tau, zone.tau_low, zone.tau_high);
+std::string best_tau_text(const ObjectEntry& entry, const Scale& scale) {
+    return scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high);
 }
 
-void tell_table(Terminal& terminal, const VolumeInfo& info, const Analysis& analysis, const ObjectTable& table) {
+void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
+    const VolumeInfo& info = source.info();
     const auto lines = static_cast<std::int64_t>(table.entries.size());
     const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * info.calibration.slope) : "";
     terminal.say(fmt::format("{} in all; {} to look at, some objects at several isovalues{}; {}",
                              counted(table.branches, "maximum", "maxima"), counted(lines, "line"), noise,
-                             interpolant_text(info, analysis.interpolant(), analysis.tunnel_height())));
+                             interpolant_text(info, source.interpolant(), source.tunnel_height())));
 }
 
-void print_table_text(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis,
-                      const ObjectTable& table) {
-    const Scale scale(volume.info);
-    const Sizes sizes(volume.info, largest_measure(table.entries));
+void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, const ObjectTable& table) {
+    const Scale scale(source.info());
+    const Sizes sizes(source.info(), largest_measure(table.entries));
     std::vector<Table::Column> columns{{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
     sizes.add_titles(columns);
     columns.push_back({"note", true});
@@ -112,30 +113,28 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, const Volu
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
         std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
-                                     scale.brief(entry.merges), best_tau_text(entry, analysis, scale)};
+                                     scale.brief(entry.merges), best_tau_text(entry, scale)};
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
         row.push_back(entry.note);
         text.add(row);
     }
-    tell_table(terminal, volume.info, analysis, table);
+    tell_table(terminal, source, table);
     text.print(terminal);
     if (table.entries.empty()) {
         terminal.say("nothing rises above the noise; --all lists everything");
         return;
     }
-    terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], analysis, scale)));
+    terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], scale)));
 }
 
 int list_best(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
-    const Analysis analysis = source.analysis(true);
-    const Volume& volume = source.volume();
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
-    const ObjectTable table = rank_objects(volume, analysis, {.top = top, .gate = !arguments.all}, source.context());
+    const ObjectTable table = source.objects({.top = top, .gate = !arguments.all});
     if (arguments.json) {
-        print_table_json(terminal, volume, analysis, table);
+        print_table_json(terminal, source, table);
     } else {
-        print_table_text(terminal, arguments, volume, analysis, table);
+        print_table_text(terminal, arguments, source, table);
     }
     return 0;
 }

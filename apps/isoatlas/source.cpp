@@ -74,15 +74,24 @@ double Source::tau() {
 
 Cut Source::cut(double tau, bool label) {
     const CutOptions options{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = label};
-    if (atlas_ && !arguments_.voxel_units) return atlas_->cut(tau, options, context());
+    if (atlas_ && !arguments_.voxel_units) return atlas_->cut(tau, options, context(), &cost_);
     return isoatlas::cut(volume(), tau, options, context());
 }
 
 Surface Source::extract(double tau, ExtractOptions options) {
     options.interpolant = interpolant();
     options.tunnel_height = tunnel_height();
-    if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context());
+    if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context(), &cost_);
     return isoatlas::extract(volume(), tau, options, context());
+}
+
+ObjectTable Source::objects(const RankOptions& options) {
+    if (!atlas_) return rank_objects(volume(), analysis(true), options, context());
+    ObjectTable table = atlas_->objects(options, context());
+    for (ObjectEntry& entry : table.entries) {
+        if (arguments_.voxel_units) entry.measure = static_cast<double>(entry.voxels);
+    }
+    return table;
 }
 
 Analysis Source::analysis(bool with_zones) {
@@ -92,7 +101,14 @@ Analysis Source::analysis(bool with_zones) {
 
 const Volume& Source::volume() {
     if (!volume_) {
+        const AtlasReads before = atlas_->reads();
         volume_ = atlas_->volume(context());
+        const AtlasReads after = atlas_->reads();
+        QueryCost whole;
+        whole.bytes = after.bytes - before.bytes, whole.extents = after.extents - before.extents,
+        whole.bricks = after.bricks - before.bricks;
+        whole.cells_loaded = whole.cells_visited = info_.extent.voxels();
+        cost_ += whole;
         volume_->info = info_;
         volume_ = shaped(std::move(*volume_), arguments_, context());
         info_ = volume_->info;
@@ -100,6 +116,6 @@ const Volume& Source::volume() {
     return *volume_;
 }
 
-std::optional<AtlasReads> Source::reads() const { return atlas_ ? std::optional(atlas_->reads()) : std::nullopt; }
+std::optional<QueryCost> Source::reads() const { return atlas_ ? std::optional(cost_) : std::nullopt; }
 
 }  // namespace isoatlas::cli

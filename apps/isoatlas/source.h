@@ -32,13 +32,15 @@ public:
     [[nodiscard]] Cut cut(double tau, bool label);
     /// options: interpolant and tunnel height are those of the source.
     [[nodiscard]] Surface extract(double tau, ExtractOptions options);
+    /// The table of objects.
+    [[nodiscard]] ObjectTable objects(const RankOptions& options);
     /// The trees. with_zones: zone(voxel) will be asked.
     [[nodiscard]] Analysis analysis(bool with_zones);
     /// All samples.
     [[nodiscard]] const Volume& volume();
 
     /// What has been read of a store, for the JSON documents; nothing for a volume file.
-    [[nodiscard]] std::optional<AtlasReads> reads() const;
+    [[nodiscard]] std::optional<QueryCost> reads() const;
 
 private:
     const Arguments& arguments_;
@@ -46,6 +48,7 @@ private:
     std::optional<Atlas> atlas_;
     std::optional<Volume> volume_;
     std::optional<ValueRange> range_;
+    QueryCost cost_;
     VolumeInfo info_;
 };
 

@@ -10,7 +10,7 @@ const std::vector<Verb>& verbs() {
          "VOLUME",
          "Say what a file is and what an analysis would cost.",
          {"isoatlas info scan.nii.gz", "isoatlas info head.raw --dims 256x256x128 --type uint16 --endian big",
-          "isoatlas info scan.nrrd --json"},
+          "isoatlas info scan.nrrd --json", "isoatlas info scan.atlas --tau 300"},
          run_info},
         {"objects",
          "VOLUME",

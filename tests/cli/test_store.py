@@ -28,7 +28,12 @@ class Stores(harness.CliTest):
             self.run_ok("extract", "noise.nrrd", *options, "-o", "volume.ply")
             told = self.run_json("extract", "noise.atlas", *options, "-o", "store.ply")
             self.assertEqual(self.read("volume.ply"), self.read("store.ply"), options)
-            self.assertGreater(told["reads"]["bytes"], 0)
+            reads = told["reads"]
+            self.assertGreater(reads["bytes"], 0)
+            self.assertGreaterEqual(reads["cells_visited"], reads["cells_loaded"])
+            self.assertGreater(reads["cells_active"], 0)
+            self.assertEqual(reads["load_utility"], reads["cells_active"] / reads["cells_loaded"])
+            self.assertEqual(reads["travel_utility"], reads["cells_active"] / reads["cells_visited"])
         for name, options in (("l.nrrd", ["--tau", "31"]), ("z.nrrd", ["--zones"])):
             self.run_ok("label", "noise.nrrd", *options, "-o", "volume-" + name)
             self.run_ok("label", "noise.atlas", *options, "-o", "store-" + name)
@@ -37,7 +42,7 @@ class Stores(harness.CliTest):
             self.run_ok("tree", "noise.nrrd", "--detail", detail, "-o", "volume.csv")
             self.run_ok("tree", "noise.atlas", "--detail", detail, "-o", "store.csv")
             self.assertEqual(self.read("volume.csv"), self.read("store.csv"), detail)
-        for options in (["--tau", "31"], []):
+        for options in (["--tau", "31"], [], ["--top", "3"], ["--all"], ["--voxel"]):
             one = self.run_json("objects", "noise.nrrd", *options)
             other = self.run_json("objects", "noise.atlas", *options)
             self.assertEqual(one["objects"], other["objects"])
@@ -54,6 +59,21 @@ class Stores(harness.CliTest):
         self.assertLessEqual({"checksums_are_right", "bricks_hold_active_cells", "join_tree_is_valid", "objects_equal_volume", "tree_equals_cut",
                               "surface_is_manifold", "stored_tree_equals_analysis", "zones_partition_voxels"}, names)
         self.assertIn("seed 5", self.run_ok("verify", "noise.atlas", "--levels", "1", "--seed", "5").stdout.splitlines()[-1])
+
+    def test_preview(self):
+        preview = self.run_json("info", "noise.atlas", "--tau", "31")["preview"]
+        found = self.run_json("objects", "noise.atlas", "--tau", "31")
+        self.assertEqual(preview["objects"], found["object_count"])
+        self.assertEqual(preview["contours"], found["contour_count"])
+        self.assertEqual(preview["active_cells"], {"least": found["active_cells"], "most": found["active_cells"]})
+        voxels = sum(entry["voxels"] for entry in found["objects"])
+        self.assertEqual(preview["voxels"], {"least": voxels, "most": voxels})
+        reads = self.run_json("extract", "noise.atlas", "--tau", "31", "-o", "x.ply")["reads"]
+        for name in ("bytes", "extents", "bricks"):
+            self.assertLessEqual(preview[name]["least"], reads[name])
+            self.assertGreaterEqual(preview[name]["most"], reads[name])
+        self.assertIn("to be read", self.run_ok("info", "noise.atlas", "--tau", "31").stdout)
+        self.run_error(2, "info", "noise.nrrd", "--tau", "31", next_says="build")
 
     def test_damage_is_found(self):
         whole = bytearray(self.read("noise.atlas"))
