@@ -2,8 +2,8 @@
 
 #include <atomic>
 
+#include "field/slab_work.h"
 #include "mesh/layout.h"
-#include "query/slab_work.h"
 
 namespace isoatlas {
 namespace {
