@@ -76,7 +76,7 @@ public:
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
-            analysis = has_table(volume) ? analyse(volume, options) : find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
+            analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
             store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
@@ -84,15 +84,15 @@ public:
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = has_table(volume) ? analyse(volume, options) : store::arcs_of(*trees);
-            std::vector<store::PackedArray> table;
-            if (has_table(volume)) {
-                table = object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries}));
-                release_zones(*analysis);
-            }
-            count_voxels(*analysis, volume, shifted(context_, 1, volume.info->extent));
+            if (!analysis) analysis = store::arcs_of(*trees);
+            const Context part = shifted(context_, 1, volume.info->extent);
+            count_voxels(*analysis, volume, part);
             std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
-            for (store::PackedArray& array : table) arrays.push_back(std::move(array));
+            if (analysis->element_count() <= kTableElements) {
+                complete(*analysis, volume, part);
+                for (store::PackedArray& array : object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries})))
+                    arrays.push_back(std::move(array));
+            }
             store::pack_store(folder_.file(kZones), contents, arrays);
             zones = std::make_unique<store::Container>(folder_.file(kZones));
         }
@@ -103,15 +103,6 @@ public:
     }
 
 private:
-    /// Ranking objects takes zones of voxels and all trees: random access to more than fits where memory is short. What is in the store
-    /// must not depend on the memory, so the size decides.
-    static bool has_table(const VolumeView& volume) { return volume.info->extent.voxels() <= kTableVoxels; }
-
-    [[nodiscard]] Analysis analyse(const VolumeView& volume, AnalysisOptions options) const {
-        options.zones = true;
-        return analyse_view(volume, options, shifted(context_, 1, volume.info->extent));
-    }
-
     void pack(const VolumeView& volume, const store::Contents& contents, const std::vector<const store::Container*>& phases) {
         std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context_);
         for (const store::Container* phase : phases) {

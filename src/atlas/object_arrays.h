@@ -16,8 +16,9 @@
 
 namespace isoatlas {
 
-/// Of volumes of at most so many voxels the table is stored.
-inline constexpr std::int64_t kTableVoxels = std::int64_t{1} << 24;
+/// The table is stored when there are at most so many critical elements: ranking takes all trees at once, with random access. The bytes of
+/// a store must not depend on the memory it was built in, so their number decides.
+inline constexpr std::int64_t kTableElements = std::int64_t{1} << 22;
 /// At most so many entries are stored.
 inline constexpr std::int64_t kStoredEntries = 1024;
 

@@ -8,6 +8,7 @@
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
 #include "critical/parted_domain.h"
+#include "critical/tiled_basins.h"
 #include "field/slab_work.h"
 #include "tree/assemble.h"
 #include "zones/analysis_data.h"
@@ -118,16 +119,19 @@ void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& c
     context.report("zones", 4, kPhases, 1);
 }
 
+void complete(Analysis& analysis, const VolumeView& volume, const Context& context) {
+    visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        const GridView<T> grid{samples.data(), volume.info->extent};
+        analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
+            ISOATLAS_CHECK(restore_trees(held.arrays, grid.extent.rank, context.threads));
+            held.arrays.zone = tiled_basins<T, Id>(grid, {}, tiling_for(grid.extent, context), context).maximum;
+            make_zones(grid, held.arrays, context);
+        });
+    });
+}
+
 Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Context& context) {
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
-    return analyse_view(volume, options, context);
-}
-
-void release_zones(Analysis& analysis) {
-    analysis.data().visit([](auto& held) { release(held.arrays.zone); });
-}
-
-Analysis analyse_view(const VolumeView& volume, const AnalysisOptions& options, const Context& context) {
     Analysis analysis =
         analyse_with(volume, options, context, [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays) {
             make_trees(critical_set(grid, std::move(scan), arrays, context), arrays, context.threads);

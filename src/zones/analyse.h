@@ -13,9 +13,8 @@ namespace isoatlas {
 /// Counts the voxels of every critical element: needs value and code.
 void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& context);
 
-/// analyse() for samples that lie anywhere.
-[[nodiscard]] Analysis analyse_view(const VolumeView& volume, const AnalysisOptions& options, const Context& context);
-/// Forgets the zones of voxels.
-void release_zones(Analysis& analysis);
+/// Makes a whole analysis of value, code and arcs: the trees, and the zone of every voxel. Cost: restore_trees(), the links and basins of
+/// all voxels; random access to what is proportional to the critical elements.
+void complete(Analysis& analysis, const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas
