@@ -22,7 +22,7 @@ struct IoCounters {
 template <class T>
 class BrickReader {
 public:
-    /// Reads what there is about every brick: 21 bytes and two samples each. Throws Error{input} when it contradicts itself.
+    /// Reads what there is about every brick: 22 bytes and two samples each. Throws Error{input} when it contradicts itself.
     explicit BrickReader(const Container& store);
 
     [[nodiscard]] const BrickGrid& grid() const { return grid_; }
@@ -47,7 +47,7 @@ private:
         std::size_t first, last;  ///< of the list
         std::int64_t begin, end;  ///< bytes in volume/data
     };
-    [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const;
+    [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
     [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks) const;
     [[nodiscard]] std::int64_t voxel_at(std::int64_t brick, std::int64_t place) const;
     void decode(std::int64_t brick, std::span<const std::byte> packed,
@@ -57,7 +57,7 @@ private:
     const StoredArray& data_;
     BrickGrid grid_;
     std::vector<std::uint64_t> offset_, sums_;
-    std::vector<std::uint8_t> bits_;
+    std::vector<std::uint16_t> bytes_;
     std::vector<T> low_, high_;
     std::vector<std::uint16_t> lowest_, highest_;
 };
