@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "isoatlas/error.h"
-#include "store/brick_codec.h"
 #include "store/brick_reader.h"
 #include "store/checksum.h"
 #include "store/container.h"
@@ -146,7 +145,7 @@ struct StoreDump::Data {
         part.first_voxel = box.begin;
         const StoredArray &data = store.contents().array("volume/data", "uint8"),
                           &offset = store.contents().array("volume/offset", "uint64"),
-                          &bits = store.contents().array("volume/bits", "uint8");
+                          &bytes = store.contents().array("volume/bytes", "uint16");
         const auto begin = number_of<std::uint64_t>(offset, brick);
         if (begin > static_cast<std::uint64_t>(data.bytes())) {
             throw Error(ErrorKind::input, {.file = store.path(),
@@ -155,7 +154,7 @@ struct StoreDump::Data {
                                            .next = "the store is damaged: build it again from the volume"});
         }
         part.offset = data.offset + static_cast<std::int64_t>(begin);
-        part.bytes = store::packed_bytes(box.count(), number_of<std::uint8_t>(bits, brick));
+        part.bytes = number_of<std::uint16_t>(bytes, brick);
         return part;
     }
 

@@ -1,108 +1,194 @@
 #include "store/brick_codec.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-#include <type_traits>
+#include <array>
+#include <concepts>
+
+#include "store/bit_groups.h"
+#include "store/float_units.h"
+#include "store/sample_keys.h"
 
 namespace isoatlas::store {
 namespace {
 
-template <std::size_t Bytes>
-using Unsigned =
-    std::conditional_t<Bytes == 1, std::uint8_t,
-                       std::conditional_t<Bytes == 2, std::uint16_t, std::conditional_t<Bytes == 4, std::uint32_t, std::uint64_t>>>;
+enum class Kind : std::uint8_t { keys = 0, exact_units = 1, units_with_tails = 2 };
 
-/// An integer of the same order; every bit counts, so -0.0 and 0.0 differ.
-template <class T>
-Unsigned<sizeof(T)> key_of(T sample) {
-    using Key = Unsigned<sizeof(T)>;
-    constexpr Key kSign = static_cast<Key>(Key{1} << (8 * sizeof(T) - 1));
-    const Key bits = std::bit_cast<Key>(sample);
-    if constexpr (std::is_unsigned_v<T>) return bits;
-    if constexpr (std::is_integral_v<T>) return static_cast<Key>(bits ^ kSign);
-    return bits & kSign ? static_cast<Key>(~bits) : static_cast<Key>(bits | kSign);
-}
+/// The first byte of a brick.
+struct Head {
+    Kind kind = Kind::keys;
+    Orders orders{0, 0, 0};
 
-template <class T>
-T sample_of(Unsigned<sizeof(T)> key) {
-    using Key = Unsigned<sizeof(T)>;
-    constexpr Key kSign = static_cast<Key>(Key{1} << (8 * sizeof(T) - 1));
-    if constexpr (std::is_unsigned_v<T>) return key;
-    if constexpr (std::is_integral_v<T>) return std::bit_cast<T>(static_cast<Key>(key ^ kSign));
-    return std::bit_cast<T>(key & kSign ? static_cast<Key>(key & ~kSign) : static_cast<Key>(~key));
-}
-
-/// Bits [first, first + bits) of packed, as far as they are there. bits <= 64.
-std::uint64_t bits_at(std::span<const std::byte> packed, std::size_t first, int bits) {
-    const std::size_t byte = first / 8;
-    const int skip = static_cast<int>(first % 8);
-    std::uint64_t low = 0;
-    std::memcpy(&low, packed.data() + byte, std::min<std::size_t>(8, packed.size() - byte));
-    low >>= skip;
-    if (skip + bits > 64 && byte + 8 < packed.size()) low |= static_cast<std::uint64_t>(packed[byte + 8]) << (64 - skip);
-    return bits == 64 ? low : low & ((std::uint64_t{1} << bits) - 1);
-}
-
-/// The samples that 8 bytes from their first one on contain whole.
-template <class T>
-std::size_t decode_inner(std::span<const std::byte> packed, Unsigned<sizeof(T)> low, int bits, std::span<T> samples) {
-    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    std::size_t i = 0, position = 0;
-    for (; i < samples.size() && position / 8 + 8 <= packed.size(); ++i, position += static_cast<std::size_t>(bits)) {
-        std::uint64_t word;
-        std::memcpy(&word, packed.data() + position / 8, 8);
-        samples[i] = sample_of<T>(static_cast<Unsigned<sizeof(T)>>(low + (word >> position % 8 & mask)));
+    [[nodiscard]] std::uint8_t byte() const {
+        return static_cast<std::uint8_t>(static_cast<int>(kind) << 6 | orders[2] << 4 | orders[1] << 2 | orders[0]);
     }
-    return i;
+    static Head of(std::uint8_t byte) { return {static_cast<Kind>(byte >> 6), {byte & 3, byte >> 2 & 3, byte >> 4 & 3}}; }
+    [[nodiscard]] bool is_known() const { return static_cast<int>(kind) < 3 && std::ranges::max(orders) < 3; }
+};
+
+/// The numbers of a brick, and zeros behind them up to whole groups.
+template <class N>
+struct Numbers {
+    std::array<N, kMostBrickSamples> of;
+    std::size_t size, padded;
+
+    explicit Numbers(std::size_t count) : size(count), padded((count + kGroup - 1) / kGroup * kGroup) {
+        std::fill(of.begin() + static_cast<std::ptrdiff_t>(size), of.begin() + static_cast<std::ptrdiff_t>(padded), N{0});
+    }
+    [[nodiscard]] std::span<N> samples() { return {of.data(), size}; }
+    [[nodiscard]] std::span<N> groups() { return {of.data(), padded}; }
+};
+
+template <class T>
+void fill_keys(std::span<const T> samples, T low, std::span<Key<T>> keys) {
+    const Key<T> least = key_of(low);
+    std::transform(samples.begin(), samples.end(), keys.begin(), [least](T s) { return static_cast<Key<T>>(key_of(s) - least); });
+}
+
+template <class T>
+void fill_units(std::span<const T> samples, T low, const Units& units, std::span<Key<T>> numbers) {
+    const Key<T> least = in_units(low, units);
+    std::transform(samples.begin(), samples.end(), numbers.begin(), [&](T s) { return static_cast<Key<T>>(in_units(s, units) - least); });
+}
+
+template <class N>
+Numbers<N> arranged(const Numbers<N>& numbers, const BoxSize& size, const Orders& orders) {
+    Numbers<N> differences(numbers), result(numbers.size);
+    take_differences<N>(differences.samples(), size, orders);
+    arrange<N>(differences.samples(), size, orders, result.samples());
+    return result;
+}
+
+template <class N>
+BrickCode cost(const Numbers<N>& numbers, const BoxSize& size, const Head& head) {
+    return {head.byte(), 1 + group_bytes<N>(arranged(numbers, size, head.orders).groups())};
+}
+
+/// Goes through the axes once and keeps the best order of each.
+template <class N>
+BrickCode best_orders(const Numbers<N>& numbers, const BoxSize& size, Kind kind) {
+    Head head{kind, {1, 1, 1}};
+    BrickCode best = cost(numbers, size, head);
+    for (int axis = 2; axis >= 0; --axis) {
+        for (const int order : {2, 0}) {
+            head = Head::of(best.head);
+            if (order == 0 && head.orders[axis] == 2) continue;  // rough and smooth at once?
+            head.orders[axis] = order;
+            const BrickCode code = cost(numbers, size, head);
+            if (code.bytes < best.bytes) best = code;
+        }
+    }
+    return best;
+}
+
+template <class T>
+std::optional<BrickCode> best_in_units(std::span<const T> samples, const BoxSize& size, T low, Numbers<Key<T>>& numbers) {
+    const std::optional<Units> units = units_of(samples);
+    if (!units) return std::nullopt;
+    fill_units<T>(samples, low, *units, numbers.samples());
+    BrickCode code = best_orders(numbers, size, units->exact ? Kind::exact_units : Kind::units_with_tails);
+    code.bytes += 2;
+    if (!units->exact) code.bytes += (tail_bits(samples, *units) + 7) / 8;
+    return code;
+}
+
+void append_exponent(int exponent, std::vector<std::byte>& out) {
+    out.push_back(static_cast<std::byte>(exponent & 0xff));
+    out.push_back(static_cast<std::byte>(exponent >> 8 & 0xff));
+}
+
+int take_exponent(std::span<const std::byte>& packed) {
+    const int bits = static_cast<int>(packed[0]) | static_cast<int>(packed[1]) << 8;
+    packed = packed.subspan(2);
+    return bits >= 1 << 15 ? bits - (1 << 16) : bits;
+}
+
+template <class N>
+bool take_numbers(std::span<const std::byte>& packed, const BoxSize& size, const Orders& orders, N low, Numbers<N>& numbers) {
+    Numbers<N> stored(numbers.size);
+    if (!unpack_groups<N>(packed, stored.groups())) return false;
+    disarrange<N>(stored.samples(), size, orders, numbers.samples());
+    undo_differences<N>(numbers.samples(), size, orders);
+    for (N& number : numbers.samples()) number = static_cast<N>(number + low);
+    return true;
+}
+
+template <std::floating_point T>
+bool decode_units(std::span<const std::byte> packed, const BoxSize& size, T low, const Head& head, std::span<T> samples) {
+    if (packed.size() < 2) return false;
+    const Units units{take_exponent(packed), head.kind == Kind::exact_units};
+    Numbers<Key<T>> numbers(samples.size());
+    if (!take_numbers(packed, size, head.orders, in_units(low, units), numbers)) return false;
+    if (!units.exact) return join_tails<T>(numbers.samples(), packed, units, samples);
+    from_units<T>(numbers.samples(), units, samples);
+    return packed.empty();
+}
+
+template <class T>
+bool decode_keys(std::span<const std::byte> packed, const BoxSize& size, T low, const Head& head, std::span<T> samples) {
+    Numbers<Key<T>> numbers(samples.size());
+    if (!take_numbers(packed, size, head.orders, key_of(low), numbers)) return false;
+    const std::span<const Key<T>> keys = numbers.samples();
+    std::transform(keys.begin(), keys.end(), samples.begin(), sample_of<T>);
+    return packed.empty();
 }
 
 }  // namespace
 
 template <class T>
 std::pair<T, T> extremes_of(std::span<const T> samples) {
-    Unsigned<sizeof(T)> low = key_of(samples.front()), high = low;
+    Key<T> low = key_of(samples.front()), high = low;
     for (const T sample : samples) low = std::min(low, key_of(sample)), high = std::max(high, key_of(sample));
     return {sample_of<T>(low), sample_of<T>(high)};
 }
 
 template <class T>
-int bits_of_range(T low, T high) {
-    return static_cast<int>(std::bit_width(static_cast<Unsigned<sizeof(T)>>(key_of(high) - key_of(low))));
+BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low) {
+    Numbers<Key<T>> numbers(samples.size());
+    std::optional<BrickCode> code;
+    if constexpr (std::floating_point<T>) code = best_in_units(samples, size, low, numbers);
+    fill_keys(samples, low, numbers.samples());
+    const BrickCode plain = best_orders(numbers, size, Kind::keys);
+    return code && code->bytes < plain.bytes ? *code : plain;
 }
 
 template <class T>
-void encode_brick(std::span<const T> samples, T low, int bits, std::vector<std::byte>& out) {
-    const std::size_t begin = out.size();
-    out.resize(begin + static_cast<std::size_t>(packed_bytes(static_cast<std::int64_t>(samples.size()), bits)));
-    std::size_t position = 8 * begin;
-    for (const T sample : samples) {
-        std::uint64_t rest = static_cast<Unsigned<sizeof(T)>>(key_of(sample) - key_of(low));
-        for (int left = bits; left > 0;) {
-            const int skip = static_cast<int>(position % 8), taken = std::min(8 - skip, left);
-            out[position / 8] |= static_cast<std::byte>((rest << skip) & 0xff);
-            rest >>= taken;
-            left -= taken;
-            position += static_cast<std::size_t>(taken);
-        }
+void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::uint8_t first, std::vector<std::byte>& out) {
+    const Head head = Head::of(first);
+    Numbers<Key<T>> numbers(samples.size());
+    out.push_back(static_cast<std::byte>(first));
+    if (head.kind == Kind::keys) {
+        fill_keys(samples, low, numbers.samples());
+        pack_groups<Key<T>>(arranged(numbers, size, head.orders).groups(), out);
+        return;
+    }
+    if constexpr (std::floating_point<T>) {
+        const Units units = units_of(samples).value();
+        append_exponent(units.exponent, out);
+        fill_units(samples, low, units, numbers.samples());
+        pack_groups<Key<T>>(arranged(numbers, size, head.orders).groups(), out);
+        if (!units.exact) append_tails(samples, units, out);
     }
 }
 
 template <class T>
-void decode_brick(std::span<const std::byte> packed, T low, int bits, std::span<T> samples) {
-    const Unsigned<sizeof(T)> base = key_of(low);
-    std::size_t i = bits <= 56 ? decode_inner<T>(packed, base, bits, samples) : 0;
-    for (; i < samples.size(); ++i) {
-        const std::uint64_t above = bits == 0 ? 0 : bits_at(packed, i * static_cast<std::size_t>(bits), bits);
-        samples[i] = sample_of<T>(static_cast<Unsigned<sizeof(T)>>(base + above));
+bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low, std::span<T> samples) {
+    if (packed.empty()) {
+        std::fill(samples.begin(), samples.end(), low);
+        return true;
     }
+    const Head head = Head::of(static_cast<std::uint8_t>(packed.front()));
+    packed = packed.subspan(1);
+    if (!head.is_known()) return false;
+    if (head.kind == Kind::keys) return decode_keys(packed, size, low, head, samples);
+    if constexpr (std::floating_point<T>) return decode_units(packed, size, low, head, samples);
+    return false;
 }
 
-#define ISOATLAS_INSTANTIATE(T)                                                         \
-    template std::pair<T, T> extremes_of<T>(std::span<const T>);                        \
-    template int bits_of_range<T>(T, T);                                                \
-    template void encode_brick<T>(std::span<const T>, T, int, std::vector<std::byte>&); \
-    template void decode_brick<T>(std::span<const std::byte>, T, int, std::span<T>)
+#define ISOATLAS_INSTANTIATE(T)                                                                                  \
+    template std::pair<T, T> extremes_of<T>(std::span<const T>);                                                 \
+    template BrickCode choose_code<T>(std::span<const T>, const BoxSize&, T);                                    \
+    template void encode_brick<T>(std::span<const T>, const BoxSize&, T, std::uint8_t, std::vector<std::byte>&); \
+    template bool decode_brick<T>(std::span<const std::byte>, const BoxSize&, T, std::span<T>)
 ISOATLAS_INSTANTIATE(std::uint8_t);
 ISOATLAS_INSTANTIATE(std::int8_t);
 ISOATLAS_INSTANTIATE(std::uint16_t);

@@ -1,6 +1,12 @@
-// One brick of samples as a row of bits: every sample minus the lowest one, in as many bits as the highest needs (frame of reference).
+// One brick of samples in few bytes: differences of whole numbers, in groups of as many bits as they need. Nothing is lost.
 //
-// Floats are mapped to integers of the same order first (field/order.h). Decoding gives the same bits. Constant bricks take no room.
+//   1 byte    orders of the differences along x, y, z (differences.h), two bits each; 64 or 128 more for floats in units
+//   2 bytes   floats in units only: exponent of the unit (float_units.h), as int16
+//   groups    (bit_groups.h) the differences, arranged (differences.h), zeros behind them to a multiple of 8
+//   tails     floats in units with 128 in the first byte only (float_units.h)
+//
+// The numbers are those of the samples above that of the lowest one, which must be known from elsewhere: keys of the same order
+// (sample_keys.h), or floats in units. A constant brick has no bytes.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +15,33 @@
 #include <utility>
 #include <vector>
 
+#include "store/differences.h"
+
 namespace isoatlas::store {
 
-/// The lowest and the highest of some samples, -0.0 below 0.0. T: a sample type.
+inline constexpr std::int64_t kMostBrickSamples = 4096;
+
+/// The lowest and the highest of some samples, -0.0 below 0.0. T: a sample type, here and below.
 template <class T>
 [[nodiscard]] std::pair<T, T> extremes_of(std::span<const T> samples);
 
-/// Bits of a sample of a brick with these extremes.
-template <class T>
-[[nodiscard]] int bits_of_range(T low, T high);
+/// How a brick is coded.
+struct BrickCode {
+    std::uint8_t head = 0;  ///< its first byte
+    std::int64_t bytes = 0;
+};
 
-/// Bytes of `count` samples of so many bits.
-[[nodiscard]] constexpr std::int64_t packed_bytes(std::int64_t count, int bits) { return (count * bits + 7) / 8; }
-
-/// Appends the samples; low is the lowest of them.
+/// A small code for samples of a box, x fastest, at most kMostBrickSamples, not constant. Cost: about ten codings.
 template <class T>
-void encode_brick(std::span<const T> samples, T low, int bits, std::vector<std::byte>& out);
+[[nodiscard]] BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low);
 
-/// Inverse. packed.size() == packed_bytes(samples.size(), bits); bits <= 8 * sizeof(T). Any bytes give some samples.
+/// Appends the samples with a code that was chosen for them; low is the lowest of them.
 template <class T>
-void decode_brick(std::span<const std::byte> packed, T low, int bits, std::span<T> samples);
+void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::uint8_t head, std::vector<std::byte>& out);
+
+/// Inverse. Returns whether `packed` is a brick of that size and nothing more; any bytes are safe. Samples of a packed brick of no bytes
+/// are all low.
+template <class T>
+[[nodiscard]] bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low, std::span<T> samples);
 
 }  // namespace isoatlas::store

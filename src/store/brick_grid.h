@@ -15,6 +15,7 @@ inline constexpr std::int64_t kBrickSide = 16;
 struct Box {
     std::array<std::int64_t, 3> begin, end;
     [[nodiscard]] std::int64_t size(int axis) const { return end[axis] - begin[axis]; }
+    [[nodiscard]] std::array<std::int64_t, 3> size() const { return {size(0), size(1), size(2)}; }
     [[nodiscard]] std::int64_t count() const { return size(0) * size(1) * size(2); }
 };
 

@@ -34,28 +34,22 @@ BrickReader<T>::BrickReader(const Container& store)
       grid_(store.contents().volume.extent),
       offset_(store.all<std::uint64_t>("volume/offset", "uint64")),
       sums_(store.all<std::uint64_t>("volume/checksum", "uint64")),
-      bits_(store.all<std::uint8_t>("volume/bits", "uint8")),
+      bytes_(store.all<std::uint16_t>("volume/bytes", "uint16")),
       low_(store.all<T>("volume/low", name_of(value_type_of<T>))),
       high_(store.all<T>("volume/high", name_of(value_type_of<T>))),
       lowest_(store.all<std::uint16_t>("volume/lowest", "uint16")),
       highest_(store.all<std::uint16_t>("volume/highest", "uint16")) {
     const auto count = static_cast<std::size_t>(grid_.count());
-    if (offset_.size() != count || sums_.size() != count || bits_.size() != count || low_.size() != count || high_.size() != count ||
+    if (offset_.size() != count || sums_.size() != count || bytes_.size() != count || low_.size() != count || high_.size() != count ||
         lowest_.size() != count || highest_.size() != count)
         damaged(store, 0, "the numbers of bricks do not agree");
     for (std::int64_t brick = 0; brick < grid_.count(); ++brick) {
         const auto i = static_cast<std::size_t>(brick);
         const auto bytes = static_cast<std::uint64_t>(data_.bytes());
-        if (bits_[i] > 8 * sizeof(T) || offset_[i] > bytes || static_cast<std::uint64_t>(bytes_of(brick)) > bytes - offset_[i])
-            damaged(store, brick, "it lies outside the data");
+        if (offset_[i] > bytes || bytes_[i] > bytes - offset_[i]) damaged(store, brick, "it lies outside the data");
         const std::int64_t samples = grid_.box(brick).count();
         if (lowest_[i] >= samples || highest_[i] >= samples) damaged(store, brick, "its extremes lie outside");
     }
-}
-
-template <class T>
-std::int64_t BrickReader<T>::bytes_of(std::int64_t brick) const {
-    return packed_bytes(grid_.box(brick).count(), bits_[static_cast<std::size_t>(brick)]);
 }
 
 template <class T>
@@ -86,8 +80,9 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
     const auto i = static_cast<std::size_t>(brick);
     if (checksum(packed) != sums_[i]) damaged(store_, brick, "its checksum is wrong");
     std::array<T, kBrickSide * kBrickSide * kBrickSide> samples;
-    const std::span<T> box(samples.data(), static_cast<std::size_t>(grid_.box(brick).count()));
-    decode_brick<T>(packed, low_[i], bits_[i], box);
+    const BoxSize size = grid_.box(brick).size();
+    const std::span<T> box(samples.data(), static_cast<std::size_t>(size[0] * size[1] * size[2]));
+    if (!decode_brick<T>(packed, size, low_[i], box)) damaged(store_, brick, "it is not coded as it should be");
     if (box[lowest_[i]] != low_[i] || box[highest_[i]] != high_[i]) damaged(store_, brick, kWrongExtremes);
     sink(brick, box);
 }

@@ -23,7 +23,7 @@ struct IoCounters {
 template <class T>
 class BrickReader {
 public:
-    /// Reads what there is about every brick: 21 bytes and two samples each. Throws Error{input} when it contradicts itself.
+    /// Reads what there is about every brick: 22 bytes and two samples each. Throws Error{input} when it contradicts itself.
     explicit BrickReader(const Container& store);
 
     [[nodiscard]] const BrickGrid& grid() const { return grid_; }
@@ -52,7 +52,7 @@ private:
         std::size_t first, last;  ///< of the list
         std::int64_t begin, end;  ///< bytes in volume/data
     };
-    [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const;
+    [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
     void sort_by_offset(std::vector<std::int64_t>& bricks) const;
     [[nodiscard]] IoCounters count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const;
     [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const;
@@ -64,7 +64,7 @@ private:
     const StoredArray& data_;
     BrickGrid grid_;
     std::vector<std::uint64_t> offset_, sums_;
-    std::vector<std::uint8_t> bits_;
+    std::vector<std::uint16_t> bytes_;
     std::vector<T> low_, high_;
     std::vector<std::uint16_t> lowest_, highest_;
 };

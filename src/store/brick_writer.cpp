@@ -10,6 +10,7 @@
 #include "store/brick_extremes.h"
 #include "store/brick_grid.h"
 #include "store/checksum.h"
+#include "store/sample_keys.h"
 
 namespace isoatlas::store {
 namespace {
@@ -36,7 +37,8 @@ struct Bricks {
     int threads;
     std::vector<std::int64_t> order;
     std::vector<std::uint64_t> offset, sums;
-    std::vector<std::uint8_t> bits;
+    std::vector<std::uint16_t> packed_bytes;
+    std::vector<std::uint8_t> heads;  ///< how a brick is coded
     std::vector<T> low, high;
     std::vector<std::uint16_t> lowest, highest;
     std::int64_t bytes = 0;
@@ -44,14 +46,15 @@ struct Bricks {
     Bricks(std::span<const T> values, const Extent& extent, int thread_count)
         : samples(values), grid(extent), threads(thread_count), order(grid.file_order()) {
         const auto count = static_cast<std::size_t>(grid.count());
-        offset.resize(count), sums.resize(count), bits.resize(count), low.resize(count), high.resize(count);
+        offset.resize(count), sums.resize(count), packed_bytes.resize(count), heads.resize(count);
+        low.resize(count), high.resize(count);
         lowest.resize(count), highest.resize(count);
         for_each_block(threads, (grid.count() + kTogether - 1) / kTogether, [this](std::int64_t block) {
             for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) measure(i);
         });
         for (const std::int64_t brick : order) {
             offset[brick] = static_cast<std::uint64_t>(bytes);
-            bytes += packed_bytes(grid.box(brick).count(), bits[brick]);
+            bytes += packed_bytes[brick];
         }
     }
 
@@ -59,23 +62,34 @@ struct Bricks {
         std::vector<T> values;
         copy_box(samples, grid.extent, grid.box(brick), values);
         std::tie(low[brick], high[brick]) = extremes_of<T>(values);
-        bits[brick] = static_cast<std::uint8_t>(bits_of_range(low[brick], high[brick]));
+        if (!is_constant(brick)) {
+            const BrickCode code = choose_code<T>(values, grid.box(brick).size(), low[brick]);
+            heads[brick] = code.head;
+            packed_bytes[brick] = static_cast<std::uint16_t>(code.bytes);
+        }
         const ExtremePlaces places = extreme_places<T>(values);
         lowest[brick] = places.lowest, highest[brick] = places.highest;
+    }
+
+    [[nodiscard]] bool is_constant(std::int64_t brick) const { return key_of(low[brick]) == key_of(high[brick]); }
+
+    void encode(std::int64_t brick, std::vector<std::byte>& packed) {
+        packed.clear();
+        if (!is_constant(brick)) {
+            std::vector<T> values;
+            const Box box = grid.box(brick);
+            copy_box(samples, grid.extent, box, values);
+            encode_brick<T>(values, box.size(), low[brick], heads[brick], packed);
+            ISOATLAS_CHECK(packed.size() == packed_bytes[brick]);
+        }
+        sums[brick] = checksum(packed);
     }
 
     void feed(const Put& put) {
         std::vector<std::vector<std::byte>> packed(kTogether);
         for (std::int64_t first = 0; first < grid.count(); first += kTogether) {
             const std::int64_t count = std::min(kTogether, grid.count() - first);
-            for_each_block(threads, count, [&](std::int64_t i) {
-                const std::int64_t brick = order[first + i];
-                std::vector<T> values;
-                copy_box(samples, grid.extent, grid.box(brick), values);
-                packed[i].clear();
-                encode_brick<T>(values, low[brick], bits[brick], packed[i]);
-                sums[brick] = checksum(packed[i]);
-            });
+            for_each_block(threads, count, [&](std::int64_t i) { encode(order[first + i], packed[i]); });
             for (std::int64_t i = 0; i < count; ++i) put(packed[i]);
         }
     }
@@ -93,7 +107,7 @@ std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& c
         };
         arrays.push_back({"volume/data", "uint8", {bricks->bytes}, 0, [bricks](const Put& put) { bricks->feed(put); }});
         add("volume/offset", "uint64", bricks->offset);
-        add("volume/bits", "uint8", bricks->bits);
+        add("volume/bytes", "uint16", bricks->packed_bytes);
         add("volume/low", name_of(volume.info->type), bricks->low);
         add("volume/high", name_of(volume.info->type), bricks->high);
         add("volume/lowest", "uint16", bricks->lowest);

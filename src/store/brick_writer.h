@@ -1,8 +1,8 @@
 // The samples of a volume as arrays of a store: volume/data and what is needed to read a brick of it.
 //
-//   volume/data      the bricks one behind the other, in file order (brick_grid.h), each in its own bits (brick_codec.h)
+//   volume/data      the bricks one behind the other, in file order (brick_grid.h), coded one by one (brick_codec.h)
 //   volume/offset    per brick: its first byte in volume/data
-//   volume/bits      per brick: bits of a sample
+//   volume/bytes     per brick: how many; none: constant
 //   volume/low,high  per brick: its extremes, in the type of the samples
 //   volume/lowest,highest   per brick: where they lie (brick_extremes.h)
 //   volume/checksum  per brick: of its bytes

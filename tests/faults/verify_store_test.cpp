@@ -10,6 +10,7 @@
 #include "isoatlas/build.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/verify.h"
+#include "store/brick_codec.h"
 #include "store/brick_grid.h"
 #include "store/checksum.h"
 #include "store/container.h"
@@ -87,18 +88,25 @@ protected:
         return text;
     }
 
-    /// Exchanges samples of brick 0 that are not its extremes, under a right checksum of its own.
+    /// Exchanges two samples of brick 0 that are not its extremes, under a right checksum of its own.
     static void change_brick(Opened& opened) {
-        const std::size_t bits = opened.numbers<std::uint8_t>("volume/bits")[0];  // so many bytes hold 8 samples
+        const std::size_t size = opened.numbers<std::uint16_t>("volume/bytes")[0];
         const auto begin = static_cast<std::size_t>(opened.numbers<std::uint64_t>("volume/offset")[0]);
-        const std::span<std::byte> brick = opened.numbers<std::byte>("volume/data").subspan(begin, 512 * bits);
-        const std::size_t lowest = opened.numbers<std::uint16_t>("volume/lowest")[0] / 8,
-                          highest = opened.numbers<std::uint16_t>("volume/highest")[0] / 8;
-        std::size_t group = 0;
-        while (group == lowest || group == highest || group + 1 == lowest || group + 1 == highest) ++group;
-        std::swap_ranges(brick.begin() + static_cast<std::ptrdiff_t>(group * bits),
-                         brick.begin() + static_cast<std::ptrdiff_t>((group + 1) * bits),
-                         brick.begin() + static_cast<std::ptrdiff_t>((group + 1) * bits));
+        const std::span<std::byte> brick = opened.numbers<std::byte>("volume/data").subspan(begin, size);
+        const store::BoxSize box = store::BrickGrid({3, {24, 24, 24}}).box(0).size();
+        const std::uint8_t low = opened.numbers<std::uint8_t>("volume/low")[0], high = opened.numbers<std::uint8_t>("volume/high")[0];
+        std::vector<std::uint8_t> samples(static_cast<std::size_t>(box[0] * box[1] * box[2]));
+        ASSERT_TRUE(store::decode_brick<std::uint8_t>(brick, box, low, samples));
+        std::vector<std::byte> packed;
+        for (std::size_t i = 0; packed.size() != size; ++i) {
+            const std::uint8_t a = samples.at(i), b = samples.at(i + 1);
+            if (a == b || std::min(a, b) == low || std::max(a, b) == high) continue;
+            std::swap(samples[i], samples[i + 1]);
+            packed.clear();
+            store::encode_brick<std::uint8_t>(samples, box, low, static_cast<std::uint8_t>(brick.front()), packed);
+            if (packed.size() != size) std::swap(samples[i], samples[i + 1]);
+        }
+        std::ranges::copy(packed, brick.begin());
         opened.numbers<std::uint64_t>("volume/checksum")[0] = store::checksum(brick);
     }
 

@@ -7,7 +7,6 @@
 #include "isoatlas/atlas.h"
 #include "isoatlas/dump.h"
 #include "isoatlas/verify.h"
-#include "store/brick_codec.h"
 #include "store/brick_grid.h"
 #include "store/checksum.h"
 #include "store/container.h"
@@ -40,13 +39,13 @@ std::span<const std::byte> part(const Bytes& bytes, std::int64_t offset, std::in
 void mend_bricks(Bytes& bytes, const Contents& contents) {
     const isoatlas::store::BrickGrid grid(contents.volume.extent);
     const StoredArray *data = find(contents, "volume/data"), *offset = find(contents, "volume/offset"),
-                      *bits = find(contents, "volume/bits"), *sums = find(contents, "volume/checksum");
-    if (!data || !offset || !bits || !sums || data->type != "uint8" || bits->type != "uint8") return;
-    if (offset->bytes() != 8 * grid.count() || sums->bytes() != 8 * grid.count() || bits->bytes() != grid.count()) return;
+                      *sizes = find(contents, "volume/bytes"), *sums = find(contents, "volume/checksum");
+    if (!data || !offset || !sizes || !sums || data->type != "uint8" || sizes->type != "uint16") return;
+    if (offset->bytes() != 8 * grid.count() || sums->bytes() != 8 * grid.count() || sizes->bytes() != 2 * grid.count()) return;
     for (std::int64_t b = 0; b < grid.count(); ++b) {
         const auto at = static_cast<std::int64_t>(number_at(bytes, offset->offset + 8 * b));
-        const std::int64_t size =
-            isoatlas::store::packed_bytes(grid.box(b).count(), static_cast<int>(bytes[static_cast<std::size_t>(bits->offset + b)]));
+        std::uint16_t size;
+        std::memcpy(&size, bytes.data() + sizes->offset + 2 * b, sizeof size);
         if (at < 0 || at > data->bytes() || size > data->bytes() - at) continue;
         put_number(bytes, sums->offset + 8 * b, isoatlas::store::checksum(part(bytes, data->offset + at, size)));
     }

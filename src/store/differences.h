@@ -1,0 +1,34 @@
+// What is left of the numbers of a box when each is compared with those before it: finite differences of order 0, 1 or 2 along each axis.
+//
+// Order 1 keeps the first number of a row, order 2 also the difference of the second one. Numbers wrap around, so nothing is lost. Along
+// all three axes order 1 is the Lorenzo predictor (Ibarria et al., Out-of-core compression and decompression of large n-dimensional scalar
+// fields, 2003).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace isoatlas::store {
+
+using BoxSize = std::array<std::int64_t, 3>;  ///< numbers along x, y, z; x fastest
+using Orders = std::array<int, 3>;            ///< of the differences along x, y, z: 0, 1 or 2
+
+template <class N>
+void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders);
+
+/// Inverse.
+template <class N>
+void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders);
+
+/// The order in which differences are stored: the first one of all rows, the second one if the order along x is 2, then what is left of
+/// every row: so that numbers of like size lie side by side. Small ones of both signs become small ones without (0 -1 1 -2 ...), unless all
+/// orders are 0.
+template <class N>
+void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out);
+
+/// Inverse.
+template <class N>
+void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out);
+
+}  // namespace isoatlas::store

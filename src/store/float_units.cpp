@@ -1,0 +1,192 @@
+#include "store/float_units.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace isoatlas::store {
+namespace {
+
+template <class T>
+constexpr int kDigits = std::numeric_limits<T>::digits;  ///< bits of a mantissa
+template <class T>
+constexpr int kLeastPlace = std::numeric_limits<T>::min_exponent - kDigits<T>;  ///< 2^this is the smallest number
+
+/// A float as mantissa * 2^place.
+template <class T>
+struct Parts {
+    Key<T> mantissa;
+    int place;
+
+    explicit Parts(T sample) {
+        constexpr int kStored = kDigits<T> - 1;
+        const auto bits = static_cast<Key<T>>(std::bit_cast<Key<T>>(sample) << 1 >> 1);
+        const int exponent = static_cast<int>(bits >> kStored);
+        mantissa = bits & ((Key<T>{1} << kStored) - 1);
+        if (exponent > 0) mantissa |= Key<T>{1} << kStored;
+        place = std::max(exponent, 1) - 1 + kLeastPlace<T>;
+    }
+};
+
+/// Bits below the unit of a sample of a number of so many bits, at least one.
+template <class T>
+int tail_of(int width, const Units& units) {
+    return std::max(0, std::min(kDigits<T> - width, units.exponent - kLeastPlace<T>));
+}
+
+/// -1 for negative numbers, else 0, as two's complement.
+template <class N>
+N sign_of(N number) {
+    return static_cast<N>(N{0} - (number >> (8 * sizeof(N) - 1)));
+}
+/// Changes the sign where `sign` is -1.
+template <class N>
+N signed_by(N number, N sign) {
+    return static_cast<N>((number ^ sign) - sign);
+}
+
+template <class T>
+bool is_positive_zero(T sample) {
+    return std::bit_cast<Key<T>>(sample) == 0;
+}
+
+/// Calls put(value, bits) for every piece of the tails: at most 56 bits each.
+template <class T, class Put>
+void for_each_piece(std::span<const T> samples, const Units& units, const Put& put) {
+    for (const T sample : samples) {
+        const Key<T> number = in_units(sample, units), magnitude = signed_by(number, sign_of(number));
+        if (magnitude != 0) {
+            const int tail = tail_of<T>(static_cast<int>(std::bit_width(magnitude)), units);
+            put(Parts<T>(sample).mantissa & ((std::uint64_t{1} << tail) - 1), tail);
+        } else if (is_positive_zero(sample)) {
+            put(0, 1);
+        } else {
+            put(1, 1);
+            std::uint64_t bits = std::bit_cast<Key<T>>(sample);
+            for (std::size_t i = 0; i < sizeof(T); i += 4, bits >>= 32) put(bits & 0xffffffff, 32);
+        }
+    }
+}
+
+class BitReader {
+public:
+    explicit BitReader(std::span<const std::byte> bytes) : size_(bytes.size()), bytes_(bytes.begin(), bytes.end()) {
+        bytes_.resize(size_ + 8);  // so that no look at 8 bytes goes too far
+    }
+
+    /// The next bits, at most 56; zeros behind the end.
+    std::uint64_t take(int bits) {
+        std::uint64_t word;
+        std::memcpy(&word, bytes_.data() + std::min(position_ / 8, size_), 8);
+        word = word >> position_ % 8 & ((std::uint64_t{1} << bits) - 1);
+        position_ += static_cast<std::size_t>(bits);
+        return word;
+    }
+    [[nodiscard]] bool is_at_end() const { return (position_ + 7) / 8 == size_; }
+
+private:
+    std::size_t size_, position_ = 0;
+    std::vector<std::byte> bytes_;
+};
+
+template <class T>
+T take_small(BitReader& reader) {
+    if (reader.take(1) == 0) return T{0};
+    Key<T> bits = 0;
+    for (std::size_t i = 0; i < sizeof(T); i += 4) bits |= static_cast<Key<T>>(reader.take(32)) << 8 * i;
+    return std::bit_cast<T>(bits);
+}
+
+template <class T>
+T power_of_2(int exponent) {
+    return std::ldexp(T{1}, exponent);
+}
+
+}  // namespace
+
+template <class T>
+std::optional<Units> units_of(std::span<const T> samples) {
+    int most = kLeastPlace<T>, common = std::numeric_limits<int>::max();
+    bool finite = true, negative_zero = false;
+    for (const T sample : samples) {
+        const Parts<T> parts(sample);
+        finite &= std::isfinite(sample);
+        most = std::max(most, parts.place);
+        if (parts.mantissa != 0) common = std::min(common, parts.place + std::countr_zero(parts.mantissa));
+        negative_zero |= sample == 0 && !is_positive_zero(sample);
+    }
+    if (!finite) return std::nullopt;
+    if (common == std::numeric_limits<int>::max()) common = most;  // zeros
+    return Units{std::max(most, common), common >= most && !negative_zero};
+}
+
+template <class T>
+Key<T> in_units(T sample, const Units& units) {
+    const Parts<T> parts(sample);
+    const int below = units.exponent - parts.place;
+    const Key<T> magnitude = below >= static_cast<int>(8 * sizeof(T)) ? 0 : parts.mantissa >> below;
+    return std::signbit(sample) ? static_cast<Key<T>>(Key<T>{0} - magnitude) : magnitude;
+}
+
+template <class T>
+void from_units(std::span<const Key<T>> numbers, const Units& units, std::span<T> samples) {
+    const T unit = power_of_2<T>(units.exponent);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = static_cast<T>(static_cast<std::make_signed_t<Key<T>>>(numbers[i])) * unit;
+}
+
+template <class T>
+std::int64_t tail_bits(std::span<const T> samples, const Units& units) {
+    std::int64_t bits = 0;
+    for_each_piece<T>(samples, units, [&bits](std::uint64_t, int more) { bits += more; });
+    return bits;
+}
+
+template <class T>
+void append_tails(std::span<const T> samples, const Units& units, std::vector<std::byte>& out) {
+    std::uint64_t waiting = 0;
+    int count = 0;
+    for_each_piece<T>(samples, units, [&](std::uint64_t value, int bits) {
+        waiting |= value << count;
+        for (count += bits; count >= 8; count -= 8, waiting >>= 8) out.push_back(static_cast<std::byte>(waiting & 0xff));
+    });
+    if (count > 0) out.push_back(static_cast<std::byte>(waiting));
+}
+
+template <class T>
+bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
+    constexpr std::size_t kWidths = 8 * sizeof(T) + 1;
+    std::array<std::uint8_t, kWidths> tail_of_width{};  // tables, so that samples take no branches
+    std::array<T, kWidths> place_of_width{};
+    for (std::size_t w = 1; w < kWidths; ++w) {
+        tail_of_width[w] = static_cast<std::uint8_t>(tail_of<T>(static_cast<int>(w), units));
+        place_of_width[w] = power_of_2<T>(units.exponent - tail_of_width[w]);
+    }
+    BitReader reader(tails);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Key<T> sign = sign_of(numbers[i]), magnitude = signed_by(numbers[i], sign);
+        if (magnitude == 0) {
+            samples[i] = take_small<T>(reader);
+            continue;
+        }
+        const auto width = static_cast<std::size_t>(std::bit_width(magnitude));
+        const Key<T> mantissa = static_cast<Key<T>>(magnitude << tail_of_width[width] | reader.take(tail_of_width[width]));
+        samples[i] = static_cast<T>(static_cast<std::make_signed_t<Key<T>>>(signed_by(mantissa, sign))) * place_of_width[width];
+    }
+    return reader.is_at_end();
+}
+
+#define ISOATLAS_INSTANTIATE(T)                                                               \
+    template std::optional<Units> units_of<T>(std::span<const T>);                            \
+    template Key<T> in_units<T>(T, const Units&);                                             \
+    template void from_units<T>(std::span<const Key<T>>, const Units&, std::span<T>);         \
+    template std::int64_t tail_bits<T>(std::span<const T>, const Units&);                     \
+    template void append_tails<T>(std::span<const T>, const Units&, std::vector<std::byte>&); \
+    template bool join_tails<T>(std::span<const Key<T>>, std::span<const std::byte>, const Units&, std::span<T>)
+ISOATLAS_INSTANTIATE(float);
+ISOATLAS_INSTANTIATE(double);
+#undef ISOATLAS_INSTANTIATE
+
+}  // namespace isoatlas::store
