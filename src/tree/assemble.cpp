@@ -6,9 +6,9 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
-#include "tree/contour_tree.h"
 #include "tree/merge_tree.h"
 #include "tree/reduce.h"
+#include "tree/runs.h"
 
 namespace isoatlas {
 namespace {
@@ -87,11 +87,11 @@ template <class Id>
 BigVector<Id> arcs_of_survivors(Survivors<Id> survivors, Id outside, int threads) {
     BigVector<Id> join, split;
     run_both(threads, [&] { join = join_tree(survivors.set); }, [&] { split = split_tree(survivors.set); });
-    survivors.set = {};
-    ContourTree<Id> tree = contour_tree<Id>(join, std::move(split), {}, threads);
+    release(survivors.set.ends);
+    BigVector<Id> arcs = arcs_by_runs<Id>(survivors.set.branches, std::move(join), std::move(split), threads);
     survivors.rank.push_back(outside);
-    for (Id& other : tree.other) other = survivors.rank[other];
-    return std::move(tree.other);
+    for (Id& other : arcs) other = survivors.rank[other];
+    return arcs;
 }
 
 }  // namespace
