@@ -37,7 +37,8 @@ inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
 /// give_scratch: false: not from here.
 [[nodiscard]] void* take_scratch(std::size_t bytes);
 [[nodiscard]] bool give_scratch(void* memory, std::size_t bytes) noexcept;
-/// For loops that read many arrays at a time, now and then: looks after the limit at once, as the watcher may be late on a busy machine.
+/// Looks after the limit at once, as the watcher may be late on a busy machine: after every block of work (parallel.h), and now and then in
+/// long loops that read many arrays at a time. Cost: about a microsecond, nothing where no limit is in force.
 void check_memory();
 /// The limit in force, 0 for none.
 [[nodiscard]] std::int64_t memory_limit() noexcept;

@@ -12,6 +12,8 @@
 #include <memory>
 #include <mutex>
 
+#include "base/memory_limit.h"
+
 namespace isoatlas {
 namespace {
 
@@ -29,7 +31,11 @@ tbb::task_arena& arena_of(int threads) {
 
 int thread_count(int requested) { return requested > 0 ? requested : tbb::info::default_concurrency(); }
 
-void for_each_block(int threads, std::int64_t blocks, const std::function<void(std::int64_t)>& work) {
+void for_each_block(int threads, std::int64_t blocks, const std::function<void(std::int64_t)>& block_work) {
+    const auto work = [&](std::int64_t block) {
+        block_work(block);
+        check_memory();
+    };
     if (thread_count(threads) == 1 || blocks <= 1) {
         for (std::int64_t block = 0; block < blocks; ++block) work(block);
         return;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t kMostTiles = std::int64_t{1} << 16;
 constexpr std::int64_t kBytesAVoxel = 64;  // of noise, while a tile is reduced
+constexpr std::size_t kChecked = 1 << 13;      // elements between two looks at the memory
 constexpr std::int64_t kUnlimitedTile = std::int64_t{1} << 20;
 
 /// Numbers of extrema, tile after tile: those of a tile follow each other.
@@ -84,6 +85,7 @@ void cut(const BigVector<Ends<Id>>& ends, const Tiling& tiling, PartedCriticals<
     result.set.elements.resize(n);
     std::vector<std::size_t> next = result.set.first;
     for (std::size_t r = 0; r < n; ++r) {
+        if (r % kChecked == 0) check_memory();
         const ElementCode code{result.code[r]};
         const auto tile = static_cast<std::uint16_t>(tiling.tile_of(code));
         result.part_of[r] = tile;

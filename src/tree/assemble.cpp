@@ -27,10 +27,8 @@ template <class Id>
 BigVector<Id> reduce_parts(PartedSet<Id>& set, int threads) {
     const OpenExtrema open = open_extrema(set, threads);
     BigVector<Id> arc(set.size());
-    for_each_block(threads, static_cast<std::int64_t>(set.parts()), [&](std::int64_t part) {
-        reduce_part<Id>(set, part, open, set.of(part, arc));
-        check_memory();
-    });
+    for_each_block(threads, static_cast<std::int64_t>(set.parts()),
+                   [&](std::int64_t part) { reduce_part<Id>(set, part, open, set.of(part, arc)); });
     return arc;
 }
 
@@ -107,7 +105,6 @@ BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> par
         const std::span<const PartedElement<Id>> elements = set.of(part, set.elements);
         const std::span<Id> to = set.of(part, arc);
         for (std::size_t x = 0; x < to.size(); ++x) to[x] = ranks[elements[x].branches == kRemoved ? to[x] : x];
-        check_memory();
     });
     release(rank);
     release(set.elements);

@@ -32,7 +32,10 @@ struct TiledElements {
         std::size_t end = 0;
         for (std::size_t& of_tile : first) end += std::exchange(of_tile, end);
         std::vector<std::size_t> next = first;
-        for (std::size_t r = 0; r < code.size(); ++r) key[next[tile[r]]++] = {value[r], ElementCode{code[r]}};
+        for (std::size_t r = 0; r < code.size(); ++r) {
+            if (r % kChecked == 0) check_memory();
+            key[next[tile[r]]++] = {value[r], ElementCode{code[r]}};
+        }
     }
     template <class Array>
     [[nodiscard]] auto of(std::size_t t, Array& array) const {
@@ -101,7 +104,6 @@ BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double
     for_each_block(context.threads, tiling.count(), [&](std::int64_t tile) {
         const auto t = static_cast<std::size_t>(tile);
         count_tile<T, Id>(grid, tiling, tile, basins, elements.of(t, elements.key), elements.of(t, elements.counted), open);
-        check_memory();
     });
     release(basins.maximum);
     release(elements.key);
