@@ -73,7 +73,10 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const double id = voxels < 0x1p31 && elements < 0x1p30 ? 4 : 8;
     const int workers = thread_count(threads);
     estimate.critical_elements = rounded(elements);
-    estimate.memory = kProgram + rounded(voxels * (sample + 1 + id) + elements * (32 + 8 * id));
+    // Sorting and trees; sizes of zones: voxels of what spans tiles are kept one by one, where few values do not make them few.
+    const double trees = voxels * (sample + 1 + id) + elements * (32 + 8 * id);
+    const double zones = voxels * (sample + id + (sample > 2 ? sample + 2 * id : 0)) + elements * (36 + 5 * id);
+    estimate.memory = kProgram + rounded(std::max(trees, zones));
     const double window =
         options.gaussian > 0 ? static_cast<double>(2 * gaussian_radius(filtered_info(info, options), options.gaussian)[2] + 1) : 0;
     const std::int64_t filter = rounded(window * static_cast<double>(info.extent.slice()) * sizeof(double));

@@ -7,14 +7,19 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "critical/leading_elements.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMostTiles = std::int64_t{1} << 16;
 constexpr std::int64_t kBytesAVoxel = 64;  // of noise, while a tile is reduced
-constexpr std::size_t kChecked = 1 << 13;      // elements between two looks at the memory
+constexpr std::size_t kChecked = 1 << 13;  // elements between two looks at the memory
 constexpr std::int64_t kUnlimitedTile = std::int64_t{1} << 20;
+
+void stop_if_cancelled(const Context& context) {
+    if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+}
 
 /// Numbers of extrema, tile after tile: those of a tile follow each other.
 template <class Id>
@@ -113,6 +118,7 @@ Tiling tiling_for(const Extent& extent, const Context& context) {
 template <class Id>
 PartedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const Tiling& tiling, const Context& context) {
     PartedCriticals<Id> result;
+    stop_if_cancelled(context);
     context.report("basins", 1, 5, 0);
     LeadingChunks<Id> elements;
     result.set.first = first_of_tiles(scan, tiling);
@@ -123,6 +129,7 @@ PartedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const 
         result.set.first_maximum = maxima.first;
         result.set.first_minimum = minima.first;
     }
+    stop_if_cancelled(context);
     context.report("sort", 2, 5, 0);
     const BigVector<Ends<Id>> ends = sort_elements<Id>(std::move(elements), Above{GridSteps(extent)}, result, context.threads);
     cut(ends, tiling, result);

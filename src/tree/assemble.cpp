@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "field/slab_work.h"
 #include "tree/merge_tree.h"
 #include "tree/reduce.h"
 #include "tree/runs.h"
@@ -24,11 +25,13 @@ struct Survivors {
 
 /// Reduces all parts. Returns per element where its arc leads, within its part.
 template <class Id>
-BigVector<Id> reduce_parts(PartedSet<Id>& set, int threads) {
-    const OpenExtrema open = open_extrema(set, threads);
+BigVector<Id> reduce_parts(PartedSet<Id>& set, const Context& context) {
+    const OpenExtrema open = open_extrema(set, context.threads);
     BigVector<Id> arc(set.size());
-    for_each_block(threads, static_cast<std::int64_t>(set.parts()),
-                   [&](std::int64_t part) { reduce_part<Id>(set, part, open, set.of(part, arc)); });
+    for_each_slab_of(1, context, {"trees", 3, 5}, static_cast<std::int64_t>(set.parts()), [&](const Slab& slab) {
+        const auto part = static_cast<std::size_t>(slab.z_begin);
+        reduce_part<Id>(set, part, open, set.of(part, arc));
+    });
     return arc;
 }
 
@@ -95,9 +98,10 @@ BigVector<Id> arcs_of_survivors(Survivors<Id> survivors, Id outside, int threads
 }  // namespace
 
 template <class Id>
-BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> part_of, int threads) {
+BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> part_of, const Context& context) {
     const std::size_t n = set.size();
-    BigVector<Id> arc = reduce_parts(set, threads), rank(n);
+    const int threads = context.threads;
+    BigVector<Id> arc = reduce_parts(set, context), rank(n);
     Survivors<Id> survivors = gather_survivors<Id>(set, part_of, rank, threads);
     // Places within parts become ranks; survivors lead to themselves.
     for_each_block(threads, static_cast<std::int64_t>(set.parts()), [&](std::int64_t part) {
@@ -122,7 +126,7 @@ BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> par
     return other;
 }
 
-template BigVector<std::uint32_t> contour_arcs(PartedSet<std::uint32_t>, std::span<const std::uint16_t>, int);
-template BigVector<std::uint64_t> contour_arcs(PartedSet<std::uint64_t>, std::span<const std::uint16_t>, int);
+template BigVector<std::uint32_t> contour_arcs(PartedSet<std::uint32_t>, std::span<const std::uint16_t>, const Context&);
+template BigVector<std::uint64_t> contour_arcs(PartedSet<std::uint64_t>, std::span<const std::uint16_t>, const Context&);
 
 }  // namespace isoatlas

@@ -5,13 +5,14 @@
 #include <span>
 
 #include "critical/parted_set.h"
+#include "isoatlas/context.h"
 
 namespace isoatlas {
 
 /// ContourTree::other of all elements and the outside, in the order of ranks. part_of: per element in the order of ranks, its part. The set
-/// is consumed. Memory at random: what reduce_part() needs for a part (as many at once as there are threads), and the branching survivors.
-/// Cost: O(n alpha).
+/// is consumed. Reports progress of "trees". Memory at random: what reduce_part() needs for a part (as many at once as there are threads),
+/// the names and the runs of survivors (tree/runs.h). Cost: O(n alpha).
 template <class Id>
-[[nodiscard]] BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> part_of, int threads);
+[[nodiscard]] BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> part_of, const Context& context);
 
 }  // namespace isoatlas

@@ -43,7 +43,7 @@ void make_arcs_by_tiles(const Extent& extent, GridScan scan, AnalysisArrays<Id>&
     context.report("trees", 3, kPhases, 0);
     arrays.value = std::move(criticals.value);
     arrays.code = std::move(criticals.code);
-    arrays.contours.other = contour_arcs<Id>(std::move(criticals.set), criticals.part_of, context.threads);
+    arrays.contours.other = contour_arcs<Id>(std::move(criticals.set), criticals.part_of, context);
 }
 
 /// Per maximum: its critical element.

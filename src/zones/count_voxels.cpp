@@ -5,8 +5,8 @@
 
 #include "base/check.h"
 #include "base/memory_limit.h"
-#include "base/parallel.h"
 #include "critical/parted_domain.h"
+#include "field/slab_work.h"
 #include "tree/components.h"
 #include "zones/count_tile.h"
 
@@ -101,9 +101,9 @@ BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double
     const std::size_t names = basins.open.count();
     TiledElements<Id> elements(value, code, tiling);
     OpenVoxelBuckets<T, Id> open(bounds_of_buckets(value, bucket_count(grid.extent.voxels(), sizeof(OpenVoxels<T, Id>))));
-    for_each_block(context.threads, tiling.count(), [&](std::int64_t tile) {
-        const auto t = static_cast<std::size_t>(tile);
-        count_tile<T, Id>(grid, tiling, tile, basins, elements.of(t, elements.key), elements.of(t, elements.counted), open);
+    for_each_slab_of(1, context, {"zones", 4, 5}, tiling.count(), [&](const Slab& tile) {
+        const auto t = static_cast<std::size_t>(tile.z_begin);
+        count_tile<T, Id>(grid, tiling, tile.z_begin, basins, elements.of(t, elements.key), elements.of(t, elements.counted), open);
     });
     release(basins.maximum);
     release(elements.key);
