@@ -67,27 +67,25 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
     Components<Id, BigAllocator<Id>> components;  // marks: the last element
     components.start(names, [](Id) { return Id{0}; });
     std::vector<std::size_t> next = elements.first;
-    std::size_t r = 0;
-    const auto pass = [&] {
+    const auto pass = [&](std::size_t r) {
         if (r % kChecked == 0) check_memory();
         const CountedElement<Id>& element = elements.counted[next[elements.tile[r]]++];
         voxels[r] = element.voxels;
         auto [a, b] = element.names;
         if (a == kNoName<Id>) std::swap(a, b);
-        if (a != kNoName<Id>) {
-            a = components.find(a);
-            if (b != kNoName<Id>) a = components.join(a, components.find(b));
-            components.mark(a) = static_cast<Id>(r);
-        }
-        ++r;
+        if (a == kNoName<Id>) return;
+        a = components.find(a);
+        if (b != kNoName<Id>) a = components.join(a, components.find(b));
+        components.mark(a) = static_cast<Id>(r);
     };
+    std::size_t r = 0;
     for (std::size_t bucket = 0; bucket < open.count(); ++bucket) {
         for (const OpenVoxels<T, Id>& record : open.take(bucket)) {
-            while (r < n && value[r] >= static_cast<double>(record.value)) pass();
+            for (; r < n && value[r] >= static_cast<double>(record.value); ++r) pass(r);
             voxels[components.mark(components.find(record.name))] += record.count;
         }
     }
-    while (r < n) pass();
+    for (; r < n; ++r) pass(r);
     return voxels;
 }
 
