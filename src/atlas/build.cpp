@@ -1,6 +1,8 @@
 // Building a store: trees, zones, pack. Every phase leaves a file that the next one, or the next process, goes on from.
 #include "isoatlas/build.h"
 
+#include <algorithm>
+
 #include "atlas/build_folder.h"
 #include "atlas/census_arrays.h"
 #include "atlas/object_arrays.h"
@@ -35,13 +37,24 @@ Context shifted(const Context& context, int by, const Extent& extent) {
     return part;
 }
 
+/// Of samples that may be larger than memory.
+std::uint64_t checksum_of(std::span<const std::byte> samples) {
+    constexpr std::size_t kPart = std::size_t{1} << 22;
+    store::Checksum sum;
+    for (std::size_t first = 0; first < samples.size(); first += kPart) {
+        sum.add(samples.subspan(first, std::min(kPart, samples.size() - first)));
+        check_memory();
+    }
+    return sum.sum();
+}
+
 store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& options) {
     store::Contents contents;
     contents.volume = *volume.info;
     const std::size_t slash = volume.info->path.rfind('/');
     if (slash != std::string::npos) contents.volume.path = volume.info->path.substr(slash + 1);  // where it lay does not matter
     const std::size_t bytes = static_cast<std::size_t>(volume.info->extent.voxels()) * size_of(volume.info->type);
-    contents.parameters = {options.interpolant, options.tunnel_height, store::checksum({volume.bytes, bytes})};
+    contents.parameters = {options.interpolant, options.tunnel_height, checksum_of({volume.bytes, bytes})};
     return contents;
 }
 

@@ -130,7 +130,7 @@ public:
 
     /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then.
     std::int64_t check() {
-        const std::int64_t left = limit_ - limit_ / 5 - resident_memory(statm_);
+        const std::int64_t left = limit_ - limit_ / 10 * 3 - resident_memory(statm_);
         if (left > 0) return left;
         const std::lock_guard lock(mutex_);
         for (const auto& [memory, piece] : pieces_) ::madvise(memory, piece.size, MADV_DONTNEED);
@@ -180,11 +180,11 @@ private:
 
     /// Sleeps as long as the memory that is left lasts for a thread that touches page after page.
     void watch() {
-        constexpr std::int64_t kBytesPerMicrosecond = 8 << 10;
+        constexpr std::int64_t kBytesPerMicrosecond = 32 << 10;  // of threads that only read what is in the system's cache
         std::unique_lock lock(mutex_);
         while (!stop_) {
             lock.unlock();
-            const std::int64_t microseconds = std::clamp<std::int64_t>(check() / kBytesPerMicrosecond, 1000, 50000);
+            const std::int64_t microseconds = std::clamp<std::int64_t>(check() / kBytesPerMicrosecond, 500, 5000);
             lock.lock();
             wake_.wait_for(lock, std::chrono::microseconds(microseconds), [this] { return stop_; });
         }
