@@ -169,7 +169,7 @@ struct StoreDump::Data {
                         "below " + std::to_string(extent.size[0]) + "," + std::to_string(extent.size[1]) + "," +
                             std::to_string(extent.size[2]));
             }
-            place[axis] = voxel / store::kBrickSide;
+            place[axis] = voxel / store::kBrickSize[axis];
         }
         return brick_part(grid.brick(place));
     }

@@ -9,7 +9,6 @@ namespace {
 
 using store::Box;
 using store::BrickGrid;
-using store::kBrickSide;
 
 constexpr std::int64_t kMargin = 3;
 
@@ -63,10 +62,8 @@ std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_
     if (grid.extent.rank == 2 || voxel < 0 || voxel >= grid.extent.voxels()) return std::nullopt;
     const std::array<std::int64_t, 3> at = grid.extent.voxel(voxel);
     Box bricks{};
-    for (int axis = 0; axis < 3; ++axis) {
-        bricks.begin[axis] = at[axis] / kBrickSide;
-        bricks.end[axis] = bricks.begin[axis] + 1;
-    }
+    bricks.begin = BrickGrid::place_of(at);
+    for (int axis = 0; axis < 3; ++axis) bricks.end[axis] = bricks.begin[axis] + 1;
     Context alone = context;
     alone.threads = 1;
     alone.progress = nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "query/brick_surroundings.h"
 
 namespace isoatlas {
 
@@ -10,8 +11,6 @@ using store::Box;
 using store::BrickGrid;
 
 namespace {
-
-constexpr std::int64_t kBeside = 2;  // samples around a brick: a cell, and the neighbour that a normal looks at
 
 /// Are the bits [begin, end) of a row all equal to `high`? At most 64 of them.
 bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, bool high) {
@@ -23,12 +22,12 @@ bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, b
 
 bool is_uniform_around(const BrickGrid& grid, const HighBits& high, std::int64_t brick, bool own) {
     const Box box = grid.box(brick);
-    const std::int64_t begin = std::max<std::int64_t>(box.begin[0] - kBeside + 1, 0);
-    const std::int64_t end = std::min(box.end[0] + kBeside + 1, grid.extent.size[0] + 2);
-    const std::int64_t flat = grid.extent.rank == 2 ? 0 : kBeside;
+    const std::int64_t flat = grid.extent.rank == 2 ? 0 : kSurroundings;
     for (std::int64_t z = box.begin[2] - flat; z < box.end[2] + flat; ++z) {
-        for (std::int64_t y = box.begin[1] - kBeside; y < box.end[1] + kBeside; ++y) {
-            if (!all_equal(high.row(y, z), begin, end, own)) return false;  // rows outside are Low
+        for (std::int64_t y = box.begin[1] - kSurroundings; y < box.end[1] + kSurroundings; ++y) {
+            const RowPart part = surroundings(box, y, z);  // position p is voxel p - 1
+            const std::int64_t begin = std::max<std::int64_t>(part.begin + 1, 0), end = std::min(part.end + 1, grid.extent.size[0] + 2);
+            if (begin < end && !all_equal(high.row(y, z), begin, end, own)) return false;  // rows outside are Low
         }
     }
     return true;

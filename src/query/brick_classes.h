@@ -17,7 +17,7 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 
 /// The same for `count` (at most 16) bits that hold something.
 inline void replace_bits(std::uint64_t* row, std::int64_t p, std::int64_t count, std::uint64_t bits) {
-    const std::uint64_t mask = 0xffff >> (store::kBrickSide - count);
+    const std::uint64_t mask = 0xffff >> (store::kBrickRow - count);
     row[p / 64] &= ~(mask << p % 64);
     if (p % 64 > 48) row[p / 64 + 1] &= ~(mask >> (64 - p % 64));
     put_bits(row, p, bits);
@@ -26,8 +26,8 @@ inline void replace_bits(std::uint64_t* row, std::int64_t p, std::int64_t count,
 /// Which of 16 samples are at least `least`, as bits.
 template <class T>
 std::uint64_t bits_of_samples(const T* values, T least) {
-    std::array<std::uint8_t, store::kBrickSide> flags;
-    for (std::int64_t i = 0; i < store::kBrickSide; ++i) flags[static_cast<std::size_t>(i)] = values[i] >= least;
+    std::array<std::uint8_t, store::kBrickRow> flags;
+    for (std::int64_t i = 0; i < store::kBrickRow; ++i) flags[static_cast<std::size_t>(i)] = values[i] >= least;
     std::array<std::uint64_t, 2> eight;
     std::memcpy(eight.data(), flags.data(), sizeof eight);
     constexpr std::uint64_t kGather = 0x0102040810204080;  // bit 0 of each byte to the top byte
@@ -37,7 +37,7 @@ std::uint64_t bits_of_samples(const T* values, T least) {
 /// The classes of `count` (at most 16) samples.
 template <class T>
 std::uint64_t bits_of_samples(const T* values, std::int64_t count, T least) {
-    if (count == store::kBrickSide) return bits_of_samples(values, least);
+    if (count == store::kBrickRow) return bits_of_samples(values, least);
     std::uint64_t bits = 0;
     for (std::int64_t x = 0; x < count; ++x) bits |= std::uint64_t{values[x] >= least} << x;
     return bits;
@@ -46,7 +46,8 @@ std::uint64_t bits_of_samples(const T* values, std::int64_t count, T least) {
 /// Is any brick around a brick of another class, or the grid at an end?
 [[nodiscard]] bool may_touch(const store::BrickGrid& grid, std::int64_t brick, const std::vector<BrickClass>& classes);
 
-/// Is a brick High or Low as a whole, with something else within two samples, or High at an end of the grid?
+/// Is a brick High or Low as a whole, with something else among the samples around it that matter (query/brick_surroundings.h), or High at
+/// an end of the grid?
 [[nodiscard]] bool is_beside_surface(const HighBits& high, const store::BrickGrid& grid, std::int64_t brick,
                                      const std::vector<BrickClass>& classes);
 /// All of these.

@@ -8,7 +8,8 @@
 namespace isoatlas {
 namespace {
 
-using store::kBrickSide;
+using store::kBrickRow;
+using store::kBrickSize;
 
 constexpr Extremum kNone{-1, 0};
 
@@ -93,13 +94,13 @@ private:
         const std::int64_t begin = row.change[i - 1] - 1, end = row.change[i] - 1;
         if (bricks_ == nullptr) return extreme_of_stretch(begin, end, high, y, z);
         const Extremum& known = best(high, components_.of_run[row.first_run + i]);
-        const std::int64_t row_of_bricks = y / kBrickSide + bricks_->grid.size[1] * (z / kBrickSide);
+        const std::int64_t row_of_bricks = y / kBrickSize[1] + bricks_->grid.size[1] * (z / kBrickSize[2]);
         const auto& [row_high, row_low] = divided_[row_of_bricks];
         Extremum found = kNone;
         if (!beats(high, high ? row_high : row_low, known)) return found;
         for (std::int64_t x = begin; x < end;) {
-            const std::int64_t b = x / kBrickSide + bricks_->grid.size[0] * row_of_bricks;
-            const std::int64_t next = std::min(end, (x / kBrickSide + 1) * kBrickSide);
+            const std::int64_t b = x / kBrickRow + bricks_->grid.size[0] * row_of_bricks;
+            const std::int64_t next = std::min(end, (x / kBrickRow + 1) * kBrickRow);
             if (bricks_->classes[b] == BrickClass::divided && beats(high, high ? bricks_->highest[b] : bricks_->lowest[b], known)) {
                 const Extremum here = extreme_of_stretch(x, next, high, y, z);
                 if (beats(high, here, found)) found = here;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "field/slab_work.h"
+#include "query/brick_surroundings.h"
 #include "query/interval_counts.h"
 #include "query/volume_cells.h"
 #include "query/zone_files.h"
@@ -16,7 +17,6 @@ using store::Box;
 using store::BrickGrid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kBeside = 2;  // as in query/stored_samples.cpp
 
 /// The middles of the intervals in which zones do not change, ascending.
 std::vector<double> isovalues_of(const Volume& volume, const Analysis& analysis) {
@@ -62,20 +62,21 @@ struct BrickCounts {
     std::vector<std::int64_t> cells, bricks;  ///< per isovalue: loaded; read
 };
 
-/// A brick is read at isovalues in (low, high]: of its samples and two around it, -infinity outside the volume.
+/// A brick is read at isovalues in (low, high]: of its samples and those around it that matter, -infinity outside the volume.
 void count_brick(const Volume& volume, const Box& box, IntervalCounts& loaded, IntervalCounts& read) {
     const Extent& extent = volume.info.extent;
     Box seen = box;
     double low = kInfinity, high = -kInfinity;
     for (int axis = 0; axis < extent.rank; ++axis) {
-        seen.begin[axis] -= kBeside, seen.end[axis] += kBeside;
+        seen.begin[axis] -= kSurroundings, seen.end[axis] += kSurroundings;
         if (seen.begin[axis] < 0 || seen.end[axis] > extent.size[axis]) low = -kInfinity;
         seen.begin[axis] = std::max<std::int64_t>(seen.begin[axis], 0);
         seen.end[axis] = std::min(seen.end[axis], extent.size[axis]);
     }
     for (std::int64_t z = seen.begin[2]; z < seen.end[2]; ++z) {
         for (std::int64_t y = seen.begin[1]; y < seen.end[1]; ++y) {
-            for (std::int64_t x = seen.begin[0]; x < seen.end[0]; ++x) {
+            const RowPart part = surroundings(box, y, z);
+            for (std::int64_t x = std::max(part.begin, seen.begin[0]); x < std::min(part.end, seen.end[0]); ++x) {
                 const double value = volume.value(extent.index(x, y, z));
                 low = std::min(low, value), high = std::max(high, value);
             }

@@ -19,7 +19,7 @@ using store::Box;
 using store::BrickGrid;
 using store::BrickReader;
 using store::IoCounters;
-using store::kBrickSide;
+using store::kBrickRow;
 
 constexpr std::int64_t kRowsAhead = 8;  // whose samples are asked for while a row is classified: they lie far apart
 
@@ -107,7 +107,7 @@ public:
         LevelQuery query;  // ends after the lock
         const std::lock_guard lock(mutex_);
         const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);
-        load({grid_.brick({at[0] / kBrickSide, at[1] / kBrickSide, at[2] / kBrickSide})}, 1, query);
+        load({grid_.brick(BrickGrid::place_of(at))}, 1, query);
         counters += query;
         return static_cast<double>(samples()[voxel]);
     }
@@ -222,7 +222,7 @@ private:
     void refill_brick(HighBits& high, std::int64_t brick, BrickClass own, T least) {
         const Box box = grid_.box(brick);
         const std::int64_t count = box.size(0);
-        const std::uint64_t whole = own == BrickClass::high ? 0xffff >> (kBrickSide - count) : 0;
+        const std::uint64_t whole = own == BrickClass::high ? 0xffff >> (kBrickRow - count) : 0;
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
             for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
                 const T* values = samples() + info_.extent.index(box.begin[0], y, z);
@@ -266,7 +266,7 @@ private:
             std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
             std::vector<std::int64_t> divided;
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-                if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickSide + 1, ones(grid, i));
+                if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones(grid, i));
                 if (classes[first + i] == BrickClass::divided) divided.push_back(i);
             }
             for (std::int64_t i = 0; i < box.size(1) * box.size(2); ++i) {
@@ -278,7 +278,7 @@ private:
                 std::uint64_t* row = high.row(box.begin[1] + i % box.size(1), box.begin[2] + i / box.size(1));
                 std::copy(whole.begin(), whole.end(), row);
                 for (const std::int64_t x : divided) {
-                    prefetch(later + x * kBrickSide);
+                    prefetch(later + x * kBrickRow);
                     fill_brick(row, values, grid, x, least);
                 }
             }
@@ -287,11 +287,11 @@ private:
 
     /// A bit for every sample of a row of brick i of an axis.
     static std::uint64_t ones(const BrickGrid& grid, std::int64_t i) {
-        return 0xffff >> (kBrickSide - std::min(kBrickSide, grid.extent.size[0] - i * kBrickSide));
+        return 0xffff >> (kBrickRow - std::min(kBrickRow, grid.extent.size[0] - i * kBrickRow));
     }
 
     static void fill_brick(std::uint64_t* row, const T* values, const BrickGrid& grid, std::int64_t i, T least) {
-        const std::int64_t begin = i * kBrickSide, count = std::min(kBrickSide, grid.extent.size[0] - begin);
+        const std::int64_t begin = i * kBrickRow, count = std::min(kBrickRow, grid.extent.size[0] - begin);
         put_bits(row, begin + 1, bits_of_samples(values + begin, count, least));  // position p is voxel p - 1
     }
 

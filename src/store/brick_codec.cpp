@@ -4,6 +4,7 @@
 #include <array>
 #include <concepts>
 
+#include "base/check.h"
 #include "store/bit_groups.h"
 #include "store/float_units.h"
 #include "store/sample_keys.h"
@@ -25,13 +26,16 @@ struct Head {
     [[nodiscard]] bool is_known() const { return static_cast<int>(kind) < 3 && std::ranges::max(orders) < 3; }
 };
 
+constexpr std::int64_t kFewTailBits = 4;  ///< a sample: with fewer, keys have not been better by more than a hundredth
+
 /// The numbers of a brick, and zeros behind them up to whole groups.
 template <class N>
 struct Numbers {
-    std::array<N, kMostBrickSamples> of;
+    std::array<N, kBrickSamples> of;
     std::size_t size, padded;
 
     explicit Numbers(std::size_t count) : size(count), padded((count + kGroup - 1) / kGroup * kGroup) {
+        ISOATLAS_CHECK(count <= of.size());
         std::fill(of.begin() + static_cast<std::ptrdiff_t>(size), of.begin() + static_cast<std::ptrdiff_t>(padded), N{0});
     }
     [[nodiscard]] std::span<N> samples() { return {of.data(), size}; }
@@ -81,14 +85,19 @@ BrickCode best_orders(const Numbers<N>& numbers, const BoxSize& size, Kind kind)
 }
 
 template <class T>
-std::optional<BrickCode> best_in_units(std::span<const T> samples, const BoxSize& size, T low, Numbers<Key<T>>& numbers) {
-    const std::optional<Units> units = units_of(samples);
-    if (!units) return std::nullopt;
-    fill_units<T>(samples, low, *units, numbers.samples());
-    BrickCode code = best_orders(numbers, size, units->exact ? Kind::exact_units : Kind::units_with_tails);
-    code.bytes += 2;
-    if (!units->exact) code.bytes += (tail_bits(samples, *units) + 7) / 8;
+BrickCode best_in_units(std::span<const T> samples, const BoxSize& size, T low, const Units& units, std::int64_t tails) {
+    Numbers<Key<T>> numbers(samples.size());
+    fill_units(samples, low, units, numbers.samples());
+    BrickCode code = best_orders(numbers, size, units.exact ? Kind::exact_units : Kind::units_with_tails);
+    code.bytes += 2 + (tails + 7) / 8;
     return code;
+}
+
+template <class T>
+BrickCode best_of_keys(std::span<const T> samples, const BoxSize& size, T low) {
+    Numbers<Key<T>> numbers(samples.size());
+    fill_keys(samples, low, numbers.samples());
+    return best_orders(numbers, size, Kind::keys);
 }
 
 void append_exponent(int exponent, std::vector<std::byte>& out) {
@@ -143,12 +152,16 @@ std::pair<T, T> extremes_of(std::span<const T> samples) {
 
 template <class T>
 BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low) {
-    Numbers<Key<T>> numbers(samples.size());
-    std::optional<BrickCode> code;
-    if constexpr (std::floating_point<T>) code = best_in_units(samples, size, low, numbers);
-    fill_keys(samples, low, numbers.samples());
-    const BrickCode plain = best_orders(numbers, size, Kind::keys);
-    return code && code->bytes < plain.bytes ? *code : plain;
+    if constexpr (std::floating_point<T>) {
+        if (const std::optional<Units> units = units_of(samples)) {
+            const std::int64_t tails = units->exact ? 0 : tail_bits(samples, *units);
+            const BrickCode code = best_in_units(samples, size, low, *units, tails);
+            if (tails <= kFewTailBits * static_cast<std::int64_t>(samples.size())) return code;
+            const BrickCode keys = best_of_keys(samples, size, low);
+            return code.bytes < keys.bytes ? code : keys;
+        }
+    }
+    return best_of_keys(samples, size, low);
 }
 
 template <class T>

@@ -15,11 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "store/brick_grid.h"
 #include "store/differences.h"
 
 namespace isoatlas::store {
-
-inline constexpr std::int64_t kMostBrickSamples = 4096;
 
 /// The lowest and the highest of some samples, -0.0 below 0.0. T: a sample type, here and below.
 template <class T>
@@ -31,7 +30,7 @@ struct BrickCode {
     std::int64_t bytes = 0;
 };
 
-/// A small code for samples of a box, x fastest, at most kMostBrickSamples, not constant. Cost: about ten codings.
+/// A small code for samples of a box, x fastest, at most kBrickSamples, not constant. Cost: about seven codings.
 template <class T>
 [[nodiscard]] BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low);
 

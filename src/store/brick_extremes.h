@@ -14,7 +14,7 @@ struct ExtremePlaces {
     friend bool operator==(const ExtremePlaces&, const ExtremePlaces&) = default;
 };
 
-/// At most 4096 samples, at least one.
+/// At most 65536 samples, at least one.
 template <class T>
 [[nodiscard]] ExtremePlaces extreme_places(std::span<const T> samples) {
     std::size_t highest = 0, lowest = 0;

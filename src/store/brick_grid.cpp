@@ -23,8 +23,8 @@ Box BrickGrid::box(std::int64_t brick) const {
     const std::array<std::int64_t, 3> at = place(brick);
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
-        box.begin[axis] = at[axis] * kBrickSide;
-        box.end[axis] = std::min(box.begin[axis] + kBrickSide, extent.size[axis]);
+        box.begin[axis] = at[axis] * kBrickSize[axis];
+        box.end[axis] = std::min(box.begin[axis] + kBrickSize[axis], extent.size[axis]);
     }
     return box;
 }

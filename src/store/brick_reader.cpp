@@ -13,7 +13,7 @@
 namespace isoatlas::store {
 namespace {
 
-constexpr std::int64_t kGap = 16 << 10;       ///< bytes between two bricks that are cheaper to read than to skip
+constexpr std::int64_t kGap = 1 << 10;        ///< bytes between two bricks that are cheaper to read than to skip
 constexpr std::int64_t kLongest = 256 << 10;  ///< bytes of one read
 
 [[noreturn]] void damaged(const Container& store, std::int64_t brick, const char* what) {
@@ -79,7 +79,7 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
                             const std::function<void(std::int64_t, std::span<const T>)>& sink) const {
     const auto i = static_cast<std::size_t>(brick);
     if (checksum(packed) != sums_[i]) damaged(store_, brick, "its checksum is wrong");
-    std::array<T, kBrickSide * kBrickSide * kBrickSide> samples;
+    std::array<T, kBrickSamples> samples;
     const BoxSize size = grid_.box(brick).size();
     const std::span<T> box(samples.data(), static_cast<std::size_t>(size[0] * size[1] * size[2]));
     if (!decode_brick<T>(packed, size, low_[i], box)) damaged(store_, brick, "it is not coded as it should be");

@@ -26,26 +26,9 @@ struct Parts {
         const int exponent = static_cast<int>(bits >> kStored);
         mantissa = bits & ((Key<T>{1} << kStored) - 1);
         if (exponent > 0) mantissa |= Key<T>{1} << kStored;
-        place = std::max(exponent, 1) - 1 + kLeastPlace<T>;
+        place = exponent - (exponent > 0 ? 1 : 0) + kLeastPlace<T>;
     }
 };
-
-/// Bits below the unit of a sample of a number of so many bits, at least one.
-template <class T>
-int tail_of(int width, const Units& units) {
-    return std::max(0, std::min(kDigits<T> - width, units.exponent - kLeastPlace<T>));
-}
-
-/// -1 for negative numbers, else 0, as two's complement.
-template <class N>
-N sign_of(N number) {
-    return static_cast<N>(N{0} - (number >> (8 * sizeof(N) - 1)));
-}
-/// Changes the sign where `sign` is -1.
-template <class N>
-N signed_by(N number, N sign) {
-    return static_cast<N>((number ^ sign) - sign);
-}
 
 template <class T>
 bool is_positive_zero(T sample) {
@@ -56,10 +39,10 @@ bool is_positive_zero(T sample) {
 template <class T, class Put>
 void for_each_piece(std::span<const T> samples, const Units& units, const Put& put) {
     for (const T sample : samples) {
-        const Key<T> number = in_units(sample, units), magnitude = signed_by(number, sign_of(number));
-        if (magnitude != 0) {
-            const int tail = tail_of<T>(static_cast<int>(std::bit_width(magnitude)), units);
-            put(Parts<T>(sample).mantissa & ((std::uint64_t{1} << tail) - 1), tail);
+        const Parts<T> parts(sample);
+        const int tail = units.exponent - parts.place;
+        if (in_units(sample, units) != 0) {
+            put(parts.mantissa & ((std::uint64_t{1} << tail) - 1), tail);
         } else if (is_positive_zero(sample)) {
             put(0, 1);
         } else {
@@ -157,23 +140,16 @@ void append_tails(std::span<const T> samples, const Units& units, std::vector<st
 
 template <class T>
 bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
-    constexpr std::size_t kWidths = 8 * sizeof(T) + 1;
-    std::array<std::uint8_t, kWidths> tail_of_width{};  // tables, so that samples take no branches
-    std::array<T, kWidths> place_of_width{};
-    for (std::size_t w = 1; w < kWidths; ++w) {
-        tail_of_width[w] = static_cast<std::uint8_t>(tail_of<T>(static_cast<int>(w), units));
-        place_of_width[w] = power_of_2<T>(units.exponent - tail_of_width[w]);
-    }
+    if (units.exponent < kLeastPlace<T> || units.exponent >= std::numeric_limits<T>::max_exponent) return false;
+    from_units(numbers, units, samples);
     BitReader reader(tails);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Key<T> sign = sign_of(numbers[i]), magnitude = signed_by(numbers[i], sign);
-        if (magnitude == 0) {
+        if (numbers[i] == 0) {
             samples[i] = take_small<T>(reader);
-            continue;
+        } else {  // the lowest bits of a mantissa are those below the unit
+            const int tail = std::max(0, units.exponent - Parts<T>(samples[i]).place);
+            samples[i] = std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(samples[i]) | reader.take(tail)));
         }
-        const auto width = static_cast<std::size_t>(std::bit_width(magnitude));
-        const Key<T> mantissa = static_cast<Key<T>>(magnitude << tail_of_width[width] | reader.take(tail_of_width[width]));
-        samples[i] = static_cast<T>(static_cast<std::make_signed_t<Key<T>>>(signed_by(mantissa, sign))) * place_of_width[width];
     }
     return reader.is_at_end();
 }

@@ -21,7 +21,7 @@ struct Brick {
 template <class T>
 Brick<T> arbitrary_brick() {
     Brick<T> brick;
-    for (std::int64_t& n : brick.size) n = *rc::gen::inRange<std::int64_t>(1, 17);
+    for (std::size_t axis = 0; axis < 3; ++axis) brick.size[axis] = *rc::gen::inRange<std::int64_t>(1, kBrickSize[axis] + 1);
     const int noise = *rc::gen::inRange(0, 65), scale = *rc::gen::inRange(-60, 60);
     const auto slope = *rc::gen::container<std::vector<int>>(6, rc::gen::inRange(-9, 9));
     const auto raw = *rc::gen::container<std::vector<std::uint64_t>>(101, rc::gen::arbitrary<std::uint64_t>());
@@ -109,10 +109,11 @@ TEST(BrickCodec, WhatIsNoNumberStays) {
 }
 
 TEST(BrickCodec, SmoothSamplesTakeLittle) {
-    Brick<float> brick{{16, 16, 16}, {}};
-    for (int i = 0; i < 4096; ++i) brick.samples.push_back(static_cast<float>((i % 16) * (i % 16) + i / 16 % 16 - 3 * (i / 256)) - 40.25F);
+    Brick<float> brick{kBrickSize, {}};
+    for (int i = 0; i < kBrickSamples; ++i)
+        brick.samples.push_back(static_cast<float>((i % 16) * (i % 16) + i / 16 % 8 - 3 * (i / 128)) - 40.25F);
     const BrickCode code = choose_code<float>(brick.samples, brick.size, extremes_of<float>(brick.samples).first);
-    EXPECT_LT(code.bytes, 4096 / 8);
+    EXPECT_LT(code.bytes, kBrickSamples / 8);
     check_round_trip(brick, code.head);
 }
 

@@ -93,7 +93,7 @@ RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
         for (auto& high : most) high.first = -1e300;
         for (std::int64_t v = 0; v < volume.info.extent.voxels(); ++v) {
             const auto at = volume.info.extent.voxel(v);
-            const auto b = static_cast<std::size_t>(reader.grid().brick({at[0] / kBrickSide, at[1] / kBrickSide, at[2] / kBrickSide}));
+            const auto b = static_cast<std::size_t>(reader.grid().brick(BrickGrid::place_of(at)));
             least[b] = std::min(least[b], std::pair(volume.value(v), v));
             most[b] = std::max(most[b], std::pair(volume.value(v), v));
         }
@@ -109,9 +109,9 @@ RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
 TEST_F(Bricks, WrongPlacesOfExtremesAreRefused) {
     const Volume volume = make_phantom("noise", {.size = 20, .quantise = 8});
     for (const char* name : {"volume/highest", "volume/lowest"}) {
-        for (const std::uint16_t wrong : {std::uint16_t{0}, std::uint16_t{63}, std::uint16_t{64}, std::uint16_t{4096}}) {
+        for (const std::uint16_t wrong : {std::uint16_t{0}, std::uint16_t{63}, std::uint16_t{64}, std::uint16_t{1024}}) {
             std::vector<PackedArray> arrays = brick_arrays(volume, {});
-            const std::vector<std::uint16_t> places(8, wrong);
+            const std::vector<std::uint16_t> places(static_cast<std::size_t>(BrickGrid(volume.info.extent).count()), wrong);
             for (PackedArray& array : arrays) {
                 if (array.name == name) array.feed = [&](const Put& put) { put(std::as_bytes(std::span(places))); };
             }
@@ -141,7 +141,7 @@ TEST_F(Bricks, NeighboursAreReadTogether) {
     const IoCounters counters = reader.read(corner, 1, [](std::int64_t, std::span<const std::uint8_t>) {});
     EXPECT_EQ(counters.bricks, 64);
     EXPECT_EQ(counters.extents, 1);
-    EXPECT_LT(counters.bytes, 64 * 4096);
+    EXPECT_LT(counters.bytes, 64 * kBrickSamples);
 }
 
 TEST_F(Bricks, ADamagedBrickIsNeverReturned) {
