@@ -19,7 +19,7 @@ namespace isoatlas {
 struct AtlasReads {
     std::int64_t bytes = 0;    ///< of samples
     std::int64_t extents = 0;  ///< reads
-    std::int64_t bricks = 0;   ///< of 16 samples a side
+    std::int64_t bricks = 0;   ///< of 16 x 8 x 8 samples
 };
 
 /// What one query has cost. A cell belongs to the brick of its first corner.

@@ -10,7 +10,8 @@
 //               flooded. Cells with such a point at a corner are in the file, sorted by their highest sample. *Loaded*: the cells in the
 //               files of all active zones. *Visited*: in each file those from the highest down to the first whose highest sample is below
 //               tau, included.
-//   bricks      ours (docs/decisions/0009). A brick of 16 samples a side is read when it, or the two samples around it, are divided by tau;
+//   bricks      ours (docs/decisions/0009). A brick of 16 x 8 x 8 samples is read when it, or what matters of the two samples around it, is
+//   divided by tau;
 //               outside the volume everything is Low. Loaded and visited: the cells whose first corner lies in a brick that is read.
 // Load utility: active / loaded; travel utility: active / visited, in percent.
 // Where the dissertation keeps a file for each component of a zone, a zone has one file here: all its components are active together, and a

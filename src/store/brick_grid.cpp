@@ -24,7 +24,7 @@ Box BrickGrid::box(std::int64_t brick) const {
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
         box.begin[axis] = at[axis] * kBrickSize[axis];
-        box.end[axis] = std::min(box.begin[axis] + kBrickSize[axis], extent.size[axis]);
+        box.end[axis] = box.begin[axis] + length(axis, at[axis]);
     }
     return box;
 }

@@ -1,4 +1,4 @@
-// How a volume is cut into bricks of 16 x 8 x 8 samples (docs/decisions/0011); the last ones of an axis are smaller.
+// How a volume is cut into bricks of 16 x 8 x 8 samples (docs/decisions/0014); the last ones of an axis are smaller.
 #pragma once
 
 #include <array>
@@ -38,6 +38,11 @@ struct BrickGrid {
     }
     [[nodiscard]] std::array<std::int64_t, 3> place(std::int64_t brick) const {
         return {brick % size[0], brick / size[0] % size[1], brick / size[0] / size[1]};
+    }
+    /// Samples along an axis of the bricks at a place along it.
+    [[nodiscard]] std::int64_t length(int axis, std::int64_t place) const {
+        const std::int64_t left = extent.size[axis] - place * kBrickSize[axis];
+        return left < kBrickSize[axis] ? left : kBrickSize[axis];
     }
     [[nodiscard]] Box box(std::int64_t brick) const;
     /// All bricks in the order in which they lie in a store: along a curve that keeps neighbours together (Morton order).

@@ -43,12 +43,24 @@ BrickReader<T>::BrickReader(const Container& store)
     if (offset_.size() != count || sums_.size() != count || bytes_.size() != count || low_.size() != count || high_.size() != count ||
         lowest_.size() != count || highest_.size() != count)
         damaged(store, 0, "the numbers of bricks do not agree");
-    for (std::int64_t brick = 0; brick < grid_.count(); ++brick) {
-        const auto i = static_cast<std::size_t>(brick);
-        const auto bytes = static_cast<std::uint64_t>(data_.bytes());
-        if (offset_[i] > bytes || bytes_[i] > bytes - offset_[i]) damaged(store, brick, "it lies outside the data");
-        const std::int64_t samples = grid_.box(brick).count();
-        if (lowest_[i] >= samples || highest_[i] >= samples) damaged(store, brick, "its extremes lie outside");
+    const auto bytes = static_cast<std::uint64_t>(data_.bytes());
+    for (std::size_t i = 0; i < count; ++i) {
+        if (offset_[i] > bytes || bytes_[i] > bytes - offset_[i]) damaged(store, static_cast<std::int64_t>(i), "it lies outside the data");
+    }
+    check_places();
+}
+
+template <class T>
+void BrickReader<T>::check_places() const {
+    std::int64_t brick = 0;
+    for (std::int64_t z = 0; z < grid_.size[2]; ++z) {
+        for (std::int64_t y = 0; y < grid_.size[1]; ++y) {
+            const std::int64_t rows = grid_.length(1, y) * grid_.length(2, z);
+            for (std::int64_t x = 0; x < grid_.size[0]; ++x, ++brick) {
+                const auto i = static_cast<std::size_t>(brick);
+                if (std::max(lowest_[i], highest_[i]) >= rows * grid_.length(0, x)) damaged(store_, brick, "its extremes lie outside");
+            }
+        }
     }
 }
 

@@ -53,6 +53,7 @@ private:
         std::int64_t begin, end;  ///< bytes in volume/data
     };
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
+    void check_places() const;
     void sort_by_offset(std::vector<std::int64_t>& bricks) const;
     [[nodiscard]] IoCounters count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const;
     [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const;
