@@ -10,9 +10,9 @@
 //               flooded. Cells with such a point at a corner are in the file, sorted by their highest sample. *Loaded*: the cells in the
 //               files of all active zones. *Visited*: in each file those from the highest down to the first whose highest sample is below
 //               tau, included.
-//   bricks      ours (docs/decisions/0009). A brick of 16 x 8 x 8 samples is read when it, or what matters of the two samples around it, is
-//   divided by tau;
-//               outside the volume everything is Low. Loaded and visited: the cells whose first corner lies in a brick that is read.
+//   bricks      ours (docs/decisions/0009). A brick of 16 x 8 x 8 samples is read when tau divides it, or what a surface would look at
+//               around it; outside the volume everything is Low. Loaded and visited: the cells whose first corner lies in a brick that is
+//               read.
 // Load utility: active / loaded; travel utility: active / visited, in percent.
 // Where the dissertation keeps a file for each component of a zone, a zone has one file here: all its components are active together, and a
 // cell in two of them counts once. A voxel waits in the files of all objects that it is beside, not of the first one alone; otherwise cells
