@@ -50,21 +50,21 @@ class Dump(harness.CliTest):
 
     def test_bricks(self):
         samples = struct.unpack("<8000f", (self.folder / "noise.npy").read_bytes()[-32000:])
-        for words, low, size in ((["brick", "0"], (0, 0, 0), (16, 16, 16)), (["brick 7"], (16, 16, 16), (4, 4, 4)),
-                                 (["voxel", "19,3,4"], (16, 0, 0), (4, 16, 16))):
+        for words, low, size in ((["brick", "0"], (0, 0, 0), (16, 8, 8)), (["brick 17"], (16, 16, 16), (4, 4, 4)),
+                                 (["voxel", "19,3,4"], (16, 0, 0), (4, 8, 8))):
             document = self.dump(*words)
             self.assertEqual((document["part"]["first_voxel"], document["part"]["shape"]), (list(low), list(size[::-1])))
             expected = [samples[x + 20 * (y + 20 * z)] for z in range(low[2], low[2] + size[2])
                         for y in range(low[1], low[1] + size[1]) for x in range(low[0], low[0] + size[0])]
             self.assertEqual(document["numbers"], expected)
-        lines = self.run_ok("dump", "noise.atlas", "brick", "7").stdout.splitlines()
+        lines = self.run_ok("dump", "noise.atlas", "brick", "17").stdout.splitlines()
         self.assertEqual(len(lines), 1 + 4 * 5)
 
     def test_errors_say_what_there_is(self):
         error = self.run_error(6, "dump", "noise.atlas", "elements/valu")
         for name in ("header", "contents", "elements/value", "elements/towards_outside", "brick N"):
             self.assertIn(name, error["expected"])
-        for part, says in (("brick 8", "0 to 7"), ("brick x", "brick 17"), ("voxel 20,0,0", "20,20,20"), ("elements/value[1:", "[FIRST:END]"),
+        for part, says in (("brick 18", "0 to 17"), ("brick x", "brick 17"), ("voxel 20,0,0", "20,20,20"), ("elements/value[1:", "[FIRST:END]"),
                            ("elements/value[9:3]", "numbers"), ("elements/value[-1]", "numbers"), ("header[1]", "header"),
                            ("elements/value[99999999999999999999]", "[FIRST:END]")):
             self.assertIn(says, self.run_error(6, "dump", "noise.atlas", part)["expected"], part)
