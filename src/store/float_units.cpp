@@ -154,13 +154,13 @@ bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tail
     return reader.is_at_end();
 }
 
-#define ISOATLAS_INSTANTIATE(T)                                                               \
-    template std::optional<Units> units_of<T>(std::span<const T>);                            \
-    template Key<T> in_units<T>(T, const Units&);                                             \
-    template void from_units<T>(std::span<const Key<T>>, const Units&, std::span<T>);         \
-    template std::int64_t tail_bits<T>(std::span<const T>, const Units&);                     \
-    template void append_tails<T>(std::span<const T>, const Units&, std::vector<std::byte>&); \
-    template bool join_tails<T>(std::span<const Key<T>>, std::span<const std::byte>, const Units&, std::span<T>)
+#define ISOATLAS_INSTANTIATE(T)                                                            \
+    template std::optional<Units> units_of(std::span<const T>);                            \
+    template Key<T> in_units(T, const Units&);                                             \
+    template void from_units(std::span<const Key<T>>, const Units&, std::span<T>);         \
+    template std::int64_t tail_bits(std::span<const T>, const Units&);                     \
+    template void append_tails(std::span<const T>, const Units&, std::vector<std::byte>&); \
+    template bool join_tails(std::span<const Key<T>>, std::span<const std::byte>, const Units&, std::span<T>)
 ISOATLAS_INSTANTIATE(float);
 ISOATLAS_INSTANTIATE(double);
 #undef ISOATLAS_INSTANTIATE
