@@ -154,6 +154,7 @@ bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tail
     return reader.is_at_end();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the argument is a type
 #define ISOATLAS_INSTANTIATE(T)                                                            \
     template std::optional<Units> units_of(std::span<const T>);                            \
     template Key<T> in_units(T, const Units&);                                             \
@@ -164,5 +165,6 @@ bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tail
 ISOATLAS_INSTANTIATE(float);
 ISOATLAS_INSTANTIATE(double);
 #undef ISOATLAS_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas::store
