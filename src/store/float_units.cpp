@@ -108,7 +108,7 @@ std::optional<Units> units_of(std::span<const T> samples) {
 template <class T>
 Key<T> in_units(T sample, const Units& units) {
     const Parts<T> parts(sample);
-    const int below = units.exponent - parts.place;
+    const int below = std::max(0, units.exponent - parts.place);
     const Key<T> magnitude = below >= static_cast<int>(8 * sizeof(T)) ? 0 : parts.mantissa >> below;
     return std::signbit(sample) ? static_cast<Key<T>>(Key<T>{0} - magnitude) : magnitude;
 }

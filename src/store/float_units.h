@@ -23,7 +23,7 @@ struct Units {
 template <class T>
 [[nodiscard]] std::optional<Units> units_of(std::span<const T> samples);
 
-/// A sample in units, rounded to zero; negative numbers as two's complement.
+/// A sample in units of its last place or more, rounded to zero; negative numbers as two's complement. Of smaller units: some number.
 template <class T>
 [[nodiscard]] Key<T> in_units(T sample, const Units& units);
 

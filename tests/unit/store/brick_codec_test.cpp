@@ -111,7 +111,7 @@ TEST(BrickCodec, WhatIsNoNumberStays) {
 TEST(BrickCodec, SmoothSamplesTakeLittle) {
     Brick<float> brick{kBrickSize, {}};
     for (int i = 0; i < kBrickSamples; ++i)
-        brick.samples.push_back(static_cast<float>((i % 16) * (i % 16) + i / 16 % 8 - 3 * (i / 128)) - 40.25F);
+        brick.samples.push_back(static_cast<float>((i % 16) * (i % 16) + i / 16 % 8 - i / 128 * 3) - 40.25F);
     const BrickCode code = choose_code<float>(brick.samples, brick.size, extremes_of<float>(brick.samples).first);
     EXPECT_LT(code.bytes, kBrickSamples / 8);
     check_round_trip(brick, code.head);
