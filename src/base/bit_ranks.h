@@ -7,12 +7,16 @@
 #include <cstdint>
 
 #include "base/big_vector.h"
+#include "base/memory_limit.h"
 
 namespace isoatlas {
 
 class BitRanks {
 public:
-    explicit BitRanks(std::size_t bound) : words_(bound / kBits + 1, std::uint64_t{0}) {}
+    explicit BitRanks(std::size_t bound) {
+        const KeepInMemory keep;
+        words_.assign(bound / kBits + 1, std::uint64_t{0});
+    }
 
     /// From several threads at once, too.
     void add(std::size_t x) {
@@ -24,6 +28,7 @@ public:
 
     /// Once all are added. Returns how many there are.
     std::size_t count() {
+        const KeepInMemory keep;
         before_.resize(words_.size());
         std::size_t sum = 0;
         for (std::size_t w = 0; w < words_.size(); ++w) {

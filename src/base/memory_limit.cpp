@@ -28,6 +28,7 @@ namespace {
 
 constexpr std::size_t kLeastPiece = std::size_t{1} << 20;  // smaller arrays stay in memory
 constexpr std::size_t kPage = 4096;
+thread_local bool keeps_in_memory = false;  // KeepInMemory
 
 std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
@@ -87,8 +88,8 @@ public:
         if (!active_ || bytes < kLeastPiece) return nullptr;
         const std::size_t size = rounded(bytes);
         std::unique_lock lock(mutex_);
-        // A quarter of the limit for arrays in memory; the rest is for pages of the file and the program.
-        if (in_memory_ + static_cast<std::int64_t>(bytes) <= limit_ / 4) {
+        if (keeps_in_memory &&
+            static_cast<double>(in_memory_ + static_cast<std::int64_t>(bytes)) <= kInMemory * static_cast<double>(limit_)) {
             in_memory_ += static_cast<std::int64_t>(bytes);
             return nullptr;
         }
@@ -128,9 +129,27 @@ public:
         return true;
     }
 
+    /// Calls copy(offset in the file) for an address in it. Returns false, and does nothing, for others.
+    template <class Copy>
+    bool locate(const void* memory, const Copy& copy) {
+        std::unique_lock lock(mutex_);
+        const auto* const at = static_cast<const char*>(memory);
+        auto piece = pieces_.upper_bound(const_cast<char*>(at));
+        if (piece == pieces_.begin()) return false;
+        --piece;
+        const auto into = static_cast<std::size_t>(at - piece->first);
+        if (into >= piece->second.size) return false;
+        const off_t offset = piece->second.offset + static_cast<off_t>(into);
+        const int file = file_;
+        lock.unlock();  // whoever copies holds the array
+        copy(file, offset);
+        return true;
+    }
+    [[noreturn]] void failed(int error) { scratch_failed(folder_, error); }
+
     /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then.
     std::int64_t check() {
-        const std::int64_t left = limit_ - limit_ / 10 * 3 - resident_memory(statm_);
+        const std::int64_t left = limit_ - limit_ / 20 * 3 - resident_memory(statm_);
         if (left > 0) return left;
         const std::lock_guard lock(mutex_);
         for (const auto& [memory, piece] : pieces_) ::madvise(memory, piece.size, MADV_DONTNEED);
@@ -244,6 +263,9 @@ MemoryLimit::~MemoryLimit() {
     if (holds_) scratch().stop();
 }
 
+KeepInMemory::KeepInMemory() : before_(std::exchange(keeps_in_memory, true)) {}
+KeepInMemory::~KeepInMemory() { keeps_in_memory = before_; }
+
 std::int64_t available_memory() {
     const std::int64_t machine = static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
     return std::min(machine, control_group_limit());
@@ -260,6 +282,36 @@ bool give_scratch(void* memory, std::size_t bytes) noexcept { return scratch().g
 void check_memory() {
     if (scratch().active()) scratch().check();
 }
+bool is_scratch(const void* memory) {
+    return scratch().locate(memory, [](int, off_t) {});
+}
+
+void read_scratch(const void* from, std::span<std::byte> to) {
+    const bool found = scratch().locate(from, [&](int file, off_t offset) {
+        while (!to.empty()) {
+            const ssize_t count = ::pread(file, to.data(), to.size(), offset);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) scratch().failed(count < 0 ? errno : EIO);
+            to = to.subspan(static_cast<std::size_t>(count));
+            offset += count;
+        }
+    });
+    ISOATLAS_CHECK(found);
+}
+
+void write_scratch(void* to, std::span<const std::byte> from) {
+    const bool found = scratch().locate(to, [&](int file, off_t offset) {
+        while (!from.empty()) {
+            const ssize_t count = ::pwrite(file, from.data(), from.size(), offset);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) scratch().failed(count < 0 ? errno : EIO);
+            from = from.subspan(static_cast<std::size_t>(count));
+            offset += count;
+        }
+    });
+    ISOATLAS_CHECK(found);
+}
+
 std::int64_t memory_limit() noexcept { return scratch().limit(); }
 bool memory_is_limited() noexcept { return scratch().active(); }
 

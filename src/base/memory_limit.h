@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace isoatlas {
@@ -27,11 +28,27 @@ private:
 /// The smallest limit that leaves room for the program itself and some pages of every array.
 inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
 
+/// The share of the limit for arrays that stay in memory.
+inline constexpr double kInMemory = 0.65;
+
 /// Memory that this process may use: of the machine, or less when a control group says so.
 [[nodiscard]] std::int64_t available_memory();
 
 /// The most memory that was ever resident, in bytes.
 [[nodiscard]] std::int64_t peak_memory();
+
+/// While one lives, arrays that this thread makes stay in memory as long as they take less than their share of the limit (kInMemory): those
+/// that are accessed at random, where every touch of the scratch file would cost a page.
+class KeepInMemory {
+public:
+    KeepInMemory();
+    ~KeepInMemory();
+    KeepInMemory(const KeepInMemory&) = delete;
+    KeepInMemory& operator=(const KeepInMemory&) = delete;
+
+private:
+    bool before_;
+};
 
 /// For the allocator of BigVector. take_scratch: null when no limit holds or memory will do; throws Error{resource} when the disk is full.
 /// give_scratch: false: not from here.
@@ -40,6 +57,24 @@ inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
 /// Looks after the limit at once, as the watcher may be late on a busy machine: after every block of work (parallel.h), and now and then in
 /// long loops that read many arrays at a time. Cost: about a microsecond, nothing where no limit is in force.
 void check_memory();
+/// Calls it now and then in a loop: what a thread brings into memory between two calls must be little.
+class PacedCheck {
+public:
+    void step() {
+        if (++steps_ % kSteps == 0) check_memory();
+    }
+
+private:
+    static constexpr std::uint32_t kSteps = 1 << 12;
+    std::uint32_t steps_ = 0;
+};
+
+/// Does a part of an array lie in the scratch file? Then read_scratch and write_scratch copy from and to it without making it resident.
+[[nodiscard]] bool is_scratch(const void* memory);
+void read_scratch(const void* from, std::span<std::byte> to);
+/// Throws Error{resource} when the disk fails.
+void write_scratch(void* to, std::span<const std::byte> from);
+
 /// The limit in force, 0 for none.
 [[nodiscard]] std::int64_t memory_limit() noexcept;
 /// Is a limit in force? Then nothing is kept for reuse.

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/big_vector.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/part_streams.h"
 
 namespace isoatlas {
 
@@ -99,7 +101,11 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     // Count per chunk and bucket, turn counts into places, scatter, sort every bucket.
     std::vector<std::size_t> place(chunks.size() * count, 0), first(count + 1, 0);
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        for (const T& item : chunks[c]) ++place[c * count + buckets.of(key(item))];
+        PacedCheck memory;
+        for (const T& item : chunks[c]) {
+            memory.step();
+            ++place[c * count + buckets.of(key(item))];
+        }
     });
     std::size_t next = 0;
     for (std::size_t b = 0; b < count; ++b) {
@@ -109,7 +115,13 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     first[count] = n;
     BigVector<T> sorted(n);
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        for (const T& item : chunks[c]) sorted[place[c * count + buckets.of(key(item))]++] = item;
+        PacedCheck memory;
+        PartWriters<T> writers(sorted, std::span(place).subspan(c * count, count));
+        for (const T& item : chunks[c]) {
+            memory.step();
+            writers.put(buckets.of(key(item)), item);
+        }
+        writers.finish();
         release(chunks[c]);
     });
     allocate(n);

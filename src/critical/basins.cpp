@@ -3,6 +3,8 @@
 #include <array>
 #include <bit>
 
+#include "base/memory_limit.h"
+
 namespace isoatlas {
 namespace {
 
@@ -50,6 +52,7 @@ void Basins<Id>::point(Slab slab, Id& next) {
     const bool down = direction_ == Direction::down, is_3d = extent_.rank == 3;
     const std::uint8_t flip = down ? (is_3d ? 0b111111 : 0b001111) : 0;
     for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
+        check_memory();
         const std::uint8_t known = z > slab.z_begin ? 0b010101 : 0b000101;  // neighbours with an entry in this slab
         for (std::int64_t y = 0; y < ny; ++y) {
             const std::int64_t row = nx * (y + ny * z);
@@ -93,6 +96,7 @@ void Basins<Id>::exits() {
     for (std::int64_t begin = 0; begin < extent_.size[2]; begin += height_) {
         const Slab slab = slab_at(begin / height_, height_, extent_.size[2]);
         for (const std::int64_t z : {slab.z_begin, slab.z_end - 1}) {
+            check_memory();
             for (std::int64_t v = z * slice; v < (z + 1) * slice; ++v) compress(v, 0, extent_.voxels(), path);
         }
     }

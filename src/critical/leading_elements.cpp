@@ -1,11 +1,25 @@
 #include "critical/leading_elements.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 
 namespace isoatlas {
 namespace {
+
+/// Per slab: how many maxima lie in the slabs before.
+std::vector<std::int64_t> first_of_slabs(const Extent& extent, std::int64_t height, std::span<const std::uint8_t> links, int threads) {
+    std::vector<std::int64_t> first(static_cast<std::size_t>((extent.size[2] + height - 1) / height));
+    for_each_block(threads, static_cast<std::int64_t>(first.size()), [&](std::int64_t slab) {
+        const std::int64_t z = slab * height, slices = std::min(height, extent.size[2] - z);
+        first[slab] = std::ranges::count(links.subspan(z * extent.slice(), slices * extent.slice()), std::uint8_t{0});
+    });
+    std::int64_t maxima = 0;
+    for (std::int64_t& of_slab : first) maxima += std::exchange(of_slab, maxima);
+    return first;
+}
 
 template <class Id>
 std::array<Id, 2> renumbered(std::array<Id, 2> names, std::span<const Id> number) {
@@ -19,7 +33,9 @@ LeadingChunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const
     LeadingChunks<Id> result(chunks.size());
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
         result[c].resize(chunks[c].size());
+        PacedCheck memory;
         for (std::size_t i = 0; i < chunks[c].size(); ++i) {
+            memory.step();
             result[c][i] = {chunks[c][i], {renumbered<Id>(leads.above(chunks[c][i].code), number), {}}};
         }
         release(chunks[c]);
@@ -30,7 +46,11 @@ LeadingChunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const
 template <class Id>
 void add_minima(LeadingChunks<Id>& chunks, const Representatives<Id>& leads, std::span<const Id> number, int threads) {
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        for (LeadingElement<Id>& element : chunks[c]) element.ends.below = renumbered<Id>(leads.below(element.key.code), number);
+        PacedCheck memory;
+        for (LeadingElement<Id>& element : chunks[c]) {
+            memory.step();
+            element.ends.below = renumbered<Id>(leads.below(element.key.code), number);
+        }
     });
 }
 
@@ -51,6 +71,13 @@ BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Directio
 }
 
 template <class Id>
+BigVector<Id> basins_of_maxima(const Extent& extent, std::span<const std::uint8_t> links, const Context& context) {
+    const std::int64_t height = slab_height(extent, context);
+    return resolve_basins<Id>(extent, height, Direction::up, links, first_of_slabs(extent, height, links, context.threads),
+                              context.threads);
+}
+
+template <class Id>
 LeadingChunks<Id> leading_elements(const Extent& extent, GridScan& scan, std::span<const Id> new_maximum, std::span<const Id> new_minimum,
                                    BigVector<Id>* upward, int threads) {
     LeadingChunks<Id> elements;
@@ -68,6 +95,7 @@ LeadingChunks<Id> leading_elements(const Extent& extent, GridScan& scan, std::sp
 #define ISOATLAS_LEADING(Id)                                                                                     \
     template BigVector<Id> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>, \
                                           const std::vector<std::int64_t>&, int);                                \
+    template BigVector<Id> basins_of_maxima(const Extent&, std::span<const std::uint8_t>, const Context&);       \
     template LeadingChunks<Id> leading_elements(const Extent&, GridScan&, std::span<const Id>, std::span<const Id>, BigVector<Id>*, int);
 ISOATLAS_LEADING(std::uint32_t)
 ISOATLAS_LEADING(std::uint64_t)

@@ -26,6 +26,10 @@ template <class Id>
 [[nodiscard]] BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction,
                                            std::span<const std::uint8_t> links, const std::vector<std::int64_t>& first_number, int threads);
 
+/// Basins of maxima. links: of links_of_grid(). Cost: O(voxels).
+template <class Id>
+[[nodiscard]] BigVector<Id> basins_of_maxima(const Extent& extent, std::span<const std::uint8_t> links, const Context& context);
+
 /// Finds the extrema around all elements; consumes links and chunks of the scan. new_maximum, new_minimum: per number of an extremum the
 /// one to be used instead; empty: its own. upward: null, or where the basins of maxima are to be kept. Cost: O(voxels).
 template <class Id>

@@ -6,6 +6,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
+#include "base/part_streams.h"
 #include "critical/leading_elements.h"
 #include "isoatlas/error.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::int64_t kMostTiles = std::int64_t{1} << 16;
 constexpr std::int64_t kBytesAVoxel = 64;  // of noise, while a tile is reduced
-constexpr std::size_t kChecked = 1 << 13;  // elements between two looks at the memory
 constexpr std::int64_t kUnlimitedTile = std::int64_t{1} << 20;
 
 void stop_if_cancelled(const Context& context) {
@@ -31,6 +31,7 @@ struct Renumbering {
 /// Elements of extrema come in the order of their old numbers, which begin at least.
 template <class Id, class IsExtremum>
 Renumbering<Id> renumber(const GridScan& scan, const Tiling& tiling, std::int64_t extrema, Id least, const IsExtremum& is_extremum) {
+    const KeepInMemory keep;
     Renumbering<Id> result;
     result.number.resize(static_cast<std::size_t>(extrema) + least);
     result.first.assign(static_cast<std::size_t>(tiling.count()) + 1, Id{0});
@@ -88,14 +89,16 @@ void cut(const BigVector<Ends<Id>>& ends, const Tiling& tiling, PartedCriticals<
     const std::size_t n = result.code.size();
     result.part_of.resize(n);
     result.set.elements.resize(n);
-    std::vector<std::size_t> next = result.set.first;
+    PartWriters<PartedElement<Id>> parts(result.set.elements, result.set.first);
+    PacedCheck memory;
     for (std::size_t r = 0; r < n; ++r) {
-        if (r % kChecked == 0) check_memory();
+        memory.step();
         const ElementCode code{result.code[r]};
         const auto tile = static_cast<std::uint16_t>(tiling.tile_of(code));
         result.part_of[r] = tile;
-        result.set.elements[next[tile]++] = {ends[r], branches_of(code.h0(), code.l0())};
+        parts.put(tile, {ends[r], branches_of(code.h0(), code.l0())});
     }
+    parts.finish();
 }
 
 }  // namespace
@@ -106,7 +109,7 @@ Tiling tiling_for(const Extent& extent, const Context& context) {
         const std::int64_t limit = memory_limit();
         const std::int64_t voxels = limit > 0 ? limit / 4 / thread_count(context.threads) / kBytesAVoxel : kUnlimitedTile;
         const auto fits = [&](std::int64_t s) {
-            return std::min(s, extent.size[0]) * std::min(s, extent.size[1]) * std::min(s, extent.size[2]) <= voxels;
+            return std::min(Tiling::kLonger * s, extent.size[0]) * std::min(s, extent.size[1]) * std::min(s, extent.size[2]) <= voxels;
         };
         side = std::max({extent.size[0], extent.size[1], extent.size[2]});
         while (side > 8 && !fits(side)) side -= (side + 7) / 8;

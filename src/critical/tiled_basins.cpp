@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "critical/grid_scan.h"
 #include "critical/leading_elements.h"
@@ -10,32 +11,25 @@
 namespace isoatlas {
 namespace {
 
-/// Per slab: how many maxima lie in the slabs before.
-std::vector<std::int64_t> first_of_slabs(const Extent& extent, std::int64_t height, std::span<const std::uint8_t> links) {
-    std::vector<std::int64_t> first;
-    std::int64_t maxima = 0;
-    for (std::int64_t z = 0; z < extent.size[2]; z += height) {
-        first.push_back(maxima);
-        const std::int64_t slices = std::min(height, extent.size[2] - z);
-        maxima += std::ranges::count(links.subspan(z * extent.slice(), slices * extent.slice()), std::uint8_t{0});
-    }
-    return first;
-}
-
 /// Visits the maxima in the order of their old numbers.
 template <class Visit>
 void for_maxima(std::span<const std::uint8_t> links, const Visit& visit) {
-    for (auto at = links.begin(); (at = std::find(at, links.end(), std::uint8_t{0})) != links.end(); ++at) visit(at - links.begin());
+    constexpr std::size_t kBlock = std::size_t{1} << 18;
+    for (std::size_t first = 0; first < links.size(); first += kBlock, check_memory()) {
+        const auto end = links.begin() + static_cast<std::ptrdiff_t>(std::min(first + kBlock, links.size()));
+        auto at = links.begin() + static_cast<std::ptrdiff_t>(first);
+        for (; (at = std::find(at, end, std::uint8_t{0})) != end; ++at) visit(at - links.begin());
+    }
 }
 
 /// Calls visit(voxel, tile, border) for the voxels of a slice; border: a voxel of another tile may be a neighbour, also across an edge.
 template <class Visit>
 void for_voxels_of_slice(const Extent& extent, const Tiling& tiling, std::int64_t z, const Visit& visit) {
-    const std::int64_t nx = extent.size[0], ny = extent.size[1], side = tiling.side();
-    const auto is_border = [side](std::int64_t at) { return at % side == 0 || at % side == side - 1; };
-    const bool border_slice = extent.size[2] > 1 && is_border(z);
+    const std::int64_t nx = extent.size[0], ny = extent.size[1], side = tiling.side(0);
+    const auto is_border = [&](std::int64_t at, int axis) { return at % tiling.side(axis) == 0 || (at + 1) % tiling.side(axis) == 0; };
+    const bool border_slice = extent.size[2] > 1 && is_border(z, 2);
     for (std::int64_t y = 0; y < ny; ++y) {
-        const bool border_row = border_slice || is_border(y);
+        const bool border_row = border_slice || is_border(y, 1);
         const std::int64_t row = nx * (y + ny * z);
         std::int64_t tile = tiling.tile_of_voxel(row);
         for (std::int64_t first = 0; first < nx; first += side, ++tile) {
@@ -48,19 +42,19 @@ void for_voxels_of_slice(const Extent& extent, const Tiling& tiling, std::int64_
 }  // namespace
 
 template <class T, class Id>
-TiledBasins<Id> tiled_basins(const GridView<T>& grid, BigVector<Id> basin, const Tiling& tiling, const Context& context) {
+TiledBasins<Id> tiled_basins(const GridView<T>& grid, const Tiling& tiling, const Context& context) {
     const Extent& extent = grid.extent;
     const BigVector<std::uint8_t> links = links_of_grid(grid, context);
-    if (basin.empty()) {
-        const std::int64_t height = slab_height(extent, context);
-        basin = resolve_basins<Id>(extent, height, Direction::up, links, first_of_slabs(extent, height, links), context.threads);
-    }
+    BigVector<Id> basin = basins_of_maxima<Id>(extent, links, context);
     std::vector<Id> first(static_cast<std::size_t>(tiling.count()) + 1, Id{0});
     for_maxima(links, [&](std::int64_t voxel) { ++first[tiling.tile_of_voxel(voxel)]; });
     Id maxima = 0;
     for (Id& of_tile : first) maxima += std::exchange(of_tile, maxima);
     BigVector<Id> number;
-    number.reserve(maxima);
+    {
+        const KeepInMemory keep;
+        number.reserve(maxima);
+    }
     std::vector<Id> next = first;
     for_maxima(links, [&](std::int64_t voxel) { number.push_back(next[tiling.tile_of_voxel(voxel)]++); });
     TiledBasins<Id> result{std::move(basin), std::move(first), BitRanks(maxima)};
@@ -74,9 +68,9 @@ TiledBasins<Id> tiled_basins(const GridView<T>& grid, BigVector<Id> basin, const
     return result;
 }
 
-#define ISOATLAS_TILED(T)                                                                                                          \
-    template TiledBasins<std::uint32_t> tiled_basins(const GridView<T>&, BigVector<std::uint32_t>, const Tiling&, const Context&); \
-    template TiledBasins<std::uint64_t> tiled_basins(const GridView<T>&, BigVector<std::uint64_t>, const Tiling&, const Context&);
+#define ISOATLAS_TILED(T)                                                                                \
+    template TiledBasins<std::uint32_t> tiled_basins(const GridView<T>&, const Tiling&, const Context&); \
+    template TiledBasins<std::uint64_t> tiled_basins(const GridView<T>&, const Tiling&, const Context&);
 ISOATLAS_TILED(std::uint8_t)
 ISOATLAS_TILED(std::int8_t)
 ISOATLAS_TILED(std::uint16_t)

@@ -17,8 +17,8 @@ struct TiledBasins {
     BitRanks open;          ///< maxima that voxels or critical elements of another tile than their own may name
 };
 
-/// basin: kept from GridDomain::critical(), or empty. Cost: O(voxels) time, a byte a voxel beyond the result, and an Id each maximum.
+/// Cost: O(voxels) time, a byte a voxel beyond the result, and an Id each maximum.
 template <class T, class Id>
-[[nodiscard]] TiledBasins<Id> tiled_basins(const GridView<T>& grid, BigVector<Id> basin, const Tiling& tiling, const Context& context);
+[[nodiscard]] TiledBasins<Id> tiled_basins(const GridView<T>& grid, const Tiling& tiling, const Context& context);
 
 }  // namespace isoatlas

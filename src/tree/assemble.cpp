@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/part_streams.h"
 #include "field/slab_work.h"
 #include "tree/merge_tree.h"
 #include "tree/reduce.h"
@@ -13,8 +14,6 @@
 
 namespace isoatlas {
 namespace {
-
-constexpr std::size_t kChecked = 1 << 13;  // elements between two looks at the memory
 
 /// The survivors of all parts, in the order of ranks.
 template <class Id>
@@ -67,12 +66,13 @@ Survivors<Id> gather_survivors(const PartedSet<Id>& set, std::span<const std::ui
     survivors.set.branches.reserve(in_use.survivors);
     survivors.set.ends.reserve(in_use.survivors);
     survivors.rank.reserve(in_use.survivors + 1);
-    std::vector<std::size_t> next = set.first;
+    PartReaders<PartedElement<Id>> elements(set.elements, set.first);
+    PartWriters<Id> ranks(rank, set.first);
+    PacedCheck memory;
     for (std::size_t r = 0; r < part_of.size(); ++r) {
-        if (r % kChecked == 0) check_memory();
-        const std::size_t i = next[part_of[r]]++;
-        rank[i] = static_cast<Id>(r);
-        auto [ends, branches] = set.elements[i];
+        memory.step();
+        ranks.put(part_of[r], static_cast<Id>(r));
+        auto [ends, branches] = elements.next(part_of[r]);
         if (branches == kRemoved) continue;
         for (Id& name : ends.above) name = static_cast<Id>(maxima.rank(name));
         for (Id& name : ends.below) name = static_cast<Id>(minima.rank(name));
@@ -80,6 +80,7 @@ Survivors<Id> gather_survivors(const PartedSet<Id>& set, std::span<const std::ui
         survivors.set.ends.push_back(ends);
         survivors.rank.push_back(static_cast<Id>(r));
     }
+    ranks.finish();
     return survivors;
 }
 
@@ -114,11 +115,12 @@ BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> par
     release(set.elements);
     const BigVector<Id> of_survivors = arcs_of_survivors(std::move(survivors), static_cast<Id>(n), threads);
     BigVector<Id> other(n + 1);
-    std::vector<std::size_t> next = set.first;
+    PartReaders<Id> arcs(arc, set.first);
+    PacedCheck memory;
     std::size_t survivor = 0;
     for (std::size_t r = 0; r < n; ++r) {
-        if (r % kChecked == 0) check_memory();
-        const Id to = arc[next[part_of[r]]++];
+        memory.step();
+        const Id to = arcs.next(part_of[r]);
         other[r] = to == static_cast<Id>(r) ? of_survivors[survivor++] : to;
     }
     other[n] = static_cast<Id>(n);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/memory_limit.h"
 #include "base/union_find.h"
 #include "field/order.h"
 
@@ -14,7 +15,10 @@ namespace {
 template <class Id>
 class Sweep {
 public:
-    Sweep(std::size_t extrema, BigVector<Id>& parent) : components_(extrema), parent_(parent) {}
+    Sweep(std::size_t extrema, BigVector<Id>& parent) : parent_(parent) {
+        const KeepInMemory keep;
+        components_.resize(extrema);
+    }
 
     void start(Id extremum, Id node) { components_[extremum] = {extremum, node, 1}; }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/bit_ranks.h"
+#include "base/memory_limit.h"
 #include "tree/contour_tree.h"
 
 namespace isoatlas {
@@ -49,7 +50,10 @@ BigVector<Id> arcs_by_runs(std::span<const std::uint8_t> branches, BigVector<Id>
     first.push_back(static_cast<Id>(nodes));
     release(join);
     release(split);
-    const ContourTree<Id> tree = contour_tree<Id>(join_of_runs, std::move(split_of_runs), {}, threads);
+    const ContourTree<Id> tree = [&] {
+        const KeepInMemory keep;
+        return contour_tree<Id>(join_of_runs, std::move(split_of_runs), {}, threads);
+    }();
     BigVector<Id> other(nodes);
     for (std::size_t run = 0; run < runs.count(); ++run) {
         const Id begin = first[run], last = first[run + 1] - 1, to = tree.other[run];

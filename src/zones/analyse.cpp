@@ -7,8 +7,8 @@
 #include "base/memory_limit.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
+#include "critical/leading_elements.h"
 #include "critical/parted_domain.h"
-#include "critical/tiled_basins.h"
 #include "field/slab_work.h"
 #include "tree/assemble.h"
 #include "zones/analysis_data.h"
@@ -46,24 +46,12 @@ void make_arcs_by_tiles(const Extent& extent, GridScan scan, AnalysisArrays<Id>&
     arrays.contours.other = contour_arcs<Id>(std::move(criticals.set), criticals.part_of, context);
 }
 
-/// Per maximum: its critical element.
-template <class Id>
-BigVector<Id> elements_of_maxima(const AnalysisArrays<Id>& arrays, std::span<const Id> basin) {
-    std::size_t maxima = 0;
-    for (const std::uint64_t code : arrays.code) maxima += ElementCode{code}.h0() == 0;
-    BigVector<Id> element(maxima);
-    for (std::size_t i = 0; i < arrays.code.size(); ++i) {
-        const ElementCode code{arrays.code[i]};
-        if (code.h0() == 0) element[Basins<Id>::number(basin[code.index()])] = static_cast<Id>(i);
-    }
-    return element;
-}
-
 /// The basins in arrays.zone become zones in place.
 template <class T, class Id>
 void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Context& context) {
-    BigVector<Id> maxima = elements_of_maxima<Id>(arrays, arrays.zone);
-    const HeavyPaths<Id, ComparisonValue<T>> paths(arrays.tree, arrays.value, maxima, context.threads);
+    BigVector<Id> maxima = elements_of_maxima<Id>(arrays.code, grid.extent);
+    const CriticalityTree<Id>& tree = arrays.tree;
+    const HeavyPaths<Id, ComparisonValue<T>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element}, maxima, context.threads);
     release(maxima);
     arrays.voxels.assign(arrays.tree.size(), Id{0});
     for_each_slab_of(slab_height(grid.extent, context), context, {"zones", 4, kPhases}, grid.extent.size[2], [&](const Slab& slab) {
@@ -112,8 +100,13 @@ void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& c
         const GridView<T> grid{samples.data(), volume.info->extent};
         analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
             AnalysisArrays<Id>& arrays = held.arrays;
-            arrays.element_voxels = voxels_of_elements<T, Id>(grid, arrays.value, arrays.code, std::move(arrays.zone), context);
-            arrays.zone = {};
+            if (!paths_fit(arrays.code.size())) {
+                release(arrays.zone);
+                arrays.element_voxels = voxels_by_tiles<T, Id>(grid, arrays.value, arrays.code, context);
+                return;
+            }
+            if (arrays.zone.empty()) arrays.zone = basins_of_maxima<Id>(grid.extent, links_of_grid(grid, context), context);
+            arrays.element_voxels = voxels_by_paths<T, Id>(grid, arrays.value, arrays.code, arrays.contours, arrays.zone, context);
         });
     });
     context.report("zones", 4, kPhases, 1);
@@ -124,7 +117,8 @@ void complete(Analysis& analysis, const VolumeView& volume, const Context& conte
         const GridView<T> grid{samples.data(), volume.info->extent};
         analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
             ISOATLAS_CHECK(restore_trees(held.arrays, grid.extent.rank, context.threads));
-            held.arrays.zone = tiled_basins<T, Id>(grid, {}, tiling_for(grid.extent, context), context).maximum;
+            BigVector<Id>& basin = held.arrays.zone;
+            if (basin.empty()) basin = basins_of_maxima<Id>(grid.extent, links_of_grid(grid, context), context);
             make_zones(grid, held.arrays, context);
         });
     });

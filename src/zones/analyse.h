@@ -10,7 +10,7 @@ namespace isoatlas {
 /// limited (base/memory_limit.h).
 [[nodiscard]] Analysis find_arcs(const VolumeView& volume, const AnalysisOptions& options, const Context& context);
 
-/// Counts the voxels of every critical element: needs value and code.
+/// Counts the voxels of every critical element: needs value, code and arcs. May keep the basins for complete().
 void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& context);
 
 /// Makes a whole analysis of value, code and arcs: the trees, and the zone of every voxel. Cost: restore_trees(), the links and basins of

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/part_streams.h"
 #include "critical/representatives.h"
 #include "tree/components.h"
 #include "tree/local_numbers.h"
@@ -47,10 +48,16 @@ std::vector<TileVoxel<T, Id>> voxels_of_tile(const GridView<T>& grid, const Tili
     const auto begin = tiling.begin(tile), end = tiling.end(tile);
     std::vector<TileVoxel<T, Id>> voxels;
     voxels.reserve(static_cast<std::size_t>((end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2])));
+    const std::int64_t nx = grid.extent.size[0], rows = end[1] - begin[1], length = end[0] - begin[0];
+    std::vector<T> sample_buffer;
+    std::vector<Id> maximum_buffer;
     for (std::int64_t z = begin[2]; z < end[2]; ++z) {
-        for (std::int64_t y = begin[1]; y < end[1]; ++y) {
-            const std::int64_t row = grid.extent.size[0] * (y + grid.extent.size[1] * z);
-            for (std::int64_t v = row + begin[0]; v < row + end[0]; ++v) voxels.push_back({grid.samples[v], maximum[v]});
+        const auto first = static_cast<std::size_t>(begin[0] + nx * (begin[1] + grid.extent.size[1] * z));
+        const auto count = static_cast<std::size_t>((rows - 1) * nx + length);
+        const std::span<const T> samples = part_in_memory<T>({grid.samples + first, count}, sample_buffer);
+        const std::span<const Id> maxima = part_in_memory<Id>(maximum.subspan(first, count), maximum_buffer);
+        for (std::int64_t row = 0; row < rows * nx; row += nx) {
+            for (std::int64_t v = row; v < row + length; ++v) voxels.push_back({samples[v], maxima[v]});
         }
     }
     return voxels;

@@ -1,4 +1,7 @@
-// Voxels per critical element, without the trees: what sizes of zones are sums of.
+// Voxels per critical element: what sizes of zones are sums of.
+//
+// A voxel belongs to the lowest element on the way down the join tree from the voxel that is not below the voxel's value. The voxels of a
+// zone are those of the elements of its event (tree/criticality_tree.h): values between two elements of an object belong to the upper one.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +10,27 @@
 #include "base/big_vector.h"
 #include "field/grid.h"
 #include "isoatlas/context.h"
+#include "tree/contour_tree.h"
 
 namespace isoatlas {
 
-/// Per element how many voxels belong to it: to the lowest element on the way down the join tree from the voxel that is not below the
-/// voxel's value. The voxels of a zone are those of the elements of its event (tree/criticality_tree.h): values between two elements of
-/// an object belong to the upper one. value, code: of all elements, by rank. basin: kept from GridDomain::critical(), or empty.
-/// Works on one tile a thread at a time, and on what spans tiles in descending order: memory may be short.
+/// Does the memory limit leave room for the paths of so many elements, which are accessed at random?
+[[nodiscard]] bool paths_fit(std::size_t elements);
+
+/// With the tree. value, code: of all elements, by rank; contours: their arcs; basin: of critical/leading_elements.h.
+/// Cost: O(n alpha + voxels), about 30 bytes an element.
+template <class T, class Id>
+[[nodiscard]] BigVector<Id> voxels_by_paths(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
+                                            const ContourTree<Id>& contours, std::span<const Id> basin, const Context& context);
+
+/// The same without a tree: works on one tile a thread at a time, and on what spans tiles in descending order.
 /// Cost: O(n alpha + voxels log(voxels of a tile)).
 template <class T, class Id>
-[[nodiscard]] BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
-                                               BigVector<Id> basin, const Context& context);
+[[nodiscard]] BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
+                                            const Context& context);
+
+/// Per maximum, in raster order: its critical element.
+template <class Id>
+[[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Extent& extent);
 
 }  // namespace isoatlas

@@ -43,31 +43,55 @@ private:
     std::vector<Id> own_;
 };
 
+/// Calls visit(first, zones) for block after block. room(first, count): where the zones of a block go.
+template <class T, class Id, class Room, class Visit>
+void for_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin, const Room& room,
+               const Visit& visit) {
+    using Value = ComparisonValue<T>;
+    std::vector<Value> value(kBlock);
+    std::vector<Id> maximum(kBlock);
+    std::vector<std::uint32_t> scratch(kBlock);
+    for (std::size_t first = 0; first < samples.size(); first += kBlock) {
+        const std::size_t count = std::min(kBlock, samples.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            value[i] = static_cast<Value>(samples[first + i]);
+            maximum[i] = Basins<Id>::number(basin[first + i]);
+        }
+        const std::span<Id> zones = room(first, count);
+        paths.zones({value.data(), count}, {maximum.data(), count}, scratch, zones);
+        visit(zones);
+    }
+}
+
 }  // namespace
 
 template <class T, class Id>
 void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
                  std::span<Id> counts) {
-    using Value = ComparisonValue<T>;
-    std::vector<Value> value(kBlock);
-    std::vector<Id> maximum(kBlock);
-    std::vector<std::uint32_t> scratch(kBlock);
     Tally<Id> tally(counts);
-    for (std::size_t first = 0; first < samples.size(); first += kBlock) {
-        const std::size_t count = std::min(kBlock, samples.size() - first);
-        const std::span<Id> block = basin_to_zone.subspan(first, count);
-        for (std::size_t i = 0; i < count; ++i) {
-            value[i] = static_cast<Value>(samples[first + i]);
-            maximum[i] = Basins<Id>::number(block[i]);
-        }
-        paths.zones({value.data(), count}, {maximum.data(), count}, scratch, block);
-        tally.add(block);
-    }
+    for_zones<T, Id>(
+        samples, paths, basin_to_zone, [&](std::size_t first, std::size_t count) { return basin_to_zone.subspan(first, count); },
+        [&](std::span<const Id> zones) { tally.add(zones); });
+    tally.finish();
+}
+
+template <class T, class Id>
+void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
+                 std::span<Id> counts) {
+    Tally<Id> tally(counts);
+    std::vector<Id> block(kBlock);
+    for_zones<T, Id>(
+        samples, paths, basin, [&](std::size_t, std::size_t count) { return std::span(block).first(count); },
+        [&](std::span<const Id> zones) { tally.add(zones); });
     tally.finish();
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
 #define ISOATLAS_LABEL(T)                                                                                                 \
+    template void count_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&, \
+                                                std::span<const std::uint32_t>, std::span<std::uint32_t>);                \
+    template void count_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&, \
+                                                std::span<const std::uint64_t>, std::span<std::uint64_t>);                \
     template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&, \
                                                 std::span<std::uint32_t>, std::span<std::uint32_t>);                      \
     template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&, \

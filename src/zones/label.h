@@ -14,4 +14,9 @@ template <class T, class Id>
 void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
                  std::span<Id> counts);
 
+/// Counts only: basin stays. Adds to counts atomically.
+template <class T, class Id>
+void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
+                 std::span<Id> counts);
+
 }  // namespace isoatlas

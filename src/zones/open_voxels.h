@@ -13,6 +13,7 @@
 
 #include "base/big_vector.h"
 #include "base/parallel_sort.h"
+#include "base/part_streams.h"
 
 namespace isoatlas {
 
@@ -47,9 +48,11 @@ public:
     /// The records of a bucket in descending order; they are gone from here.
     [[nodiscard]] std::vector<Record> take(std::size_t bucket) {
         std::vector<Record> records;
-        for (BigVector<Record>& chunk : buckets_[bucket].chunks) {
-            records.insert(records.end(), chunk.begin(), chunk.end());
-            release(chunk);
+        std::vector<Record> buffer;
+        for (Chunk& chunk : buckets_[bucket].chunks) {
+            const std::span<const Record> part = part_in_memory<Record>(std::span(chunk.records).first(chunk.count), buffer);
+            records.insert(records.end(), part.begin(), part.end());
+            release(chunk.records);
         }
         sort_by_steps(
             std::span(records), [](const Record& record) { return -static_cast<double>(record.value); },
@@ -59,21 +62,26 @@ public:
 
 private:
     static constexpr std::size_t kChunk = std::size_t{1} << 17;
+    struct Chunk {
+        BigVector<Record> records;
+        std::size_t count = 0;  ///< how many there are by now
+    };
     struct Bucket {
-        std::vector<BigVector<Record>> chunks;
+        std::vector<Chunk> chunks;
         std::mutex mutex;
     };
 
     static void append(Bucket& bucket, std::span<const Record> records) {
         const std::lock_guard lock(bucket.mutex);
         while (!records.empty()) {
-            if (bucket.chunks.empty() || bucket.chunks.back().size() == kChunk) {
+            if (bucket.chunks.empty() || bucket.chunks.back().count == kChunk) {
                 bucket.chunks.emplace_back();
-                bucket.chunks.back().reserve(kChunk);
+                bucket.chunks.back().records.resize(kChunk);
             }
-            BigVector<Record>& chunk = bucket.chunks.back();
-            const std::size_t count = std::min(records.size(), kChunk - chunk.size());
-            chunk.insert(chunk.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(count));
+            Chunk& chunk = bucket.chunks.back();
+            const std::size_t count = std::min(records.size(), kChunk - chunk.count);
+            write_part<Record>(std::span(chunk.records).subspan(chunk.count, count), records.first(count));
+            chunk.count += count;
             records = records.subspan(count);
         }
     }

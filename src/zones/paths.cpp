@@ -21,11 +21,11 @@ Value rounded_down(double v) {
 
 /// Weights, heavy children, lengths. Children come before their parents.
 template <class Id>
-BigVector<HeavyNode<Id>> weigh(const CriticalityTree<Id>& tree) {
+BigVector<HeavyNode<Id>> weigh(const DescendingTree<Id>& tree) {
     BigVector<HeavyNode<Id>> nodes(tree.size());
     for (std::size_t e = 0; e < nodes.size(); ++e) nodes[e] = {static_cast<Id>(e), 1, 1};
     for (std::size_t e = 0; e < nodes.size(); ++e) {
-        if (e + kAhead < nodes.size()) __builtin_prefetch(&nodes[tree.parent[e + kAhead]], 1);
+        if (e + kAhead < nodes.size()) __builtin_prefetch(nodes.data() + tree.parent[e + kAhead], 1);
         if (tree.is_root(e)) continue;
         const Id p = tree.parent[e];
         nodes[p].path += nodes[e].path;
@@ -39,17 +39,16 @@ BigVector<HeavyNode<Id>> weigh(const CriticalityTree<Id>& tree) {
 }  // namespace
 
 template <class Id, class Value>
-HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads)
-    : stops_(tree.size() + kSteps) {
+HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads) : stops_(tree.size() + kSteps) {
     std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, 0});
     BigVector<HeavyNode<Id>> nodes = weigh(tree);
-    const BigVector<Path> laid = lay_out(tree, value, nodes);
+    const BigVector<Path> laid = lay_out(tree, nodes);
     // A leaf event's highest element is a maximum: it gives the path its name.
     BigVector<Id> name(laid.size()), path_of(maxima.size());
     for_each_index(threads, maxima.size(), [&](std::size_t m) {
-        const Id e = tree.event_of_element[maxima[m]];
+        const Id e = tree.event_of(maxima[m]);
         path_of[m] = nodes[e].path;
-        if (nodes[e].heavy == e && tree.top[e] == maxima[m]) name[path_of[m]] = static_cast<Id>(m);
+        if (nodes[e].heavy == e && tree.top_of(e) == maxima[m]) name[path_of[m]] = static_cast<Id>(m);
     });
     release(nodes);
     paths_.resize(maxima.size());
@@ -64,14 +63,13 @@ HeavyPaths<Id, Value>::HeavyPaths(const CriticalityTree<Id>& tree, std::span<con
 
 // Parents before their children: a path begins at its lowest event, and its events are met in ascending order.
 template <class Id, class Value>
-auto HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<HeavyNode<Id>> nodes)
-    -> BigVector<Path> {
+auto HeavyPaths<Id, Value>::lay_out(const DescendingTree<Id>& tree, std::span<HeavyNode<Id>> nodes) -> BigVector<Path> {
     BigVector<Path> paths;
     Id end = 0;
     for (std::size_t e = tree.size(); e-- > 0;) {
-        if (e >= kAhead) __builtin_prefetch(&nodes[tree.parent[e - kAhead]]);
+        if (e >= kAhead) __builtin_prefetch(nodes.data() + tree.parent[e - kAhead]);
         HeavyNode<Id>& node = nodes[e];
-        const HeavyNode<Id>& parent = nodes[tree.parent[e]];
+        const HeavyNode<Id>& parent = nodes[tree.is_root(e) ? static_cast<Id>(e) : tree.parent[e]];
         if (!tree.is_root(e) && parent.heavy == static_cast<Id>(e)) {
             node.path = parent.path;
             node.position = parent.position + 1;
@@ -82,7 +80,7 @@ auto HeavyPaths<Id, Value>::lay_out(const CriticalityTree<Id>& tree, std::span<c
             node.path = static_cast<Id>(paths.size() - 1);
             node.position = first;
         }
-        stops_[node.position] = {rounded_down<Value>(value[tree.top[e]]), static_cast<Id>(e)};
+        stops_[node.position] = {rounded_down<Value>(tree.value[tree.top_of(e)]), static_cast<Id>(e)};
     }
     return paths;
 }

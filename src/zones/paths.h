@@ -1,4 +1,5 @@
-// Heavy paths of the criticality tree: where does a climb from an event stop?
+// Heavy paths of a tree whose values descend towards the root: where does a climb down from an event stop? The tree is the criticality
+// tree, or a join tree, where every element is an event.
 //
 // Every event continues the path of its heaviest child (the one with most events above it); the other children end their paths there. A
 // path is an array of events with ascending values, so a climb is a few jumps (at most log2 of the number of events) and one search in an
@@ -15,13 +16,28 @@
 #include <vector>
 
 #include "base/big_vector.h"
-#include "tree/criticality_tree.h"
 
 namespace isoatlas {
 
 /// The type in which samples of T are compared with events.
 template <class T>
 using ComparisonValue = std::conditional_t<std::is_same_v<T, float> || sizeof(T) <= 2, float, double>;
+
+/// A tree and its elements; spans of the last two are empty where every element is an event.
+template <class Id>
+struct DescendingTree {
+    std::span<const Id> parent;            ///< per event: its parent comes later; of a root: itself, or one behind the last
+    std::span<const double> value;         ///< per element
+    std::span<const Id> top;               ///< per event: its highest element
+    std::span<const Id> event_of_element;  ///< per element
+
+    [[nodiscard]] std::size_t size() const { return parent.size(); }
+    [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e) || parent[e] == parent.size(); }
+    [[nodiscard]] Id top_of(std::size_t e) const { return top.empty() ? static_cast<Id>(e) : top[e]; }
+    [[nodiscard]] Id event_of(std::size_t element) const {
+        return event_of_element.empty() ? static_cast<Id>(element) : event_of_element[element];
+    }
+};
 
 /// An event while the paths are laid out.
 template <class Id>
@@ -34,8 +50,8 @@ struct HeavyNode {
 template <class Id, class Value>
 class HeavyPaths {
 public:
-    /// value: per element (tree.top gives the element of an event). maxima: per maximum, in raster order, its element.
-    HeavyPaths(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<const Id> maxima, int threads);
+    /// maxima: per maximum, in raster order, its element. Cost: O(n) time; 12 bytes an event beside the result while it runs.
+    HeavyPaths(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads);
 
     /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to maximum[i]: the event e on the way down with
     /// value(parent(e)) < x[i] <= value(e). In rounds over all samples, so that their cache misses overlap.
@@ -58,7 +74,7 @@ private:
     static constexpr Id kBucketed = 16;  ///< shorter paths are searched directly
     static constexpr int kSteps = 4;     ///< of a search that are taken without branches; stops_ has as many more entries
 
-    [[nodiscard]] BigVector<Path> lay_out(const CriticalityTree<Id>& tree, std::span<const double> value, std::span<HeavyNode<Id>> nodes);
+    [[nodiscard]] BigVector<Path> lay_out(const DescendingTree<Id>& tree, std::span<HeavyNode<Id>> nodes);
     void prepare_scale(const Path& path);
     void make_buckets(const Path& path);
     [[nodiscard]] static bool is_long(const Path& path) { return path.end - path.first >= kBucketed; }

@@ -8,11 +8,13 @@
 #include "base/memory_limit.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
+#include "field/volume_view.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 #include "tree/merge_tree.h"
 #include "zones/analyse.h"
 #include "zones/analysis_data.h"
+#include "zones/count_voxels.h"
 #include "zones/trees.h"
 
 namespace oracle {
@@ -55,6 +57,15 @@ struct Stored {
     Arrays& arrays() { return std::get<0>(analysis.data().arrays)->arrays; }
 };
 
+/// By tiles, which builds do when paths do not fit into memory.
+std::vector<Id> counted_by_tiles(const isoatlas::Volume& volume, const Arrays& arrays, const isoatlas::Context& context) {
+    return isoatlas::visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        const isoatlas::GridView<T> grid{samples.data(), volume.info.extent};
+        const auto voxels = isoatlas::voxels_by_tiles<T, Id>(grid, arrays.value, arrays.code, context);
+        return std::vector<Id>(voxels.begin(), voxels.end());
+    });
+}
+
 template <class A, class B>
 bool same(const A& a, const B& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
@@ -75,6 +86,7 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
             RC_ASSERT(same(found.value, arrays.value) && same(found.code, arrays.code));
             RC_ASSERT(same(found.contours.other, arrays.contours.other));
             RC_ASSERT(same(found.element_voxels, voxels));
+            RC_ASSERT(same(counted_by_tiles(volume, found, context_of(1 + static_cast<int>(tile % 2), tile)), voxels));
             RC_ASSERT(isoatlas::restore_trees(found, grid.rank, 1));
             isoatlas::add_up_voxels(found);
             RC_ASSERT(same(found.voxels, arrays.voxels));

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "base/part_streams.h"
 #include "critical/parted_domain.h"
 #include "field/slab_work.h"
 #include "tree/components.h"
@@ -12,8 +13,6 @@
 
 namespace isoatlas {
 namespace {
-
-constexpr std::size_t kChecked = 1 << 13;  // elements between two looks at the memory
 
 /// Elements tile after tile, descending within a tile.
 template <class Id>
@@ -31,11 +30,13 @@ struct TiledElements {
         }
         std::size_t end = 0;
         for (std::size_t& of_tile : first) end += std::exchange(of_tile, end);
-        std::vector<std::size_t> next = first;
+        PartWriters<KeyedElement> keys(key, first);
+        PacedCheck memory;
         for (std::size_t r = 0; r < code.size(); ++r) {
-            if (r % kChecked == 0) check_memory();
-            key[next[tile[r]]++] = {value[r], ElementCode{code[r]}};
+            memory.step();
+            keys.put(tile[r], {value[r], ElementCode{code[r]}});
         }
+        keys.finish();
     }
     template <class Array>
     [[nodiscard]] auto of(std::size_t t, Array& array) const {
@@ -66,10 +67,11 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
     BigVector<Id> voxels(n);
     Components<Id, BigAllocator<Id>> components;  // marks: the last element
     components.start(names, [](Id) { return Id{0}; });
-    std::vector<std::size_t> next = elements.first;
+    PartReaders<CountedElement<Id>> counted(elements.counted, elements.first);
+    PacedCheck memory;
     const auto pass = [&](std::size_t r) {
-        if (r % kChecked == 0) check_memory();
-        const CountedElement<Id>& element = elements.counted[next[elements.tile[r]]++];
+        memory.step();
+        const CountedElement<Id>& element = counted.next(elements.tile[r]);
         voxels[r] = element.voxels;
         auto [a, b] = element.names;
         if (a == kNoName<Id>) std::swap(a, b);
@@ -92,10 +94,10 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
 }  // namespace
 
 template <class T, class Id>
-BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
-                                 BigVector<Id> basin, const Context& context) {
+BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
+                              const Context& context) {
     const Tiling tiling = tiling_for(grid.extent, context);
-    TiledBasins<Id> basins = tiled_basins(grid, std::move(basin), tiling, context);
+    TiledBasins<Id> basins = tiled_basins<T, Id>(grid, tiling, context);
     const std::size_t names = basins.open.count();
     TiledElements<Id> elements(value, code, tiling);
     OpenVoxelBuckets<T, Id> open(bounds_of_buckets(value, bucket_count(grid.extent.voxels(), sizeof(OpenVoxels<T, Id>))));
@@ -105,24 +107,25 @@ BigVector<Id> voxels_of_elements(const GridView<T>& grid, std::span<const double
     });
     release(basins.maximum);
     release(elements.key);
+    const KeepInMemory keep;
     return merge(value, elements, names, open);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
-#define ISOATLAS_COUNT_VOXELS(T)                                                                                                      \
-    template BigVector<std::uint32_t> voxels_of_elements(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
-                                                         BigVector<std::uint32_t>, const Context&);                                   \
-    template BigVector<std::uint64_t> voxels_of_elements(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
-                                                         BigVector<std::uint64_t>, const Context&);
-ISOATLAS_COUNT_VOXELS(std::uint8_t)
-ISOATLAS_COUNT_VOXELS(std::int8_t)
-ISOATLAS_COUNT_VOXELS(std::uint16_t)
-ISOATLAS_COUNT_VOXELS(std::int16_t)
-ISOATLAS_COUNT_VOXELS(std::uint32_t)
-ISOATLAS_COUNT_VOXELS(std::int32_t)
-ISOATLAS_COUNT_VOXELS(float)
-ISOATLAS_COUNT_VOXELS(double)
-#undef ISOATLAS_COUNT_VOXELS
+#define ISOATLAS_BY_TILES(T)                                                                                                       \
+    template BigVector<std::uint32_t> voxels_by_tiles(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
+                                                      const Context&);                                                             \
+    template BigVector<std::uint64_t> voxels_by_tiles(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
+                                                      const Context&);
+ISOATLAS_BY_TILES(std::uint8_t)
+ISOATLAS_BY_TILES(std::int8_t)
+ISOATLAS_BY_TILES(std::uint16_t)
+ISOATLAS_BY_TILES(std::int16_t)
+ISOATLAS_BY_TILES(std::uint32_t)
+ISOATLAS_BY_TILES(std::int32_t)
+ISOATLAS_BY_TILES(float)
+ISOATLAS_BY_TILES(double)
+#undef ISOATLAS_BY_TILES
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas

@@ -1,0 +1,125 @@
+// Parts of an array that are read, or written, in order, all of them in turn.
+//
+// Where the array lies in the scratch file (memory_limit.h) every part has a buffer, which is copied from and to the file: of mapped memory
+// a touch brings 64 KB, and hundreds of parts as much each. Elsewhere the parts are read and written in place.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/memory_limit.h"
+
+namespace isoatlas {
+
+/// Items of a buffer when there are so many: all together a small share of the limit.
+template <class T>
+[[nodiscard]] std::size_t buffered_items(std::size_t parts) {
+    constexpr std::size_t kShare = 64, kLeast = 512, kMost = std::size_t{1} << 16;
+    const std::size_t bytes = static_cast<std::size_t>(memory_limit()) / kShare / std::max<std::size_t>(parts, 1);
+    return std::max<std::size_t>(std::clamp(bytes, kLeast, kMost) / sizeof(T), 1);
+}
+
+/// A part of an array to be read once: in place, or a copy in the buffer.
+template <class T>
+[[nodiscard]] std::span<const T> part_in_memory(std::span<const T> part, std::vector<T>& buffer) {
+    if (!is_scratch(part.data())) return part;
+    buffer.resize(part.size());
+    read_scratch(part.data(), std::as_writable_bytes(std::span(buffer)));
+    return buffer;
+}
+
+/// Items to a part of an array of the same size.
+template <class T>
+void write_part(std::span<T> part, std::span<const T> items) {
+    if (is_scratch(part.data())) {
+        write_scratch(part.data(), std::as_bytes(items));
+    } else {
+        std::copy(items.begin(), items.end(), part.begin());
+    }
+}
+
+template <class T>
+class PartReaders {
+public:
+    /// first: item of each part, and of the end.
+    PartReaders(std::span<const T> all, std::span<const std::size_t> first) : buffered_(is_scratch(all.data())) {
+        const std::size_t parts = first.size() - 1;
+        items_ = buffered_items<T>(parts);
+        parts_.reserve(parts);
+        for (std::size_t p = 0; p < parts; ++p) {
+            const std::span<const T> part = all.subspan(first[p], first[p + 1] - first[p]);
+            parts_.push_back(buffered_ ? Part{{}, part, {}} : Part{part, {}, {}});
+        }
+    }
+    /// The next item of a part that has one.
+    [[nodiscard]] const T& next(std::size_t p) {
+        Part& part = parts_[p];
+        if (part.ready.empty()) fill(part);
+        const T& item = part.ready.front();
+        part.ready = part.ready.subspan(1);
+        return item;
+    }
+
+private:
+    struct Part {
+        std::span<const T> ready, rest;
+        std::vector<T> buffer;
+    };
+
+    void fill(Part& part) {
+        part.buffer.resize(std::min(items_, part.rest.size()));
+        read_scratch(part.rest.data(), std::as_writable_bytes(std::span(part.buffer)));
+        part.ready = part.buffer;
+        part.rest = part.rest.subspan(part.buffer.size());
+    }
+
+    bool buffered_;
+    std::size_t items_ = 0;
+    std::vector<Part> parts_;
+};
+
+template <class T>
+class PartWriters {
+public:
+    /// first: where each part begins.
+    PartWriters(std::span<T> all, std::span<const std::size_t> first) : buffered_(is_scratch(all.data())) {
+        items_ = buffered_items<T>(first.size());
+        parts_.reserve(first.size());
+        for (const std::size_t item : first) parts_.push_back({all.data() + item, {}});
+    }
+    void put(std::size_t p, const T& item) {
+        Part& part = parts_[p];
+        if (!buffered_) {
+            *part.place++ = item;
+            return;
+        }
+        if (part.buffer.size() == items_) flush(part);
+        if (part.buffer.empty()) part.buffer.reserve(items_);
+        part.buffer.push_back(item);
+    }
+    /// After the last item: nothing is in the array before.
+    void finish() {
+        for (Part& part : parts_) flush(part);
+    }
+
+private:
+    struct Part {
+        T* place;  ///< where the next item goes, or the first one of the buffer
+        std::vector<T> buffer;
+    };
+
+    void flush(Part& part) {
+        if (part.buffer.empty()) return;
+        write_scratch(part.place, std::as_bytes(std::span(part.buffer)));
+        part.place += part.buffer.size();
+        part.buffer.clear();
+    }
+
+    bool buffered_;
+    std::size_t items_ = 0;
+    std::vector<Part> parts_;
+};
+
+}  // namespace isoatlas
