@@ -82,8 +82,9 @@ void sort_by_steps(std::span<T> items, const Key& key, const Before& before) {
     }
 }
 
-/// Hands all items of the chunks to put(place, item), sorted by before(p, q), which must agree with key (a double): key(p) < key(q) implies
-/// before(p, q). allocate(n) is called once, before the first put. Consumes the chunks. Cost: O(n log n) time, a second copy of the items.
+/// Hands all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double):
+/// key(p) < key(q) implies before(p, q). allocate(n) is called once, before the first put. Consumes the chunks. Cost: O(n log n) time, a
+/// second copy of the items.
 template <class T, class Key, class Before, class Allocate, class Put>
 void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
                  const Put& put) {
@@ -95,6 +96,7 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     const std::size_t stride = std::max<std::size_t>(1, n / (kSampled * count));
     for (const BigVector<T>& chunk : chunks) {
         for (std::size_t i = 0; i < chunk.size(); i += stride) sample.push_back(key(chunk[i]));
+        check_memory();
     }
     const Buckets buckets(std::move(sample), count);
 
@@ -126,9 +128,14 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     });
     allocate(n);
     for_each_block(threads, static_cast<std::int64_t>(count), [&](std::int64_t b) {
-        const std::span<T> bucket = std::span(sorted).subspan(first[b], first[b + 1] - first[b]);
+        std::span<T> bucket = std::span(sorted).subspan(first[b], first[b + 1] - first[b]);
+        std::vector<T> buffer;
+        if (is_scratch(bucket.data())) {
+            (void)part_in_memory<T>(bucket, buffer);
+            bucket = buffer;
+        }
         sort_by_steps(bucket, key, before);
-        for (std::size_t i = 0; i < bucket.size(); ++i) put(first[b] + i, bucket[i]);
+        put(first[b], std::span<const T>(bucket));
     });
 }
 

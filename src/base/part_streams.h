@@ -40,6 +40,28 @@ void write_part(std::span<T> part, std::span<const T> items) {
     }
 }
 
+/// One field of every item, to a part of an array of the same size.
+template <class T, class Item, class Field>
+void write_fields(std::span<T> part, std::span<const Item> items, const Field& field) {
+    if (is_scratch(part.data())) {
+        std::vector<T> fields(items.size());
+        std::transform(items.begin(), items.end(), fields.begin(), field);
+        write_part<T>(part, fields);
+    } else {
+        std::transform(items.begin(), items.end(), part.begin(), field);
+    }
+}
+
+/// Calls change(items) for a part of an array, in place or as a copy that is written back.
+template <class T, class Change>
+void change_part(std::span<T> part, const Change& change) {
+    if (!is_scratch(part.data())) return change(part);
+    std::vector<T> items;
+    (void)part_in_memory<T>(part, items);
+    change(std::span<T>(items));
+    write_part<T>(part, items);
+}
+
 template <class T>
 class PartReaders {
 public:

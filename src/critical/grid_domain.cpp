@@ -27,10 +27,13 @@ CriticalSet<Id> sort_elements(LeadingChunks<Id> chunks, const Above& above, int 
         set.code.resize(n);
         for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) field->resize(n);
     };
-    const auto put = [&](std::size_t i, const Element& element) {
-        set.value[i] = element.key.value, set.code[i] = element.key.code.bits;
-        set.up_a[i] = element.ends.above[0], set.up_b[i] = element.ends.above[1];
-        set.low_a[i] = element.ends.below[0], set.low_b[i] = element.ends.below[1];
+    const auto put = [&](std::size_t i, std::span<const Element> elements) {
+        for (const Element& element : elements) {
+            set.value[i] = element.key.value, set.code[i] = element.key.code.bits;
+            set.up_a[i] = element.ends.above[0], set.up_b[i] = element.ends.above[1];
+            set.low_a[i] = element.ends.below[0], set.low_b[i] = element.ends.below[1];
+            ++i;
+        }
     };
     sort_chunks(
         threads, std::move(chunks), [](const Element& element) { return -element.key.value; },

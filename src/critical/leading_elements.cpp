@@ -5,6 +5,7 @@
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/part_streams.h"
 
 namespace isoatlas {
 namespace {
@@ -33,11 +34,14 @@ LeadingChunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const
     LeadingChunks<Id> result(chunks.size());
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
         result[c].resize(chunks[c].size());
+        const std::size_t first = 0;
+        PartWriters<LeadingElement<Id>> elements(result[c], {&first, 1});
         PacedCheck memory;
-        for (std::size_t i = 0; i < chunks[c].size(); ++i) {
+        for (const KeyedElement& element : chunks[c]) {
             memory.step();
-            result[c][i] = {chunks[c][i], {renumbered<Id>(leads.above(chunks[c][i].code), number), {}}};
+            elements.put(0, {element, {renumbered<Id>(leads.above(element.code), number), {}}});
         }
+        elements.finish();
         release(chunks[c]);
     });
     return result;
@@ -46,10 +50,12 @@ LeadingChunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const
 template <class Id>
 void add_minima(LeadingChunks<Id>& chunks, const Representatives<Id>& leads, std::span<const Id> number, int threads) {
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        PacedCheck memory;
-        for (LeadingElement<Id>& element : chunks[c]) {
-            memory.step();
-            element.ends.below = renumbered<Id>(leads.below(element.key.code), number);
+        constexpr std::size_t kPiece = std::size_t{1} << 12;
+        for (std::size_t first = 0; first < chunks[c].size(); first += kPiece, check_memory()) {
+            const std::size_t count = std::min(kPiece, chunks[c].size() - first);
+            change_part(std::span(chunks[c]).subspan(first, count), [&](std::span<LeadingElement<Id>> piece) {
+                for (auto& element : piece) element.ends.below = renumbered<Id>(leads.below(element.key.code), number);
+            });
         }
     });
 }

@@ -14,7 +14,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMostTiles = std::int64_t{1} << 16;
-constexpr std::int64_t kBytesAVoxel = 64;  // of noise, while a tile is reduced
+constexpr std::int64_t kBytesAVoxel = 80;  // of noise, while a tile is reduced
 constexpr std::int64_t kUnlimitedTile = std::int64_t{1} << 20;
 
 void stop_if_cancelled(const Context& context) {
@@ -35,9 +35,11 @@ Renumbering<Id> renumber(const GridScan& scan, const Tiling& tiling, std::int64_
     Renumbering<Id> result;
     result.number.resize(static_cast<std::size_t>(extrema) + least);
     result.first.assign(static_cast<std::size_t>(tiling.count()) + 1, Id{0});
+    PacedCheck memory;
     const auto for_extrema = [&](const auto& visit) {
         for (const BigVector<KeyedElement>& chunk : scan.chunks) {
             for (const KeyedElement& element : chunk) {
+                memory.step();
                 if (is_extremum(element.code)) visit(static_cast<std::size_t>(tiling.tile_of(element.code)));
             }
         }
@@ -54,8 +56,12 @@ Renumbering<Id> renumber(const GridScan& scan, const Tiling& tiling, std::int64_
 
 std::vector<std::size_t> first_of_tiles(const GridScan& scan, const Tiling& tiling) {
     std::vector<std::size_t> first(static_cast<std::size_t>(tiling.count()) + 1, 0);
+    PacedCheck memory;
     for (const BigVector<KeyedElement>& chunk : scan.chunks) {
-        for (const KeyedElement& element : chunk) ++first[tiling.tile_of(element.code)];
+        for (const KeyedElement& element : chunk) {
+            memory.step();
+            ++first[tiling.tile_of(element.code)];
+        }
     }
     std::size_t next = 0;
     for (std::size_t& place : first) next += std::exchange(place, next);
@@ -72,10 +78,11 @@ BigVector<Ends<Id>> sort_elements(LeadingChunks<Id> chunks, const Above& above, 
         result.code.resize(n);
         ends.resize(n);
     };
-    const auto put = [&](std::size_t i, const Element& element) {
-        result.value[i] = element.key.value;
-        result.code[i] = element.key.code.bits;
-        ends[i] = element.ends;
+    const auto put = [&](std::size_t first, std::span<const Element> elements) {
+        const auto part = [&](auto& array) { return std::span(array).subspan(first, elements.size()); };
+        write_fields(part(result.value), elements, [](const Element& element) { return element.key.value; });
+        write_fields(part(result.code), elements, [](const Element& element) { return element.key.code.bits; });
+        write_fields(part(ends), elements, [](const Element& element) { return element.ends; });
     };
     sort_chunks(
         threads, std::move(chunks), [](const Element& element) { return -element.key.value; },

@@ -29,7 +29,9 @@ BigVector<Id> reduce_parts(PartedSet<Id>& set, const Context& context) {
     BigVector<Id> arc(set.size());
     for_each_slab_of(1, context, {"trees", 3, 5}, static_cast<std::int64_t>(set.parts()), [&](const Slab& slab) {
         const auto part = static_cast<std::size_t>(slab.z_begin);
-        reduce_part<Id>(set, part, open, set.of(part, arc));
+        change_part(set.of(part, set.elements), [&](std::span<PartedElement<Id>> elements) {
+            change_part(set.of(part, arc), [&](std::span<Id> arcs) { reduce_part<Id>(set, part, open, elements, arcs); });
+        });
     });
     return arc;
 }
@@ -92,7 +94,11 @@ BigVector<Id> arcs_of_survivors(Survivors<Id> survivors, Id outside, int threads
     release(survivors.set.ends);
     BigVector<Id> arcs = arcs_by_runs<Id>(survivors.set.branches, std::move(join), std::move(split), threads);
     survivors.rank.push_back(outside);
-    for (Id& other : arcs) other = survivors.rank[other];
+    PacedCheck memory;
+    for (Id& other : arcs) {
+        memory.step();
+        other = survivors.rank[other];
+    }
     return arcs;
 }
 

@@ -66,7 +66,11 @@ template <class Id, class Count, class Names>
 BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
     BigVector<Id> parent(n + 1, static_cast<Id>(n));
     Sweep<Id> sweep(extrema, parent);
-    for (std::size_t i = 0; i < n; ++i) sweep.meet(count(i), names(i), static_cast<Id>(i));
+    PacedCheck memory;
+    for (std::size_t i = 0; i < n; ++i) {
+        memory.step();
+        sweep.meet(count(i), names(i), static_cast<Id>(i));
+    }
     return parent;
 }
 
@@ -75,7 +79,11 @@ BigVector<Id> sweep_up(std::size_t n, std::size_t extrema, const Count& count, c
     BigVector<Id> parent(n + 1, Id{0});
     Sweep<Id> sweep(extrema, parent);
     sweep.start(Id{0}, static_cast<Id>(n));  // the outside
-    for (std::size_t i = n; i-- > 0;) sweep.meet(count(i), names(i), static_cast<Id>(i));
+    PacedCheck memory;
+    for (std::size_t i = n; i-- > 0;) {
+        memory.step();
+        sweep.meet(count(i), names(i), static_cast<Id>(i));
+    }
     return parent;
 }
 

@@ -152,8 +152,8 @@ OpenExtrema open_extrema(const PartedSet<Id>& set, int threads) {
 }
 
 template <class Id>
-void reduce_part(PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<Id> arc) {
-    const std::span<PartedElement<Id>> elements = set.of(part, set.elements);
+void reduce_part(const PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<PartedElement<Id>> elements,
+                 std::span<Id> arc) {
     Side<Id> above(elements, true, set.first_maximum[part], set.first_maximum[part + 1]);
     Side<Id> below(elements, false, set.first_minimum[part], set.first_minimum[part + 1]);
     std::vector<std::uint8_t> left;
@@ -172,7 +172,7 @@ void reduce_part(PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, 
 
 #define ISOATLAS_REDUCE(Id)                                       \
     template OpenExtrema open_extrema(const PartedSet<Id>&, int); \
-    template void reduce_part(PartedSet<Id>&, std::size_t, const OpenExtrema&, std::span<Id>);
+    template void reduce_part(const PartedSet<Id>&, std::size_t, const OpenExtrema&, std::span<PartedElement<Id>>, std::span<Id>);
 ISOATLAS_REDUCE(std::uint32_t)
 ISOATLAS_REDUCE(std::uint64_t)
 #undef ISOATLAS_REDUCE

@@ -16,7 +16,9 @@ public:
     RunsOfNodes(std::span<const std::uint8_t> branches, std::span<const Id> join, std::span<const Id> split) : starts_(join.size()) {
         constexpr std::uint8_t kRegular = branches_of(1, 1);
         const std::size_t n = branches.size();
+        PacedCheck memory;
         for (std::size_t i = 0; i <= n; ++i) {
+            memory.step();
             const bool goes_on = i > 0 && i < n && branches[i - 1] == kRegular && branches[i] == kRegular &&
                                  join[i - 1] == static_cast<Id>(i) && split[i] == static_cast<Id>(i - 1);
             if (!goes_on) starts_.add(i);
@@ -40,7 +42,9 @@ BigVector<Id> arcs_by_runs(std::span<const std::uint8_t> branches, BigVector<Id>
     const RunsOfNodes runs(branches, std::span<const Id>(join), std::span<const Id>(split));
     BigVector<Id> first, join_of_runs, split_of_runs;
     for (BigVector<Id>* of_runs : {&first, &join_of_runs, &split_of_runs}) of_runs->reserve(runs.count() + 1);
+    PacedCheck memory;
     for (std::size_t i = 0; i < nodes; ++i) {
+        memory.step();
         if (runs.starts(i)) {
             first.push_back(static_cast<Id>(i));
             split_of_runs.push_back(static_cast<Id>(runs.of(split[i])));
@@ -56,6 +60,7 @@ BigVector<Id> arcs_by_runs(std::span<const std::uint8_t> branches, BigVector<Id>
     }();
     BigVector<Id> other(nodes);
     for (std::size_t run = 0; run < runs.count(); ++run) {
+        memory.step();
         const Id begin = first[run], last = first[run + 1] - 1, to = tree.other[run];
         const bool down = to > static_cast<Id>(run);
         for (Id i = begin; i <= last; ++i) other[i] = down ? i + 1 : i - 1;
