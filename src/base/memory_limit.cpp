@@ -272,6 +272,11 @@ std::int64_t available_memory() {
 }
 
 std::int64_t peak_memory() {
+    std::ifstream status("/proc/self/status");  // getrusage() would count what the program before exec() had
+    for (std::string line; std::getline(status, line);) {
+        long long kilobytes = 0;
+        if (std::sscanf(line.c_str(), "VmHWM: %lld", &kilobytes) == 1) return kilobytes * 1024;
+    }
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss * std::int64_t{1024};

@@ -88,7 +88,7 @@ void sort_by_steps(std::span<T> items, const Key& key, const Before& before) {
 template <class T, class Key, class Before, class Allocate, class Put>
 void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
                  const Put& put) {
-    constexpr std::size_t kBucket = 1 << 10, kMostBuckets = 1 << 12, kSampled = 16;
+    constexpr std::size_t kBucket = 1 << 10, kMostBuckets = 1 << 12, kSampled = 16, kGroups = 8;
     std::size_t n = 0;
     for (const BigVector<T>& chunk : chunks) n += chunk.size();
     const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMostBuckets);
@@ -100,31 +100,39 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     }
     const Buckets buckets(std::move(sample), count);
 
-    // Count per chunk and bucket, turn counts into places, scatter, sort every bucket.
-    std::vector<std::size_t> place(chunks.size() * count, 0), first(count + 1, 0);
-    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+    // Count per group of chunks and bucket, turn counts into places, scatter, sort every bucket.
+    const std::size_t groups = std::min(chunks.size(), kGroups * static_cast<std::size_t>(thread_count(threads)));
+    std::vector<std::size_t> place(groups * count, 0), first(count + 1, 0);
+    const auto for_chunks_of = [&](std::int64_t g, const auto& visit) {
+        for (std::size_t c = g * chunks.size() / groups; c < (g + 1) * chunks.size() / groups; ++c) visit(chunks[c]);
+    };
+    for_each_block(threads, static_cast<std::int64_t>(groups), [&](std::int64_t g) {
         PacedCheck memory;
-        for (const T& item : chunks[c]) {
-            memory.step();
-            ++place[c * count + buckets.of(key(item))];
-        }
+        for_chunks_of(g, [&](const BigVector<T>& chunk) {
+            for (const T& item : chunk) {
+                memory.step();
+                ++place[g * count + buckets.of(key(item))];
+            }
+        });
     });
     std::size_t next = 0;
     for (std::size_t b = 0; b < count; ++b) {
         first[b] = next;
-        for (std::size_t c = 0; c < chunks.size(); ++c) next += std::exchange(place[c * count + b], next);
+        for (std::size_t g = 0; g < groups; ++g) next += std::exchange(place[g * count + b], next);
     }
     first[count] = n;
     BigVector<T> sorted(n);
-    for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+    for_each_block(threads, static_cast<std::int64_t>(groups), [&](std::int64_t g) {
         PacedCheck memory;
-        PartWriters<T> writers(sorted, std::span(place).subspan(c * count, count));
-        for (const T& item : chunks[c]) {
-            memory.step();
-            writers.put(buckets.of(key(item)), item);
-        }
+        PartWriters<T> writers(sorted, std::span(place).subspan(g * count, count));
+        for_chunks_of(g, [&](BigVector<T>& chunk) {
+            for (const T& item : chunk) {
+                memory.step();
+                writers.put(buckets.of(key(item)), item);
+            }
+            release(chunk);
+        });
         writers.finish();
-        release(chunks[c]);
     });
     allocate(n);
     for_each_block(threads, static_cast<std::int64_t>(count), [&](std::int64_t b) {
