@@ -60,9 +60,11 @@ std::int64_t resident_memory(int statm) {
 class Scratch {
 public:
     void start(std::int64_t limit, const std::string& folder) {
+        const std::lock_guard starting(start_or_stop_);
         const std::lock_guard lock(mutex_);
-        ISOATLAS_CHECK(!active_);
-        limit_ = limit, folder_ = folder;
+        limit_ = users_ > 0 ? std::min<std::int64_t>(limit_, limit) : limit;
+        if (users_++ > 0) return;
+        folder_ = folder;
         in_memory_ = 0;
         statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
         active_ = true;
@@ -70,8 +72,10 @@ public:
         watcher_ = std::thread([this] { watch(); });
     }
     void stop() {
+        const std::lock_guard stopping(start_or_stop_);
         {
             const std::lock_guard lock(mutex_);
+            if (--users_ > 0) return;
             stop_ = true;
         }
         wake_.notify_all();
@@ -209,8 +213,9 @@ private:
         }
     }
 
-    std::mutex mutex_;
+    std::mutex start_or_stop_, mutex_;
     std::condition_variable wake_;
+    int users_ = 0;
     std::thread watcher_;
     std::atomic<bool> active_ = false;
     bool stop_ = false;

@@ -15,7 +15,8 @@ namespace isoatlas {
 class MemoryLimit {
 public:
     /// bytes: of the whole process; 0: no limit. folder: of the scratch file; it takes as much disk as the arrays need.
-    /// Arrays that exist already stay where they are. One limit at a time.
+    /// Arrays that exist already stay where they are. Of several limits at a time the lowest holds until all are gone, and the scratch file
+    /// is that of the first.
     MemoryLimit(std::int64_t bytes, const std::string& folder);
     ~MemoryLimit();
     MemoryLimit(const MemoryLimit&) = delete;

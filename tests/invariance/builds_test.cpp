@@ -1,0 +1,65 @@
+// The same store, byte for byte, for any memory, number of threads and slab size, and when several are built in one process at once.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iterator>
+
+#include "base/memory_limit.h"
+#include "isoatlas/build.h"
+#include "isoatlas/output.h"
+#include "isoatlas/phantom.h"
+
+namespace isoatlas {
+namespace {
+
+class Builds : public testing::Test {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directories(folder_);
+        PhantomOptions options;
+        options.size = 64;
+        options.quantise = 200;
+        write_volume(path("noise.nrrd"), make_phantom("noise", options));
+        expected_ = built("expected", std::int64_t{1} << 40, 1, 0);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    [[nodiscard]] std::string built(const std::string& name, std::int64_t memory, int threads, std::int64_t slab_slices) const {
+        const auto reader = open_volume(path("noise.nrrd"), {});
+        BuildOptions options;
+        options.memory = memory;
+        Context context;
+        context.threads = threads;
+        context.slab_slices = slab_slices;
+        build_atlas(path(name), *reader, options, context);
+        std::ifstream file(path(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "isoatlas_builds";
+    std::string expected_;
+};
+
+TEST_F(Builds, InAnyMemory) {
+    for (const int threads : {1, 2, 3}) {
+        for (const std::int64_t slab : {0, 1, 7, 40}) {
+            EXPECT_TRUE(built("one", kLeastMemory, threads, slab) == expected_) << threads << " threads, slabs of " << slab;
+        }
+    }
+}
+
+TEST_F(Builds, SeveralAtOnce) {
+    std::vector<std::future<std::string>> builds;
+    for (const std::int64_t megabytes : {64, 80, 1000, 64}) {
+        const std::string name = "at_once_" + std::to_string(builds.size());
+        builds.push_back(std::async(std::launch::async, [this, name, megabytes] { return built(name, megabytes << 20, 1, 0); }));
+    }
+    for (std::future<std::string>& build : builds) EXPECT_TRUE(build.get() == expected_);
+    EXPECT_FALSE(memory_is_limited());
+}
+
+}  // namespace
+}  // namespace isoatlas
