@@ -170,11 +170,11 @@ void reduce_part(const PartedSet<Id>& set, std::size_t part, const OpenExtrema& 
     }
 }
 
-#define ISOATLAS_REDUCE(Id)                                       \
-    template OpenExtrema open_extrema(const PartedSet<Id>&, int); \
-    template void reduce_part(const PartedSet<Id>&, std::size_t, const OpenExtrema&, std::span<PartedElement<Id>>, std::span<Id>);
-ISOATLAS_REDUCE(std::uint32_t)
-ISOATLAS_REDUCE(std::uint64_t)
-#undef ISOATLAS_REDUCE
+template OpenExtrema open_extrema(const PartedSet<std::uint32_t>&, int);
+template OpenExtrema open_extrema(const PartedSet<std::uint64_t>&, int);
+template void reduce_part(const PartedSet<std::uint32_t>&, std::size_t, const OpenExtrema&, std::span<PartedElement<std::uint32_t>>,
+                          std::span<std::uint32_t>);
+template void reduce_part(const PartedSet<std::uint64_t>&, std::size_t, const OpenExtrema&, std::span<PartedElement<std::uint64_t>>,
+                          std::span<std::uint64_t>);
 
 }  // namespace isoatlas
