@@ -90,14 +90,14 @@ public:
             report_.resumed.emplace_back(kTrees);
         } else {
             analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
-            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
+            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis, *volume.info));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
         std::unique_ptr<store::Container> zones = folder_.finished(kZones, contents);
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = store::arcs_of(*trees);
+            if (!analysis) analysis = store::arcs_of(*trees, volume.bytes, context_.threads);
             const Context part = shifted(context_, 1, volume.info->extent);
             count_voxels(*analysis, volume, part);
             std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
