@@ -15,6 +15,7 @@
 #include "isoatlas/error.h"
 #include "store/brick_writer.h"
 #include "store/checksum.h"
+#include "store/event_arrays.h"
 #include "store/pack.h"
 #include "store/tree_arrays.h"
 #include "zones/analyse.h"
@@ -105,6 +106,9 @@ public:
                 complete(*analysis, volume, part);
                 for (store::PackedArray& array : object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries})))
                     arrays.push_back(std::move(array));
+                if (store::stores_events(*analysis)) {
+                    for (store::PackedArray& array : store::event_arrays(*analysis)) arrays.push_back(std::move(array));
+                }
             }
             store::pack_store(folder_.file(kZones), contents, arrays);
             zones = std::make_unique<store::Container>(folder_.file(kZones));

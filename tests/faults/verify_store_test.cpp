@@ -220,5 +220,17 @@ TEST_F(VerifyStore, AWrongNumberInTheTreesIsToldWithItsPlace) {
     }
 }
 
+TEST_F(VerifyStore, AWrongEventIsToldWithItsPlace) {
+    build_atlas(path_, make_phantom("random-field", {.size = 40}));
+    for (const std::string name : {"element", "parent", "kind", "lows_out", "delta_chi", "chi", "contours", "voxels"}) {
+        const std::string told = after([&](Opened& o) {
+            for (std::size_t i = 0; i < o.bytes.size(); ++i) {
+                if (o.contents.arrays[i].name == "events/" + name) o.bytes[i][0] ^= std::byte{1};
+            }
+        });
+        EXPECT_NE(told.find("stored_events_follow_from_elements: events/" + name + "[0] is "), std::string::npos) << told;
+    }
+}
+
 }  // namespace
 }  // namespace isoatlas
