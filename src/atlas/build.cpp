@@ -77,6 +77,20 @@ void report_packing(std::vector<store::PackedArray>& arrays, const Context& cont
     }
 }
 
+/// Highest less lowest sample; they may be more than memory.
+double range_of(const VolumeView& volume) {
+    return visit_samples(volume, []<class T>(std::span<const T> samples) {
+        constexpr std::size_t kPart = std::size_t{1} << 20;
+        T low = samples[0], high = samples[0];
+        for (std::size_t first = 0; first < samples.size(); first += kPart) {
+            const auto [least, most] = std::ranges::minmax(samples.subspan(first, std::min(kPart, samples.size() - first)));
+            low = std::min(low, least), high = std::max(high, most);
+            check_memory();
+        }
+        return static_cast<double>(high) - static_cast<double>(low);
+    });
+}
+
 class Build {
 public:
     Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {}
@@ -154,7 +168,10 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
     VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0, reader.info().extent));
     if (options.geometry) info.geometry = *options.geometry;
     if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, context);
-    return build.run({info, samples.data()}, options.analysis);
+    const VolumeView volume(info, samples.data());
+    AnalysisOptions analysis = options.analysis;
+    if (options.tunnel_height_percent > 0) analysis.tunnel_height = options.tunnel_height_percent / 100 * range_of(volume);
+    return build.run(volume, analysis);
 }
 
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
