@@ -91,6 +91,12 @@ void add_gaussian(CLI::App& app, Typed& typed) {
         ->type_name("SIGMA");
 }
 
+/// What is made of a volume before anything else.
+void add_shape(CLI::App& app, Typed& typed) {
+    add_gaussian(app, typed);
+    app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
+}
+
 void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed& typed) {
     if (verb == "tree") {
         app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
@@ -125,8 +131,10 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
         app.add_flag("--restart", arguments.restart, "Forget the finished phases of an interrupted build");
     } else if (verb == "table131") {
-        add_gaussian(app, typed);
-        app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
+        add_shape(app, typed);
+    } else if (verb == "convert") {
+        add_shape(app, typed);
+        add_output(app, arguments, ".nrrd .npy .raw .mha .nii", true);
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
         app.add_option("--size", arguments.phantom.size, "Samples per axis")
@@ -160,7 +168,7 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     if (verb.name == "dump") app->add_option("PART", arguments.part, "What to print; left out: a list of all parts")->type_name("");
     add_own(*app, verb.name, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
-    if (reads_volumes(verb.name) && verb.name != "info") add_interpolant(*app, typed);
+    if (reads_volumes(verb.name) && verb.name != "info" && verb.name != "convert") add_interpolant(*app, typed);
     add_talking(*app, arguments);
     app->get_formatter()->column_width(34);
     std::string examples = "Examples:\n";

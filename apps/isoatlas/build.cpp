@@ -15,7 +15,7 @@
 namespace isoatlas::cli {
 namespace {
 
-/// Lowest and highest sample, read slab by slab: a tunnel height in percent needs them before anything else.
+/// Lowest and highest sample of the file, read slab by slab.
 ValueRange range_of(VolumeReader& reader) {
     const VolumeInfo& info = reader.info();
     ValueRange range{INFINITY, -INFINITY};
@@ -35,7 +35,7 @@ ValueRange range_of(VolumeReader& reader) {
     return range;
 }
 
-BuildOptions options_of(const Arguments& arguments, VolumeReader& reader) {
+BuildOptions options_of(const Arguments& arguments, const VolumeInfo& info) {
     BuildOptions options;
     options.analysis.interpolant = arguments.interpolant;
     options.missing = arguments.missing;
@@ -43,11 +43,10 @@ BuildOptions options_of(const Arguments& arguments, VolumeReader& reader) {
     options.restart = arguments.restart;
     options.gaussian = arguments.gaussian.value_or(0);
     if (arguments.voxel_units) options.geometry = voxel_geometry();
-    if (arguments.tunnel_height > 0 && !arguments.tunnel_height_in_percent) {
-        options.analysis.tunnel_height = arguments.tunnel_height / std::abs(reader.info().calibration.slope);
+    if (arguments.tunnel_height_in_percent) {
+        options.tunnel_height_percent = arguments.tunnel_height;
     } else if (arguments.tunnel_height > 0) {
-        const ValueRange range = range_of(reader);
-        options.analysis.tunnel_height = arguments.tunnel_height / 100 * (range.high - range.low);
+        options.analysis.tunnel_height = arguments.tunnel_height / std::abs(info.calibration.slope);
     }
     return options;
 }
@@ -67,7 +66,11 @@ Json estimate_json(const BuildEstimate& estimate) {
 }
 
 /// Prints what a build would take, and fails as it would.
-int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader, const BuildOptions& options) {
+int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader, BuildOptions options) {
+    if (options.tunnel_height_percent > 0) {  // of the samples before they are filtered: near enough to count elements
+        const ValueRange range = range_of(reader);
+        options.analysis.tunnel_height = options.tunnel_height_percent / 100 * (range.high - range.low);
+    }
     const BuildEstimate estimate = estimate_build(reader, arguments.output, options, arguments.threads);
     check_estimate(estimate, reader.info().path, arguments.output);
     if (arguments.json) {
@@ -116,7 +119,7 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
                     {.file = arguments.file, .what = "is a store already", .expected = "a volume", .next = "name the volume file"});
     }
     const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
-    const BuildOptions options = options_of(arguments, *reader);
+    const BuildOptions options = options_of(arguments, reader->info());
     if (arguments.dry_run) return dry_run(arguments, terminal, *reader, options);
     BuildReport report;
     {

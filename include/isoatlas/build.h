@@ -20,7 +20,9 @@ struct BuildOptions {
     AnalysisOptions analysis{};          ///< zones: of no meaning here
     MissingPolicy missing{};             ///< as load_volume()
     std::optional<Geometry> geometry{};  ///< instead of that of the file
-    double gaussian = 0;                 ///< filters the samples first: sigma as of gaussian_filter(); 0: off
+    /// Instead of analysis.tunnel_height: percent of the range of the samples that are analysed, filtered ones included; 0: off.
+    double tunnel_height_percent = 0;
+    double gaussian = 0;      ///< filters the samples first: sigma as of gaussian_filter(); 0: off
     std::int64_t memory = 0;  ///< bytes for the whole process, 64 MiB or more; 0: half of what the machine or its control group has
     bool restart = false;     ///< forgets finished phases
 };

@@ -15,6 +15,7 @@
 #include "isoatlas/error.h"
 #include "store/brick_writer.h"
 #include "store/checksum.h"
+#include "store/event_arrays.h"
 #include "store/pack.h"
 #include "store/tree_arrays.h"
 #include "zones/analyse.h"
@@ -76,6 +77,20 @@ void report_packing(std::vector<store::PackedArray>& arrays, const Context& cont
     }
 }
 
+/// Highest less lowest sample; they may be more than memory.
+double range_of(const VolumeView& volume) {
+    return visit_samples(volume, []<class T>(std::span<const T> samples) {
+        constexpr std::size_t kPart = std::size_t{1} << 20;
+        T low = samples[0], high = samples[0];
+        for (std::size_t first = 0; first < samples.size(); first += kPart) {
+            const auto [least, most] = std::ranges::minmax(samples.subspan(first, std::min(kPart, samples.size() - first)));
+            low = std::min(low, least), high = std::max(high, most);
+            check_memory();
+        }
+        return static_cast<double>(high) - static_cast<double>(low);
+    });
+}
+
 class Build {
 public:
     Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {}
@@ -90,14 +105,14 @@ public:
             report_.resumed.emplace_back(kTrees);
         } else {
             analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
-            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis));
+            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis, *volume.info));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
         std::unique_ptr<store::Container> zones = folder_.finished(kZones, contents);
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = store::arcs_of(*trees);
+            if (!analysis) analysis = store::arcs_of(*trees, volume.bytes, context_.threads);
             const Context part = shifted(context_, 1, volume.info->extent);
             count_voxels(*analysis, volume, part);
             std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
@@ -105,6 +120,9 @@ public:
                 complete(*analysis, volume, part);
                 for (store::PackedArray& array : object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries})))
                     arrays.push_back(std::move(array));
+                if (store::stores_events(*analysis)) {
+                    for (store::PackedArray& array : store::event_arrays(*analysis)) arrays.push_back(std::move(array));
+                }
             }
             store::pack_store(folder_.file(kZones), contents, arrays);
             zones = std::make_unique<store::Container>(folder_.file(kZones));
@@ -150,7 +168,10 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
     VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0, reader.info().extent));
     if (options.geometry) info.geometry = *options.geometry;
     if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, context);
-    return build.run({info, samples.data()}, options.analysis);
+    const VolumeView volume(info, samples.data());
+    AnalysisOptions analysis = options.analysis;
+    if (options.tunnel_height_percent > 0) analysis.tunnel_height = options.tunnel_height_percent / 100 * range_of(volume);
+    return build.run(volume, analysis);
 }
 
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {

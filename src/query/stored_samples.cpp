@@ -113,11 +113,7 @@ public:
     }
 
     void read_all(std::span<std::byte> out, const Context& context, IoCounters& counters) override {
-        std::vector<std::int64_t> all(static_cast<std::size_t>(grid_.count()));
-        for (std::size_t b = 0; b < all.size(); ++b) all[b] = static_cast<std::int64_t>(b);
-        T* to = reinterpret_cast<T*>(out.data());
-        counters +=
-            bricks_.read(std::move(all), context.threads, [&](std::int64_t brick, std::span<const T> values) { place(brick, values, to); });
+        counters += bricks_.read_all(std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), context.threads);
     }
 
     void check(const Context& context) const override { bricks_.check(context.threads); }
@@ -135,16 +131,6 @@ public:
 private:
     [[nodiscard]] T* samples() { return reinterpret_cast<T*>(array_.data()); }
 
-    void place(std::int64_t brick, std::span<const T> values, T* to) const {
-        const Box box = grid_.box(brick);
-        const T* from = values.data();
-        const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
-        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y, from += box.size(0))
-                std::memcpy(to + info_.extent.index(box.begin[0], y, z), from, bytes);
-        }
-    }
-
     static void require_finite(double tau) {
         if (std::isfinite(tau)) return;
         throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
@@ -154,8 +140,7 @@ private:
     void load(const std::vector<std::int64_t>& wanted, int threads, LevelQuery& query) {
         const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
         try {
-            query +=
-                bricks_.read(missing, threads, [this](std::int64_t brick, std::span<const T> values) { place(brick, values, samples()); });
+            query += bricks_.read_into(samples(), missing, threads);
         } catch (...) {
             cache_.abandon(missing);
             throw;

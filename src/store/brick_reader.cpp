@@ -1,9 +1,11 @@
 #include "store/brick_reader.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
+#include "base/check.h"
 #include "base/parallel.h"
 #include "isoatlas/error.h"
 #include "store/brick_codec.h"
@@ -151,10 +153,34 @@ IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, int threads,
 }
 
 template <class T>
-void BrickReader<T>::check(int threads) const {
+IoCounters BrickReader<T>::read_into(T* whole, std::vector<std::int64_t> bricks, int threads) const {
+    return read(std::move(bricks), threads, [this, whole](std::int64_t brick, std::span<const T> samples) {
+        const Box box = grid_.box(brick);
+        const T* from = samples.data();
+        const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y, from += box.size(0))
+                std::memcpy(whole + grid_.extent.index(box.begin[0], y, z), from, bytes);
+        }
+    });
+}
+
+template <class T>
+IoCounters BrickReader<T>::read_all(std::span<T> whole, int threads) const {
+    ISOATLAS_CHECK(static_cast<std::int64_t>(whole.size()) == grid_.extent.voxels());
+    return read_into(whole.data(), all_bricks(), threads);
+}
+
+template <class T>
+std::vector<std::int64_t> BrickReader<T>::all_bricks() const {
     std::vector<std::int64_t> all(static_cast<std::size_t>(grid_.count()));
     std::iota(all.begin(), all.end(), std::int64_t{0});
-    (void)read(std::move(all), threads, [this](std::int64_t brick, std::span<const T> samples) {
+    return all;
+}
+
+template <class T>
+void BrickReader<T>::check(int threads) const {
+    (void)read(all_bricks(), threads, [this](std::int64_t brick, std::span<const T> samples) {
         const auto i = static_cast<std::size_t>(brick);
         if (extreme_places(samples) != ExtremePlaces{highest_[i], lowest_[i]}) damaged(store_, brick, kWrongExtremes);
     });

@@ -44,6 +44,10 @@ public:
     /// close to each other in the file come with one read. Throws Error{input} for a damaged one, or one whose extremes are not where they
     /// are said to be.
     IoCounters read(std::vector<std::int64_t> bricks, int threads, const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+    /// The same into the whole volume, x fastest: every sample where it belongs.
+    IoCounters read_into(T* whole, std::vector<std::int64_t> bricks, int threads) const;
+    /// All samples. whole.size(): the voxels of the volume.
+    IoCounters read_all(std::span<T> whole, int threads) const;
     /// Reads all bricks; throws Error{input} where the places of the extremes are not those of the samples.
     void check(int threads) const;
 
@@ -54,6 +58,7 @@ private:
     };
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
     void check_places() const;
+    [[nodiscard]] std::vector<std::int64_t> all_bricks() const;
     void sort_by_offset(std::vector<std::int64_t>& bricks) const;
     [[nodiscard]] IoCounters count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const;
     [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const;

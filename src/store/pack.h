@@ -37,14 +37,22 @@ template <class T>
             }};
 }
 
-/// The same, compressed. Few numbers are left as they are.
+/// An array of `count` numbers that is to be compressed; its feed is to be filled in. Few numbers are left as they are.
+template <class T>
+[[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::size_t count) {
+    constexpr std::size_t kFew = 1024;
+    PackedArray array{std::move(name), std::move(type), {static_cast<std::int64_t>(count)}, kBlock, {}};
+    if (count < kFew) return array;
+    array.chunk = std::min(kChunk, static_cast<std::int64_t>(count));
+    array.block = array.chunk * static_cast<std::int64_t>(sizeof(T));
+    return array;
+}
+
+/// The same of numbers that lie in memory until the store is written.
 template <class T>
 [[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::span<const T> numbers) {
-    constexpr std::size_t kFew = 1024;
-    PackedArray array = packed(std::move(name), std::move(type), numbers);
-    if (numbers.size() < kFew) return array;
-    array.chunk = std::min(kChunk, static_cast<std::int64_t>(numbers.size()));
-    array.block = array.chunk * static_cast<std::int64_t>(sizeof(T));
+    PackedArray array = packed_chunks<T>(std::move(name), std::move(type), numbers.size());
+    array.feed = [numbers](const Put& put) { put(std::as_bytes(numbers)); };
     return array;
 }
 

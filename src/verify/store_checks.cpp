@@ -5,6 +5,7 @@
 
 #include "isoatlas/dump.h"
 #include "store/brick_grid.h"
+#include "store/event_arrays.h"
 #include "zones/analysis_data.h"
 
 namespace isoatlas {
@@ -80,6 +81,13 @@ CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& 
         });
     });
     return check.result(std::to_string(expected.element_count()) + " elements, " + std::to_string(expected.event_count()) + " events");
+}
+
+CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored) {
+    Check check("stored_events_follow_from_elements");
+    if (!store::stores_events(stored)) return check.result("no events are stored of so many elements");
+    if (const std::string wrong = store::first_wrong_event(store::Container(atlas.info().path), stored); !wrong.empty()) check.fail(wrong);
+    return check.result(std::to_string(stored.event_count()) + " events");
 }
 
 bool are_same(const Surface& p, const Surface& q) {

@@ -13,6 +13,9 @@ namespace isoatlas {
 /// Every number of the stored trees is that of an analysis of the samples. Names array and place of the first that is not.
 [[nodiscard]] CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& expected);
 
+/// The stored events, where a store has them, are those that follow from its elements.
+[[nodiscard]] CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored);
+
 /// All points, triangles, normals and ids are the same.
 [[nodiscard]] bool are_same(const Surface& p, const Surface& q);
 

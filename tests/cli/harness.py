@@ -22,6 +22,8 @@ def schema_problems(value, schema, where="$"):
         return [f"{where} is no {types}: {value!r}"]
     if "const" in schema and value != schema["const"] or "enum" in schema and value not in schema["enum"]:
         found.append(f"{where} cannot be {value!r}")
+    if value is None:
+        return found
     if "minimum" in schema and value < schema["minimum"]:
         found.append(f"{where} is below {schema['minimum']}: {value!r}")
     for name in schema.get("required", []):
@@ -74,8 +76,11 @@ class CliTest(unittest.TestCase):
 
     def assert_schema(self, document, name):
         """The document is what docs/schema/NAME.schema.json says, as far as the words that our schemas use."""
-        schema = json.loads((pathlib.Path(os.environ["ISOATLAS_SOURCE"]) / "docs" / "schema" / f"{name}.schema.json").read_text())
-        self.assertEqual(schema_problems(document, schema), [])
+        self.assertEqual(schema_problems(document, self.schema(name)), [])
+
+    @staticmethod
+    def schema(name):
+        return json.loads((pathlib.Path(os.environ["ISOATLAS_SOURCE"]) / "docs" / "schema" / f"{name}.schema.json").read_text())
 
     def run_error(self, code, *arguments, says="", next_says=""):
         """The failure is told once on standard error, nothing on standard output; with --json it is a document. Returns its error."""

@@ -85,9 +85,9 @@ class Dump(harness.CliTest):
 
     def test_a_damaged_part_is_not_printed_but_the_others_are(self):
         whole = bytearray((self.folder / "noise.atlas").read_bytes())
-        whole[self.dump("checksums/elements/code[0]")["numbers"][0] + 10] ^= 1
+        whole[self.dump("checksums/elements/place[0]")["numbers"][0] + 10] ^= 1
         (self.folder / "bad.atlas").write_bytes(whole)
-        self.assertIn("elements/code", self.run_error(3, "dump", "bad.atlas", "elements/code")["where"])
+        self.assertIn("elements/place", self.run_error(3, "dump", "bad.atlas", "elements/place")["where"])
         self.run_ok("dump", "bad.atlas", "elements/value")
 
 

@@ -60,6 +60,31 @@ class Stores(harness.CliTest):
                               "surface_is_manifold", "stored_tree_equals_analysis", "zones_partition_voxels"}, names)
         self.assertIn("seed 5", self.run_ok("verify", "noise.atlas", "--levels", "1", "--seed", "5").stdout.splitlines()[-1])
 
+    def test_a_tunnel_height_in_percent_is_of_the_filtered_samples(self):
+        options = ["--gaussian", "1.5", "--tunnel-height", "2%"]
+        built = self.run_json("build", "noise.nrrd", *options, "-o", "smooth.atlas")
+        values = self.run_json("info", "smooth.atlas")["values"]
+        self.assertLess(values["high"] - values["low"], 40)
+        self.assertAlmostEqual(built["tunnel_height"], 0.02 * (values["high"] - values["low"]))
+        self.run_ok("convert", "smooth.atlas", "-o", "smooth.nrrd")
+        again = self.run_json("objects", "smooth.nrrd", "--tunnel-height", "2%")
+        self.assertEqual(again["tunnel_height"], built["tunnel_height"])
+        self.assertEqual(again["objects"], self.run_json("objects", "smooth.atlas")["objects"])
+        self.assertEqual(self.run_json("build", "noise.nrrd", "--tunnel-height", "2%", "-o", "rough.atlas")["tunnel_height"], 0.02 * 63)
+
+    def test_convert_gives_the_samples_back(self):
+        for name in ("back.nrrd", "back.npy", "back.raw", "back.mha", "back.nii"):
+            told = self.run_json("convert", "noise.atlas", "-o", name)
+            self.assertEqual((told["schema"], told["output"], told["sample_bytes"]), ("isoatlas/convert/1", name, 20 ** 3))
+            self.run_ok("build", name, "-o", "again.atlas")
+            one, other = (self.run_json("dump", store, "contents")["text"] for store in ("noise.atlas", "again.atlas"))
+            self.assertEqual(one["parameters"], other["parameters"])
+            self.assertEqual(self.run_json("info", name)["values"], self.run_json("info", "noise.nrrd")["values"])
+        self.run_ok("convert", "noise.nrrd", "--box", "2:7,3:5,0:20", "-o", "part.nrrd")
+        self.assertEqual(self.run_json("info", "part.nrrd")["volume"]["dims"], [5, 2, 20])
+        self.run_error(2, "convert", "noise.atlas", "-o", "noise.atlas", says="noise.atlas")
+        self.run_error(2, "convert", "noise.atlas", "-o", "noise.ply", says=".ply")
+
     def test_preview(self):
         preview = self.run_json("info", "noise.atlas", "--tau", "31")["preview"]
         found = self.run_json("objects", "noise.atlas", "--tau", "31")

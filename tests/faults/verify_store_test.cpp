@@ -165,7 +165,8 @@ TEST_F(VerifyStore, OtherSamplesAreTold) {
 }
 
 TEST_F(VerifyStore, TreesOfOtherSamplesAreTold) {
-    const Volume other = make_phantom("noise", {.size = 24, .seed = 2, .quantise = 32});
+    build_atlas(path_, make_phantom("random-field", {.size = 40}));
+    const Volume other = make_phantom("random-field", {.size = 40, .seed = 2});
     const std::string other_path = (folder_ / "other.atlas").string();
     build_atlas(other_path, other);
     Opened other_store(other_path);
@@ -186,12 +187,21 @@ TEST_F(VerifyStore, TreesOfOtherSamplesAreTold) {
 }
 
 TEST_F(VerifyStore, AWrongValueInTheTreesIsToldWithItsPlace) {
-    build_atlas(path_, make_phantom("noise", {.size = 12}));
+    build_atlas(path_, make_phantom("random-field", {.size = 40}));
     const std::string value = after([](Opened& o) {
         const auto values = o.numbers<double>("elements/value");
         values[7] = (values[6] + values[7]) / 2;  // still in order
     });
     EXPECT_NE(value.find("elements/value[7] is "), std::string::npos) << value;
+}
+
+TEST_F(VerifyStore, ARoundedValueThatIsNotThatOfTheSamplesIsTold) {
+    build_atlas(path_, make_phantom("noise", {.size = 12}));
+    const std::string value = after([](Opened& o) {
+        const auto values = o.numbers<float>("elements/value");
+        values[7] = (values[6] + values[7]) / 2;
+    });
+    EXPECT_NE(value.find("not those of the samples"), std::string::npos) << value;
 }
 
 TEST_F(VerifyStore, AWrongNumberInTheTreesIsToldWithItsPlace) {
@@ -200,13 +210,25 @@ TEST_F(VerifyStore, AWrongNumberInTheTreesIsToldWithItsPlace) {
         ++counts[4], --counts[5];  // the sum stays
     });
     EXPECT_NE(voxels.find("events/voxels["), std::string::npos) << voxels;
-    for (const std::string name : {"elements/code", "elements/towards_outside"}) {
+    for (const std::string name : {"elements/place", "elements/form", "elements/towards_outside"}) {
         const std::string told = after([&](Opened& o) {
             for (std::size_t i = 0; i < o.bytes.size(); ++i) {
                 if (o.contents.arrays[i].name == name) o.bytes[i][o.bytes[i].size() / 2] ^= std::byte{1};
             }
         });
         EXPECT_NE(told, "") << name;
+    }
+}
+
+TEST_F(VerifyStore, AWrongEventIsToldWithItsPlace) {
+    build_atlas(path_, make_phantom("random-field", {.size = 40}));
+    for (const std::string name : {"element", "parent", "kind", "lows_out", "delta_chi", "chi", "contours", "voxels"}) {
+        const std::string told = after([&](Opened& o) {
+            for (std::size_t i = 0; i < o.bytes.size(); ++i) {
+                if (o.contents.arrays[i].name == "events/" + name) o.bytes[i][0] ^= std::byte{1};
+            }
+        });
+        EXPECT_NE(told.find("stored_events_follow_from_elements: events/" + name + "[0] is "), std::string::npos) << told;
     }
 }
 

@@ -1,0 +1,29 @@
+// The criticality tree as arrays of a store, for those who read it without isoatlas: isoatlas itself makes it from the elements.
+//
+//   events/element                per event, descending: its highest critical element, which says value and place
+//   events/parent                 the next event of the same object going down; of the root the root itself
+//   events/kind                   uint8: Criticality (isoatlas/analysis.h)
+//   events/lows_out, delta_chi    what happens: low components that leave just below, change of the Euler characteristic of the Highs
+//   events/chi, contours, voxels  of the object just below the event: Euler characteristic, contours; voxels of the zone of the event
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "isoatlas/analysis.h"
+#include "store/container.h"
+#include "store/pack.h"
+
+namespace isoatlas::store {
+
+/// Events are stored of volumes with at most 2^22 critical elements, and at most one for three voxels: so the tree of a CT scan takes its
+/// share of 2 bytes a voxel, and noise takes none. Neither depends on the memory a store is built in.
+[[nodiscard]] bool stores_events(const Analysis& analysis);
+
+/// analysis: with events and their voxels; it must live until the arrays are packed.
+[[nodiscard]] std::vector<PackedArray> event_arrays(const Analysis& analysis);
+
+/// Says which number of the stored events is not that of the analysis; "" when all are. Cost: reads them.
+[[nodiscard]] std::string first_wrong_event(const Container& store, const Analysis& analysis);
+
+}  // namespace isoatlas::store

@@ -1,0 +1,52 @@
+"""Every document about a store is what its schema says, and has no member that the schema does not describe."""
+import harness
+
+
+def undescribed(value, schema, where="$"):
+    if isinstance(value, dict) and "properties" in schema:
+        found = [f"{where}.{name}" for name in value if name not in schema["properties"]]
+        for name in value.keys() & schema["properties"].keys():
+            found += undescribed(value[name], schema["properties"][name], f"{where}.{name}")
+        return found
+    if isinstance(value, list) and "items" in schema:
+        return [one for item in value for one in undescribed(item, schema["items"], where + "[]")]
+    return []
+
+
+class Schemas(harness.CliTest):
+    phantoms = {"noise.nrrd": ["noise", "--size", "12", "--quantise", "16"]}
+
+    def check(self, name, *arguments):
+        document = self.run_json(*arguments)
+        self.assert_schema(document, name)
+        self.assertEqual(undescribed(document, self.schema(name)), [], name)
+        if "reads" in document:
+            self.assert_schema(document["reads"], "reads")
+            self.assertEqual(document["reads"] is None, arguments[1].endswith(".nrrd"))
+
+    def test_documents_are_as_described(self):
+        self.check("build-estimate", "build", "noise.nrrd", "-o", "noise.atlas", "--dry-run")
+        self.check("build", "build", "noise.nrrd", "-o", "noise.atlas")
+        self.check("build", "build", "noise.nrrd", "-o", "faces.atlas", "--interpolant", "faces", "--gaussian", "1")
+        for file in ("noise.atlas", "faces.atlas", "noise.nrrd"):
+            self.check("info", "info", file)
+            self.check("objects", "objects", file)
+            self.check("objects-at", "objects", file, "--tau", "7")
+            self.check("extract", "extract", file, "--tau", "7", "-o", "x.ply")
+            self.check("extract", "extract", file, "--best", "--style", "full", "--boundary", "open", "-o", "x.stl")
+            self.check("label", "label", file, "--tau", "7", "-o", "x.nrrd")
+            self.check("label", "label", file, "--zones", "-o", "x.nrrd")
+            self.check("convert", "convert", file, "-o", "x.npy")
+            self.check("verify", "verify", file, "--levels", "1")
+            self.check("tree-file", "tree", file, "-o", "x.csv")
+            self.check("table131", "table131", file)
+            for detail in ("events", "levels", "elements", "contours"):
+                self.assert_schema(self.run_json("tree", file, "--detail", detail), "tree-" + detail)
+        self.check("verify", "verify", "x.ply")
+        self.check("info", "info", "noise.atlas", "--tau", "7")
+        for part in ([], ["header"], ["contents"], ["elements/value"], ["brick", "0"]):
+            self.check("dump", "dump", "noise.atlas", *part)
+
+
+if __name__ == "__main__":
+    harness.main()

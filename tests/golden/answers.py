@@ -1,0 +1,74 @@
+"""What a store answers, as far as no later version may change it: numbers and names that today's documents have, checksums of the rest."""
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+CLI = os.environ.get("ISOATLAS_CLI", "isoatlas")
+STL_HEADER = 80   # names the version
+MEMBERS = {
+    "events": ["id", "value", "position", "kind", "parent", "children", "objects_in", "lows_out", "delta_chi", "zone", "object"],
+    "levels": ["value", "event", "in", "out"],
+    "elements": ["value", "position", "h0", "l0"],
+    "contours": ["id", "upper", "lower", "tau_high", "tau_low", "genus"],
+}
+OF_OBJECTS = ["id", "event", "appears", "merges", "best_tau", "chi", "b1", "b2", "tunnels", "cavities", "voxels", "measure", "hypervolume",
+              "position", "position_physical"]
+OF_OBJECTS_AT = ["id", "chi", "b1", "b2", "voxels", "measure", "box", "contours"]
+OF_VOLUME = ["type", "rank", "dims", "spacing", "origin", "direction", "space", "unit", "value_unit", "calibration", "gaussian"]
+OF_PREVIEW = ["objects", "contours", "tunnels"]
+OF_SURFACE = ["points", "triangles", "segments", "objects", "contours", "closed"]
+
+
+def run(*words):
+    done = subprocess.run([CLI, *map(str, words), "--quiet", "--json"], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"isoatlas {' '.join(map(str, words))}: {done.stderr}")
+    return json.loads(done.stdout)
+
+
+def sum_of(thing):
+    data = thing if isinstance(thing, bytes) else json.dumps(thing, sort_keys=True).encode()
+    return hashlib.sha256(data).hexdigest()
+
+
+def chosen(members, document):
+    return {name: document[name] for name in members}
+
+
+def surface(folder, store, *options):
+    file = folder / "surface.stl"
+    told = run("extract", store, "-o", file, *options)
+    return {**chosen(OF_SURFACE, told), "stl": sum_of(file.read_bytes()[STL_HEADER:])}
+
+
+def at_isovalue(folder, store, tau):
+    found = run("objects", store, "--tau", tau)
+    objects = [chosen(OF_OBJECTS_AT, entry) for entry in found["objects"]]
+    answer = {"tau": tau, "objects": objects[:3], "of_all_objects": sum_of(objects), "active_cells": found["active_cells"],
+              "preview": chosen(OF_PREVIEW, run("info", store, "--tau", tau)["preview"])}
+    if found["volume"]["rank"] == 3:
+        answer["surface"] = surface(folder, store, "--tau", tau)
+        answer["of_one_object"] = surface(folder, store, "--tau", tau, "--object", objects[-1]["id"])
+    return answer
+
+
+def answers(store):
+    """Of a store: volume, samples, parameters, trees, objects, and surfaces at three isovalues."""
+    with tempfile.TemporaryDirectory(prefix="isoatlas-golden-") as name:
+        folder = pathlib.Path(name)
+        info = run("info", store)
+        low, high = info["values"]["low"], info["values"]["high"]
+        told = run("convert", store, "-o", folder / "samples.npy")
+        found = run("objects", store)
+        answer = {"volume": chosen(OF_VOLUME, info["volume"]), "values": [low, high], "interpolant": found["interpolant"],
+                  "tunnel_height": found.get("tunnel_height"), "samples": sum_of((folder / "samples.npy").read_bytes()[-told["sample_bytes"]:]),
+                  "trees": {}, "objects": [chosen(OF_OBJECTS, entry) for entry in found["objects"]], "branches": found["branches"],
+                  "noise": found["noise"]}
+        for detail, members in MEMBERS.items():
+            lines = [chosen(members, line) for line in run("tree", store, "--detail", detail)[detail]]
+            answer["trees"][detail] = {"count": len(lines), "first": lines[:2], "of_all": sum_of(lines)}
+        answer["isovalues"] = [at_isovalue(folder, store, low + part * (high - low)) for part in (0.25, 0.5, 0.8125)]
+        return answer
