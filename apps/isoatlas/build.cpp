@@ -101,6 +101,7 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
         json["sample_bytes"] = static_cast<std::int64_t>(raw);
         json["resumed"] = report.resumed;
         json["peak_memory"] = report.peak_memory;
+        json["left_behind"] = report.left_behind;
         print(terminal, json);
         return;
     }
@@ -130,6 +131,7 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
     }
     for (const std::string& note : reader->info().notes) terminal.say("note: " + note);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
+    if (!report.left_behind.empty()) terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
     print_report(arguments, terminal, reader->info(), report);
     return 0;
 }

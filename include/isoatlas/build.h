@@ -50,6 +50,7 @@ struct BuildReport {
     std::vector<std::string> resumed;  ///< phases that had been finished before
     std::int64_t peak_memory = 0;      ///< most resident memory of the process, bytes
     std::int64_t bytes = 0;            ///< of the store
+    std::string left_behind;           ///< the folder of the build when it cannot be removed, though the store is complete; else ""
 };
 
 /// Analyses a volume and writes the store PATH; PATH appears when it is complete. The same volume and parameters give the same bytes,

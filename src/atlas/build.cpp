@@ -143,7 +143,7 @@ private:
         for (store::PackedArray& array : census_arrays(census)) arrays.push_back(std::move(array));
         report_packing(arrays, context_);
         report_.bytes = store::pack_store(path_, contents, arrays);
-        folder_.remove();
+        if (!folder_.remove()) report_.left_behind = folder_.path();
         report_.peak_memory = peak_memory();
     }
 

@@ -69,7 +69,7 @@ BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(st
 }
 
 BuildFolder::~BuildFolder() {
-    if (lock_ && file_system().entries(path_, 2).size() == 1) remove();  // the lock alone: nothing was finished
+    if (lock_ && file_system().entries(path_, 2).size() == 1) (void)remove();  // the lock alone: nothing was finished
 }
 
 std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted) const {
@@ -86,11 +86,12 @@ std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase
     return nullptr;
 }
 
-void BuildFolder::remove() {
+bool BuildFolder::remove() {
     remove_contents(path_);
     (void)file_system().remove(file(kLock));  // while it is held: whoever waits for it makes a new one
-    (void)file_system().remove_folder(path_);
+    const bool gone = file_system().remove_folder(path_) == 0;
     lock_.reset();
+    return gone;
 }
 
 }  // namespace isoatlas

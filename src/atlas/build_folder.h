@@ -25,8 +25,8 @@ public:
     [[nodiscard]] std::string file(const std::string& phase) const { return path_ + "/" + phase; }
     /// A finished phase of this volume and these parameters; null: there is none. Others, and damaged ones, are removed.
     [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& wanted) const;
-    /// The store is there: removes everything.
-    void remove();
+    /// The store is there: removes everything. Returns whether the folder is gone.
+    bool remove();
 
 private:
     std::string path_;

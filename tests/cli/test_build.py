@@ -118,6 +118,12 @@ class Builds(harness.CliTest):
         self.assertEqual(first.returncode, 0)
         self.assertEqual(self.digest("both.atlas"), self.wanted)
 
+    def test_a_folder_that_stays_is_told(self):
+        (self.folder / "kept.atlas.build" / "mine").mkdir(parents=True)
+        told = self.run_ok("build", "noise.nrrd", "-o", "kept.atlas")
+        self.assertIn("kept.atlas.build cannot be removed", told.stderr)
+        self.assertEqual(self.digest("kept.atlas"), self.wanted)
+
     def test_memory_is_kept_and_changes_nothing(self):
         self.run_ok("phantom", "noise", "--size", "160", "--quantise", "64", "-o", "large.nrrd")
         self.run_ok("build", "large.nrrd", "-o", "large.atlas", "--memory", "2G")
