@@ -72,7 +72,8 @@ void find_element_values(std::span<const std::uint64_t> codes, const VolumeView&
                          std::span<double> values) {
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const Values<T> of_elements(samples, volume.info->extent, tunnel_height);
-        for_each_index(threads, codes.size(), [&](std::size_t i) { values[i] = of_elements.of(ElementCode{codes[i]}); });
+        for_each_index(threads, codes.size(),
+                       [&](std::size_t i) { values[i] = of_elements.of(ElementCode{codes[i]}) + 0.0; });  // as the scan: no -0.0
     });
 }
 

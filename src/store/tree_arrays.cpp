@@ -131,7 +131,7 @@ void check(const AnalysisArrays<Id>& a, const Container& store) {
     }
 }
 
-/// Places and forms as codes.
+/// Places and forms as codes, as many chunks at once as threads may unpack.
 template <class Id>
 void read_codes(const Container& store, BigVector<std::uint64_t>& codes) {
     const StoredArray &places = store.contents().array(kPlace, type_name<Id>()), &forms = store.contents().array(kForm, "uint16");
@@ -141,7 +141,7 @@ void read_codes(const Container& store, BigVector<std::uint64_t>& codes) {
     std::vector<Id> place;
     std::vector<std::uint16_t> form;
     for (std::size_t first = 0; first < codes.size(); first += place.size()) {
-        const std::size_t count = std::min(kTogether, codes.size() - first);
+        const std::size_t count = std::min(16 * kTogether, codes.size() - first);
         place.resize(count), form.resize(count);
         store.read(places, static_cast<std::int64_t>(first * sizeof(Id)), std::as_writable_bytes(std::span<Id>(place)));
         store.read(forms, static_cast<std::int64_t>(first * 2), std::as_writable_bytes(std::span<std::uint16_t>(form)));
