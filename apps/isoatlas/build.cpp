@@ -131,7 +131,8 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
     }
     for (const std::string& note : reader->info().notes) terminal.say("note: " + note);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
-    if (!report.left_behind.empty()) terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
+    if (!report.left_behind.empty())
+        terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
     print_report(arguments, terminal, reader->info(), report);
     return 0;
 }

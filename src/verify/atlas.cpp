@@ -67,10 +67,11 @@ public:
         if (!are_same(stored, expected)) surfaces_.fail("at " + std::to_string(tau) + ": another surface");
         ++surfaces_seen_;
         triangles_ += static_cast<std::int64_t>(stored.triangles.size());
+        const SurfaceParts parts(expected);
         for (const std::int64_t object : objects_of(at)) {
             ExtractOptions alone = own_;
             alone.objects = {object};
-            if (!are_same(atlas_.extract(tau, alone, context), surface_of_object(expected, object)))
+            if (!are_same(atlas_.extract(tau, alone, context), parts.of(object)))
                 objects_.fail("at " + std::to_string(tau) + ": object " + std::to_string(object) + " has another surface");
             ++objects_seen_;
         }

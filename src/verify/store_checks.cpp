@@ -95,27 +95,36 @@ bool are_same(const Surface& p, const Surface& q) {
            p.object == q.object && p.contour == q.contour;
 }
 
-Surface surface_of_object(const Surface& surface, std::int64_t object) {
-    Surface part;
-    std::vector<std::int64_t> place(surface.points.size(), -1);
+SurfaceParts::SurfaceParts(const Surface& surface) : surface_(surface), place_(surface.points.size()) {
     for (std::size_t i = 0; i < surface.points.size(); ++i) {
-        if (surface.object[i] != object) continue;
-        place[i] = static_cast<std::int64_t>(part.points.size());
-        part.points.push_back(surface.points[i]);
-        if (!surface.normals.empty()) part.normals.push_back(surface.normals[i]);
-        part.object.push_back(object);
-        part.contour.push_back(surface.contour[i]);
+        Part& part = parts_[surface.object[i]];
+        place_[i] = static_cast<std::int64_t>(part.points.size());
+        part.points.push_back(i);
     }
-    const auto keep = [&](const auto& all, auto& kept) {
-        for (auto simplex : all) {
-            if (place[static_cast<std::size_t>(simplex[0])] < 0) continue;
-            for (std::int64_t& point : simplex) point = place[static_cast<std::size_t>(point)];
-            kept.push_back(simplex);
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) parts_[object_of(surface.triangles[i])].triangles.push_back(i);
+    for (std::size_t i = 0; i < surface.segments.size(); ++i) parts_[object_of(surface.segments[i])].segments.push_back(i);
+}
+
+Surface SurfaceParts::of(std::int64_t object) const {
+    Surface result;
+    const auto found = parts_.find(object);
+    if (found == parts_.end()) return result;
+    for (const std::size_t i : found->second.points) {
+        result.points.push_back(surface_.points[i]);
+        if (!surface_.normals.empty()) result.normals.push_back(surface_.normals[i]);
+        result.object.push_back(object);
+        result.contour.push_back(surface_.contour[i]);
+    }
+    const auto add = [&](const std::vector<std::size_t>& kept, const auto& all, auto& simplices) {
+        for (const std::size_t i : kept) {
+            auto simplex = all[i];
+            for (std::int64_t& point : simplex) point = place_[static_cast<std::size_t>(point)];
+            simplices.push_back(simplex);
         }
     };
-    keep(surface.triangles, part.triangles);
-    keep(surface.segments, part.segments);
-    return part;
+    add(found->second.triangles, surface_.triangles, result.triangles);
+    add(found->second.segments, surface_.segments, result.segments);
+    return result;
 }
 
 }  // namespace isoatlas

@@ -1,6 +1,9 @@
 // Checks of a store against its own samples.
 #pragma once
 
+#include <unordered_map>
+#include <vector>
+
 #include "isoatlas/atlas.h"
 #include "verify/checks.h"
 
@@ -19,7 +22,25 @@ namespace isoatlas {
 /// All points, triangles, normals and ids are the same.
 [[nodiscard]] bool are_same(const Surface& p, const Surface& q);
 
-/// The part of a surface that belongs to one object, as extract() gives it for that object alone.
-[[nodiscard]] Surface surface_of_object(const Surface& surface, std::int64_t object);
+/// A surface taken apart into those of its objects. The surface must outlive it. Cost: that of the surface once, of a part its own size.
+class SurfaceParts {
+public:
+    explicit SurfaceParts(const Surface& surface);
+    /// As extract() gives it for that object alone.
+    [[nodiscard]] Surface of(std::int64_t object) const;
+
+private:
+    struct Part {
+        std::vector<std::size_t> points, triangles, segments;
+    };
+    template <class Simplex>
+    [[nodiscard]] std::int64_t object_of(const Simplex& simplex) const {
+        return surface_.object[static_cast<std::size_t>(simplex[0])];
+    }
+
+    const Surface& surface_;
+    std::vector<std::int64_t> place_;  ///< per point: within its part
+    std::unordered_map<std::int64_t, Part> parts_;
+};
 
 }  // namespace isoatlas
