@@ -1,0 +1,22 @@
+// What to type, with a button that copies it.
+import { html } from "./dom";
+import type { Entry } from "./page";
+
+export function commandList(entry: Entry): HTMLElement {
+  const list = html("dl", { class: "commands" });
+  for (const command of entry.commands) {
+    const copy = html("button", { type: "button", class: "copy", "aria-label": `Copy: ${command.name}` }, "Copy");
+    copy.addEventListener("click", () => {
+      void navigator.clipboard
+        .writeText(command.line)
+        .then(() => "Copied")
+        .catch(() => "Select it")
+        .then((said) => {
+          copy.textContent = said;
+          setTimeout(() => (copy.textContent = "Copy"), 1500);
+        });
+    });
+    list.append(html("dt", {}, command.name), html("dd", {}, html("code", {}, command.line), copy));
+  }
+  return list;
+}

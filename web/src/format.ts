@@ -1,0 +1,38 @@
+// Numbers as people read them.
+
+const groups = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
+
+/** About four digits; an isovalue keeps those that tell it from its neighbours. */
+export function value(x: number): string {
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  if (size >= 1e6 || size < 1e-3) return x.toExponential(2).replace("e+", "e");
+  return String(Number(x.toPrecision(size >= 1000 ? Math.ceil(Math.log10(size)) + 1 : 4)));
+}
+
+export function count(n: number): string {
+  return groups.format(n);
+}
+
+export function plural(n: number, one: string, many = `${one}s`): string {
+  return n === 0 ? `no ${many}` : `${count(n)} ${n === 1 ? one : many}`;
+}
+
+const ladders: Record<string, [string, number][]> = {
+  mm: [["cm", 10], ["dm", 10], ["m", 10]],
+  um: [["mm", 1000], ["m", 1000]],
+  nm: [["µm", 1000], ["mm", 1000], ["m", 1000]],
+};
+
+/** A volume in unit^3, in the largest unit in which it is at least 1. */
+export function volume(measure: number, unit: string | null): string {
+  if (unit === null) return plural(measure, "voxel");
+  let name = unit;
+  let size = measure;
+  for (const [larger, factor] of ladders[unit] ?? []) {
+    if (size < factor ** 3) break;
+    size /= factor ** 3;
+    name = larger;
+  }
+  return `${value(Number(size.toPrecision(3)))} ${name}³`;
+}

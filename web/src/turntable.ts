@@ -1,0 +1,35 @@
+// A picture that turns: moving over it, or the arrow keys, choose the frame.
+import { html } from "./dom";
+import type { Picture } from "./page";
+
+export function turntable(picture: Picture, label: string): HTMLElement {
+  const view = html("div", {
+    class: "turntable",
+    role: "img",
+    "aria-label": label,
+    tabindex: picture.frames > 1 ? 0 : undefined,
+    style: `aspect-ratio: ${picture.width} / ${picture.height}`,
+  });
+  const strip = html("img", { src: picture.image, alt: "", draggable: "false", loading: "lazy", decoding: "async" });
+  strip.style.width = `${picture.frames * 100}%`;
+  view.append(strip);
+  let frame = 0;
+  const show = (next: number): void => {
+    frame = ((next % picture.frames) + picture.frames) % picture.frames;
+    strip.style.transform = `translateX(${(-100 * frame) / picture.frames}%)`;
+    view.dataset.frame = String(frame);
+  };
+  show(0);
+  if (picture.frames === 1) return view;
+  view.addEventListener("pointermove", (event) => {
+    const box = view.getBoundingClientRect();
+    show(Math.floor(((event.clientX - box.left) / box.width) * picture.frames));
+  });
+  view.addEventListener("pointerleave", () => show(0));
+  view.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+    event.preventDefault();
+    show(frame + (event.key === "ArrowRight" ? 1 : -1));
+  });
+  return view;
+}
