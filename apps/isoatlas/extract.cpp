@@ -81,7 +81,7 @@ struct Counts {
     bool closed;
 };
 
-std::int64_t distinct(std::vector<std::int64_t> ids) {
+std::int64_t distinct(isoatlas::Array<std::int64_t> ids) {
     std::sort(ids.begin(), ids.end());
     return std::unique(ids.begin(), ids.end()) - ids.begin();
 }

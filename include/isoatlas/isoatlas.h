@@ -18,6 +18,7 @@
 
 #include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
+#include "isoatlas/array.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/build.h"
 #include "isoatlas/context.h"

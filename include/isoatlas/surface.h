@@ -11,21 +11,22 @@
 #include <string>
 #include <vector>
 
+#include "isoatlas/array.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
 
 struct Surface {
-    std::vector<std::array<double, 3>> points;
-    std::vector<std::array<float, 3>> normals;  ///< unit length, per point; empty when not asked for
-    std::vector<std::array<std::int64_t, 3>> triangles;
-    std::vector<std::array<std::int64_t, 2>> segments;  ///< 2D only
-    std::vector<std::int64_t> object;                   ///< per point, id as in Cut; empty when not asked for
-    std::vector<std::int64_t> contour;                  ///< per point, id as in Cut; empty when not asked for
-    double tau = 0;                                     ///< stored value
-    double reported_tau = 0;                            ///< calibrated value
-    std::string space = "unknown";                      ///< of the points
+    Array<std::array<double, 3>> points;
+    Array<std::array<float, 3>> normals;  ///< unit length, per point; empty when not asked for
+    Array<std::array<std::int64_t, 3>> triangles;
+    Array<std::array<std::int64_t, 2>> segments;  ///< 2D only
+    Array<std::int64_t> object;                   ///< per point, id as in Cut; empty when not asked for
+    Array<std::int64_t> contour;                  ///< per point, id as in Cut; empty when not asked for
+    double tau = 0;                               ///< stored value
+    double reported_tau = 0;                      ///< calibrated value
+    std::string space = "unknown";                ///< of the points
     std::string unit;
     bool closed = true;                                ///< false: open at the border of the volume (Boundary::open)
     Interpolant interpolant = Interpolant::trilinear;  ///< that extract() used; write_surface() says it in the file
@@ -81,9 +82,9 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
 /// Reads back what write_surface writes, and the usual variants of the same formats from other tools. STL points are merged when
 /// bit-equal. Throws Error: input, unsupported.
 struct Mesh {
-    std::vector<std::array<double, 3>> points;
-    std::vector<std::array<std::int64_t, 3>> triangles;
-    std::vector<std::int64_t> object, contour;  ///< when the file has them
+    Array<std::array<double, 3>> points;
+    Array<std::array<std::int64_t, 3>> triangles;
+    Array<std::int64_t> object, contour;  ///< when the file has them
 };
 [[nodiscard]] Mesh read_mesh(const std::string& path);
 

@@ -80,18 +80,19 @@ struct Atlas::Data {
         std::int64_t active = 0;
         extract_level(window->at(tau), options, context, surface, cost == nullptr ? nullptr : &active);
         count(spent, active, cost);
-        for (std::vector<std::int64_t>* ids : {&surface.object, &surface.contour}) {
+        for (Array<std::int64_t>* ids : {&surface.object, &surface.contour}) {
             for (std::int64_t& id : *ids) id = whole_voxel(*window, id);
         }
         return surface;
     }
 
-    /// Runs query(level, active): it fills in the number of active cells; null when nobody asks.
+    /// Runs query(level, active): it fills in the number of active cells; null when nobody asks. named: does it ask for names?
     template <class Query>
-    auto at_level(double tau, const Context& context, QueryCost* cost, Query&& query) {
+    auto at_level(double tau, bool named, const Context& context, QueryCost* cost, Query&& query) {
         LevelQuery spent;
         std::int64_t active = 0;
-        const StoredLevel level = samples->classify(tau, context, spent);
+        StoredLevel level = samples->classify(tau, context, spent);
+        if (named) samples->add_extremes(level.bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, spent); };
         auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample}, cost == nullptr ? nullptr : &active);
         count(spent, active, cost);
@@ -120,7 +121,7 @@ double Atlas::tunnel_height() const { return data_->store.contents().parameters.
 Cut Atlas::cut(double tau, const CutOptions& options, const Context& context, QueryCost* cost) const {
     CutOptions own = options;
     own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
-    return data_->at_level(tau, context, cost, [&](const TauLevel& level, std::int64_t* active) {
+    return data_->at_level(tau, true, context, cost, [&](const TauLevel& level, std::int64_t* active) {
         Cut cut = cut_level(level, own, context);
         if (active != nullptr) *active = cut.active_cells;
         return cut;
@@ -134,7 +135,7 @@ Surface Atlas::extract(double tau, const ExtractOptions& options, const Context&
         std::optional<Surface> surface = data_->extract_object(tau, own, context, cost);
         if (surface) return std::move(*surface);
     }
-    return data_->at_level(tau, context, cost, [&](const TauLevel& level, std::int64_t* active) {
+    return data_->at_level(tau, needs_names(own), context, cost, [&](const TauLevel& level, std::int64_t* active) {
         Surface surface;
         extract_level(level, own, context, surface, active);
         return surface;

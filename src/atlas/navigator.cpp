@@ -44,6 +44,7 @@ struct Navigator::Data {
         StoredSamples& samples = AtlasAccess::samples(atlas);
         KeptLevel next = std::exchange(level, {});  // lost when anything throws
         changed_bricks = samples.reclassify(next, to, context, spent);
+        if (needs_names(options)) samples.add_extremes(next.level->bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
         extract_level(TauLevel{samples.view(), to, next.level->high, &next.level->bricks, {}, sample}, options, context, surface, &active);
         level = std::move(next);

@@ -3,20 +3,22 @@
 #include "base/check.h"
 #include "critical/bodies.h"
 #include "critical/tunnels.h"
+#include "field/order.h"
 
 namespace isoatlas {
 
 template <class T>
-std::array<double, 8> TunnelFinder<T>::values(std::int64_t cell) const {
+std::array<double, 8> TunnelFinder<T>::values(const std::array<std::int64_t, 3>& cell) const {
     std::array<double, 8> value{};
-    for (int k = 0; k < 8; ++k) value[k] = static_cast<double>(grid_.samples[steps_.cell_corner(cell, k)]);
+    for (int k = 0; k < 8; ++k) value[k] = static_cast<double>(grid_.corner(cell, k));
     return value;
 }
 
 template <class T>
-std::optional<OpenTunnel> TunnelFinder<T>::find(std::int64_t cell, int pattern, int joined) const {
+std::optional<OpenTunnel> TunnelFinder<T>::find(const std::array<std::int64_t, 3>& cell, int pattern, int joined) const {
     CellElements elements{values(cell), {}, 0, 0, {}};
-    for (int k = 0; k < 8; ++k) elements.voxel[k] = steps_.cell_corner(cell, k);
+    const GridSteps steps(grid_.extent);
+    for (int k = 0; k < 8; ++k) elements.voxel[k] = steps.cell_corner(grid_.extent.index(cell[0], cell[1], cell[2]), k);
     find_ambiguous_faces(elements);
     const CellBodies bodies = bodies_of_cell(elements, default_face_types(elements), tunnel_height_);
     const auto opened = [&](const BodyPoint& body, bool joins_highs) {

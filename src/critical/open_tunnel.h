@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "critical/tunnels.h"
-#include "field/grid.h"
-#include "field/order.h"
+#include "field/sample_grid.h"
 
 namespace isoatlas {
 
@@ -22,23 +21,21 @@ template <class T>
 class TunnelFinder {
 public:
     /// tunnel_height: of tunnel_height_of (critical/bodies.h); infinite: there are none.
-    TunnelFinder(const GridView<T>& grid, double tau, double tunnel_height)
-        : grid_(grid), steps_(grid.extent), tau_(tau), tunnel_height_(tunnel_height) {}
+    TunnelFinder(const SampleGrid<T>& grid, double tau, double tunnel_height) : grid_(grid), tau_(tau), tunnel_height_(tunnel_height) {}
     [[nodiscard]] bool finds_any() const { return grid_.is_3d() && std::isfinite(tunnel_height_); }
 
-    /// cell: the voxel of corner 0; all corners must be voxels. pattern, joined: the cell at tau.
-    [[nodiscard]] std::optional<OpenTunnel> operator()(std::int64_t cell, int pattern, int joined) const {
+    /// cell: corner 0; all corners must be voxels. pattern, joined: the cell at tau.
+    [[nodiscard]] std::optional<OpenTunnel> operator()(const std::array<std::int64_t, 3>& cell, int pattern, int joined) const {
         if (!may_hold_tunnel(pattern, joined)) return std::nullopt;
         return find(cell, pattern, joined);
     }
     /// The samples at the corners.
-    [[nodiscard]] std::array<double, 8> values(std::int64_t cell) const;
+    [[nodiscard]] std::array<double, 8> values(const std::array<std::int64_t, 3>& cell) const;
 
 private:
-    [[nodiscard]] std::optional<OpenTunnel> find(std::int64_t cell, int pattern, int joined) const;
+    [[nodiscard]] std::optional<OpenTunnel> find(const std::array<std::int64_t, 3>& cell, int pattern, int joined) const;
 
-    GridView<T> grid_;
-    GridSteps steps_;
+    SampleGrid<T> grid_;
     double tau_, tunnel_height_;
 };
 

@@ -1,8 +1,11 @@
 #include "mesh/cells.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/check.h"
 #include "critical/body_saddle.h"
+#include "critical/tunnels.h"
 
 namespace isoatlas {
 namespace {
@@ -51,26 +54,58 @@ void write_fan_point(const CellLoops& loops, int loop, const std::int64_t* point
 
 }  // namespace
 
-template <class T>
-template <class Visit>
-void CellWriter<T>::for_cells(std::int64_t y, std::int64_t z, Visit&& visit) const {
-    const CellCaseTables& cases = cell_cases();
-    const std::int64_t corner = extent_.index(-1, y, z);
-    const bool has_tunnels = tunnels_.finds_any() && y >= 0 && z >= 0 && y + 1 < extent_.size[1] && z + 1 < extent_.size[2];
-    for_active_cells(cell_row(domain_.high, y, z), domain_.cells, [&](std::int64_t p, int pattern) {
-        State state{pattern, 0, cases.first_case[pattern], std::nullopt};
-        if (const int split = cases.split_faces[pattern]; split != 0) {
-            state.joined = joiner_.joined_mask(corner + p, pattern, split);
-            state.number = cases.case_of(pattern, state.joined);
+std::array<PlainCell, 256> plain_cells(SurfaceStyle style, bool tunnels, bool flip) {
+    std::array<PlainCell, 256> plain{};
+    for (int pattern = 1; pattern < 255; ++pattern) {
+        const CellTriangles& cell = cell_triangles(style)[cell_cases().first_case[pattern]];
+        if (cell_cases().split_faces[pattern] != 0 || cell.fans != 0 || (tunnels && may_hold_tunnel(pattern, 0))) continue;
+        PlainCell& entry = plain[static_cast<std::size_t>(pattern)];
+        ISOATLAS_CHECK(3U * cell.triangles <= entry.corner.size());
+        entry.triangles = cell.triangles;
+        std::copy_n(cell.corner.begin(), 3 * cell.triangles, entry.corner.begin());
+        for (std::size_t i = 0; flip && i < entry.triangles; ++i) std::swap(entry.corner[3 * i + 1], entry.corner[3 * i + 2]);
+    }
+    return plain;
+}
+
+const std::array<std::array<std::int64_t, 8>, 256>& HitCursor::hits_of_patterns() {
+    static const auto kHits = [] {
+        constexpr std::array<int, 8> kEdges{0, 1, 2, 3, 4, 6, 8, 10};
+        std::array<std::array<std::int64_t, 8>, 256> hits{};
+        for (std::size_t pattern = 0; pattern < hits.size(); ++pattern) {
+            for (std::size_t i = 0; i < kEdges.size(); ++i) hits[pattern][i] = cell_cases().hit_edges[pattern] >> kEdges[i] & 1;
         }
-        if (has_tunnels && p > 0 && p < extent_.size[0]) state.tunnel = tunnels_(corner + p, pattern, state.joined);
-        visit(p, state);
-    });
+        return hits;
+    }();
+    return kHits;
+}
+
+template <class T>
+bool CellWriter<T>::has_tunnels(std::int64_t y, std::int64_t z) const {
+    return tunnels_.finds_any() && y >= 0 && z >= 0 && y + 1 < extent_.size[1] && z + 1 < extent_.size[2];
+}
+
+template <class T>
+auto CellWriter<T>::state_of(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, bool has_tunnels) const -> State {
+    const CellCaseTables& cases = cell_cases();
+    State state{pattern, 0, cases.first_case[pattern], std::nullopt};
+    if (const int split = cases.split_faces[pattern]; split != 0) {
+        state.joined = joiner_.joined_mask({p - 1, y, z}, pattern, split);
+        state.number = cases.case_of(pattern, state.joined);
+    }
+    if (has_tunnels && p > 0 && p < extent_.size[0]) state.tunnel = tunnels_({p - 1, y, z}, pattern, state.joined);
+    return state;
 }
 
 template <class T>
 void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) const {
-    for_cells(y, z, [&](std::int64_t, const State& state) {
+    const bool tunnels = has_tunnels(y, z);
+    for_active_cells(cell_row(domain_.high, y, z), domain_.cells, [&](std::int64_t p, int pattern) {
+        if (const int triangles = plain_[static_cast<std::size_t>(pattern)].triangles; triangles != 0) {
+            place.triangle += triangles;
+            return;
+        }
+        const State state = state_of(p, y, z, pattern, tunnels);
         if (state.tunnel) {
             const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
             place.triangle += cell.triangles;
@@ -102,7 +137,7 @@ std::array<float, 3> CellWriter<T>::normal_at(const std::array<double, 8>& value
 template <class T>
 void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
                                  std::int64_t* point, Surface& surface) const {
-    const std::array<double, 8> value = tunnels_.values(extent_.index(voxel[0], voxel[1], voxel[2]));
+    const std::array<double, 8> value = tunnels_.values(voxel);
     const std::array<std::int64_t, 3> corner{voxel[0] + origin_[0], voxel[1] + origin_[1], voxel[2] + origin_[2]};
     const std::array<Vec3, 6> ring = ring_points(cell, *state.tunnel, state.pattern, state.joined, value, joiner_.tau);
     for (int i = 0; i < cell.ring_points; ++i) {
@@ -124,31 +159,40 @@ void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layo
     const std::int64_t row = domain_.row_number(y, z);
     const RowPlace& place = layout[row];
     if (layout[row + 1].triangle == place.triangle) return;
-    const CellCaseTables& cases = cell_cases();
     HitCursor cursor(domain_, layout, y, z);
     std::array<std::int64_t, 3>* triangle = surface.triangles.data() + place.triangle;
     std::int64_t fan_point = place.first_fan();
-    const int second = flip_ ? 2 : 1, third = flip_ ? 1 : 2;
-    for_cells(y, z, [&](std::int64_t p, const State& state) {
+    const bool tunnels = has_tunnels(y, z);
+    for_active_cells(cell_row(domain_.high, y, z), domain_.cells, [&](std::int64_t p, int pattern) {
         std::int64_t point[20];
-        cursor.points_of(cases.hit_edges[state.pattern], point);
-        const auto write_triangles = [&](const std::uint8_t* vertex, int count) {
-            for (int i = 0; i < count; ++i, vertex += 3) *triangle++ = {point[vertex[0]], point[vertex[second]], point[vertex[third]]};
-        };
-        if (state.tunnel) {
-            const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
-            write_points(state, cell, {p - 1, y, z}, fan_point, point, surface);
-            fan_point += cell.points();
-            write_triangles(cell.corner.data(), cell.triangles);
-            return;
-        }
-        const CellTriangles& cell = triangles_[state.number];
-        for (int fan = 0; fan < cell.fans; ++fan) {
-            point[12 + fan] = fan_point;
-            write_fan_point(cases.loops[state.number], cell.fan_loop[fan], point, flip_, fan_point++, surface);
-        }
-        write_triangles(cell.corner.data(), cell.triangles);
+        cursor.points_of(pattern, point);
+        const PlainCell& plain = plain_[static_cast<std::size_t>(pattern)];
+        const std::uint8_t* vertex = plain.corner.data();
+        for (int i = 0; i < plain.triangles; ++i, vertex += 3) *triangle++ = {point[vertex[0]], point[vertex[1]], point[vertex[2]]};
+        if (plain.triangles == 0) write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point, fan_point, triangle, surface);
     });
+}
+
+template <class T>
+void CellWriter<T>::write_cell(const State& state, const std::array<std::int64_t, 3>& voxel, std::int64_t* point, std::int64_t& next_point,
+                               std::array<std::int64_t, 3>*& triangle, Surface& surface) const {
+    const int second = flip_ ? 2 : 1, third = flip_ ? 1 : 2;
+    const auto write_triangles = [&](const std::uint8_t* vertex, int count) {
+        for (int i = 0; i < count; ++i, vertex += 3) *triangle++ = {point[vertex[0]], point[vertex[second]], point[vertex[third]]};
+    };
+    if (state.tunnel) {
+        const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
+        write_points(state, cell, voxel, next_point, point, surface);
+        next_point += cell.points();
+        write_triangles(cell.corner.data(), cell.triangles);
+        return;
+    }
+    const CellTriangles& cell = triangles_[state.number];
+    for (int fan = 0; fan < cell.fans; ++fan) {
+        point[12 + fan] = next_point;
+        write_fan_point(cell_cases().loops[state.number], cell.fan_loop[fan], point, flip_, next_point++, surface);
+    }
+    write_triangles(cell.corner.data(), cell.triangles);
 }
 
 template class CellWriter<std::uint8_t>;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "critical/bodies.h"
-#include "field/grid.h"
 #include "mesh/cell_triangles.h"
 #include "mesh/layout.h"
 #include "mesh/physical_map.h"
@@ -10,13 +9,21 @@
 
 namespace isoatlas {
 
+/// A cell whose triangles follow from which of its corners are High: no face is split, and it has no points of its own.
+struct PlainCell {
+    std::uint8_t triangles = 0;             ///< 0: it is none
+    std::array<std::uint8_t, 15> corner{};  ///< as in CellTriangles
+};
+/// One entry per pattern. tunnels: may cells have any?
+[[nodiscard]] std::array<PlainCell, 256> plain_cells(SurfaceStyle style, bool tunnels, bool flip);
+
 template <class T>
 class CellWriter {
 public:
     /// flip: the geometry is mirrored, so triangles must turn the other way round to keep their normals towards lower values.
-    CellWriter(const GridView<T>& grid, double tau, const MeshDomain& domain, const PhysicalMap& map, const ExtractOptions& options,
+    CellWriter(const SampleGrid<T>& grid, double tau, const MeshDomain& domain, const PhysicalMap& map, const ExtractOptions& options,
                bool flip)
-        : joiner_(grid, tau),
+        : joiner_{grid, tau},
           tunnels_(grid, tau, tunnel_height_of(options.interpolant, options.tunnel_height)),
           extent_(grid.extent),
           origin_(grid.origin),
@@ -24,7 +31,8 @@ public:
           map_(map),
           style_(options.style),
           triangles_(cell_triangles(options.style)),
-          flip_(flip) {}
+          flip_(flip),
+          plain_(plain_cells(options.style, tunnels_.finds_any(), flip)) {}
 
     /// Adds the triangles and articulation points of cell row (y, z) to the counts of its place.
     void count_row(std::int64_t y, std::int64_t z, RowPlace& place) const;
@@ -37,9 +45,13 @@ private:
         int pattern, joined, number;
         std::optional<OpenTunnel> tunnel;
     };
-    /// Calls visit(p, state) for every active cell of row (y, z).
-    template <class Visit>
-    void for_cells(std::int64_t y, std::int64_t z, Visit&& visit) const;
+    /// Has row (y, z) cells that may have tunnels?
+    [[nodiscard]] bool has_tunnels(std::int64_t y, std::int64_t z) const;
+    /// Cell p of row (y, z), which is not plain.
+    [[nodiscard]] State state_of(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, bool has_tunnels) const;
+    /// Writes the triangles and points of a cell that is not plain. point: of its hits; next_point, triangle: places, moved on.
+    void write_cell(const State& state, const std::array<std::int64_t, 3>& voxel, std::int64_t* point, std::int64_t& next_point,
+                    std::array<std::int64_t, 3>*& triangle, Surface& surface) const;
     /// Writes the points of a cell with a tunnel behind its hits in `point`; next: the first of their places.
     void write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
                       std::int64_t* point, Surface& surface) const;
@@ -55,6 +67,7 @@ private:
     SurfaceStyle style_;
     const std::vector<CellTriangles>& triangles_;
     bool flip_;
+    std::array<PlainCell, 256> plain_;
 };
 
 /// The point of every hit edge of a cell, while walking along a row of cells.
@@ -67,22 +80,23 @@ public:
         const RowPlace& r11 = layout[domain.row_number(y + 1, z + 1)];
         next_ = {r00.point, r10.point, r01.point, r11.point, r00.first_y(), r01.first_y(), r00.first_z(), r10.first_z()};
     }
-    /// Writes the points of edges 0..11; entries of edges that are not hit mean nothing. hit_edges: bit e set when edge e is hit.
-    void points_of(unsigned hit_edges, std::int64_t* point) {
-        const auto hit = [hit_edges](int e) { return static_cast<std::int64_t>(hit_edges >> e & 1); };
-        for (int e = 0; e < 4; ++e) {  // along x: one row each
-            point[e] = next_[e];
-            next_[e] += hit(e);
+    /// Writes the points of edges 0..11; entries of edges that are not hit mean nothing.
+    void points_of(int pattern, std::int64_t* point) {
+        const std::array<std::int64_t, 8>& hits = hits_of_patterns()[static_cast<std::size_t>(pattern)];
+        std::array<std::int64_t, 8> after;
+        for (std::size_t i = 0; i < 8; ++i) after[i] = next_[i] + hits[i];
+        for (std::size_t i = 0; i < 4; ++i) point[i] = next_[i];  // along x: one row each
+        for (std::size_t i = 4; i < 8; ++i) {  // along y and z: a near and a far edge in one row; the far one is the next cell's near one
+            point[2 * i - 4] = next_[i];
+            point[2 * i - 3] = after[i];
         }
-        for (int i = 0; i < 4; ++i) {  // along y and z: a near and a far edge in one row; the far one is the next cell's near one
-            const int near = 4 + 2 * i;
-            point[near] = next_[4 + i];
-            next_[4 + i] += hit(near);
-            point[near + 1] = next_[4 + i];
-        }
+        next_ = after;
     }
 
 private:
+    /// Per pattern: which of the edges 0, 1, 2, 3, 4, 6, 8, 10 are hit?
+    static const std::array<std::array<std::int64_t, 8>, 256>& hits_of_patterns();
+
     std::array<std::int64_t, 8> next_;
 };
 

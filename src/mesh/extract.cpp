@@ -1,14 +1,14 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "base/parallel.h"
+#include "base/big_vector.h"
 #include "critical/bodies.h"
 #include "field/slab_work.h"
 #include "mesh/cells.h"
 #include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
 #include "mesh/hits.h"
-#include "mesh/huge_pages.h"
 #include "mesh/selection.h"
 #include "mesh/squares.h"
 
@@ -34,9 +34,9 @@ void for_arrays(Surface& surface, Visit&& visit) {
 template <class T>
 class Extraction {
 public:
-    Extraction(const TauLevel& level, std::span<const T> samples, const ExtractOptions& options, const Context& context,
+    Extraction(const TauLevel& level, const SampleGrid<T>& grid, const ExtractOptions& options, const Context& context,
                const Components* components)
-        : grid_{samples.data(), level.info().extent, level.window ? level.window->origin : std::array<std::int64_t, 3>{}},
+        : grid_{grid.samples, grid.extent, grid.layout, level.window ? level.window->origin : std::array<std::int64_t, 3>{}},
           tau_(level.tau),
           options_(options),
           context_(context),
@@ -55,12 +55,22 @@ public:
     }
 
 private:
-    /// Calls visit(y, z) for all rows of points, slab by slab.
+    /// Calls visit(y, z) for all rows of points: slab by slab, and in a slab by bundles of rows whose samples lie near each other.
     template <class Visit>
     void for_rows(const Phase& phase, Visit&& visit) {
-        Extent rows = grid_.extent;
-        rows.size = {rows.size[0], domain_.rows_y(), domain_.rows_z()};
-        for_each_row(context_, phase, rows, [&](std::int64_t y, std::int64_t z) { visit(domain_.y_begin + y, domain_.z_begin + z); });
+        if (domain_.is_2d()) {
+            const Extent rows{2, {grid_.extent.size[0], domain_.rows_y(), 1}};
+            for_each_row(context_, phase, rows, [&](std::int64_t y, std::int64_t) { visit(domain_.y_begin + y, domain_.z_begin); });
+            return;
+        }
+        const std::int64_t rows_y = domain_.rows_y(), side = store::kBrickSize[1];
+        for_each_slab(context_, phase, {domain_.rows_z(), grid_.extent.slice()}, [&](const Slab& slab) {
+            for (std::int64_t first = 0; first < rows_y; first += side) {
+                for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
+                    for (std::int64_t y = first; y < std::min(first + side, rows_y); ++y) visit(domain_.y_begin + y, domain_.z_begin + z);
+                }
+            }
+        });
     }
     [[nodiscard]] bool has_cells(std::int64_t y, std::int64_t z) const {
         return y < domain_.y_end && (domain_.is_2d() || z < domain_.z_end);
@@ -69,8 +79,9 @@ private:
     void count() {
         resize_fresh(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
         for_rows({"count", 1, kPhases}, [&](std::int64_t y, std::int64_t z) {
-            if (domain_.high.busy(y, z).empty()) return;
             RowPlace& place = layout_[domain_.row_number(y, z)];
+            place = {};
+            if (domain_.high.busy(y, z).empty()) return;
             count_hits(domain_, y, z, place);
             if (!has_cells(y, z)) return;
             if (domain_.is_2d())
@@ -78,21 +89,18 @@ private:
             else
                 cells_.count_row(y, z, place);
         });
+        layout_.back() = {};
         turn_counts_into_places(layout_);
     }
 
-    /// The arrays are filled with zeros while they grow: one thread each. Every entry will be written.
+    /// Every entry will be written.
     void allocate(Surface& surface) const {
         const auto points = static_cast<std::size_t>(layout_.back().point), simplices = static_cast<std::size_t>(layout_.back().triangle);
-        for_each_block(context_.threads, 4, [&](std::int64_t array) {
-            if (array == 0) {
-                resize_fresh(surface.segments, domain_.is_2d() ? simplices : 0);
-                resize_fresh(surface.triangles, domain_.is_2d() ? 0 : simplices);
-            }
-            if (array == 1) resize_fresh(surface.points, points);
-            if (array == 2) resize_fresh(surface.normals, options_.normals ? points : 0);
-            if (array == 3) resize_fresh(surface.contour, components_ != nullptr ? points : 0);
-        });
+        resize_fresh(surface.segments, domain_.is_2d() ? simplices : 0);
+        resize_fresh(surface.triangles, domain_.is_2d() ? 0 : simplices);
+        resize_fresh(surface.points, points);
+        resize_fresh(surface.normals, options_.normals ? points : 0);
+        resize_fresh(surface.contour, components_ != nullptr ? points : 0);
     }
 
     void write_hits(Surface& surface) {
@@ -115,7 +123,7 @@ private:
         });
     }
 
-    GridView<T> grid_;
+    SampleGrid<T> grid_;
     double tau_;
     const ExtractOptions& options_;
     const Context& context_;
@@ -128,6 +136,10 @@ private:
 };
 
 }  // namespace
+
+bool selects_components(const ExtractOptions& options) {
+    return !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
+}
 
 Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context) {
     Surface surface;
@@ -146,13 +158,12 @@ void extract_level(const TauLevel& level, const ExtractOptions& options, const C
     surface.tunnel_height = options.tunnel_height;
     surface.reported_tunnel_height = info.calibration.reported_difference(options.tunnel_height);
 
-    const bool selects = !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
+    const bool selects = selects_components(options);
     std::optional<Components> components;
-    if (selects || options.ids) components = find_components(level, tunnel_height_of(options.interpolant, options.tunnel_height), context);
+    if (needs_names(options)) components = find_components(level, tunnel_height_of(options.interpolant, options.tunnel_height), context);
     const std::vector<std::uint8_t> chosen = selects ? chosen_contours(level, *components, options) : std::vector<std::uint8_t>{};
-    visit_samples(level.volume, [&](auto samples) {
-        using T = typename decltype(samples)::value_type;
-        Extraction<T>(level, samples, options, context, components ? &*components : nullptr).run(surface);
+    visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
+        Extraction<T>(level, grid, options, context, components ? &*components : nullptr).run(surface);
     });
     if (cells != nullptr) {
         *cells =

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/big_vector.h"
 #include "isoatlas/surface.h"
 #include "query/active_cells.h"
 
@@ -52,10 +52,11 @@ struct RowHits {
     [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
 };
 
+/// RowPlace{} is zeros; a fresh array of them holds anything.
 struct RowPlace {
-    std::int64_t point = 0;     ///< first point of the row
-    std::int64_t triangle = 0;  ///< first triangle (2D: segment)
-    std::uint32_t x_hits = 0, y_hits = 0, z_hits = 0, fans = 0;
+    std::int64_t point;     ///< first point of the row
+    std::int64_t triangle;  ///< first triangle (2D: segment)
+    std::uint32_t x_hits, y_hits, z_hits, fans;
 
     [[nodiscard]] std::int64_t first_y() const { return point + x_hits; }
     [[nodiscard]] std::int64_t first_z() const { return first_y() + y_hits; }
@@ -63,7 +64,7 @@ struct RowPlace {
 };
 
 /// Places of all rows; the last entry holds the totals.
-using Layout = std::vector<RowPlace>;
+using Layout = BigVector<RowPlace>;
 
 /// Counts hits per row; triangles and articulation points are added by the caller, then turned into places.
 void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place);

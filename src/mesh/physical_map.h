@@ -10,6 +10,11 @@
 
 namespace isoatlas {
 
+/// Vectors side by side, one array for each component, so that the compiler works on several at once.
+inline constexpr std::size_t kLanes = 64;
+template <class Real>
+using Lanes = std::array<std::array<Real, kLanes>, 3>;
+
 class PhysicalMap {
 public:
     /// Throws Error{usage} when the axes of the geometry do not span space.
@@ -25,6 +30,9 @@ public:
         return physical;
     }
 
+    /// The same for `count` positions at once.
+    void to_points(std::size_t count, Lanes<double>& voxel) const;
+
     /// 1 / (distance along the axis between the neighbours of sample i that exist); 0 when there is no neighbour.
     [[nodiscard]] const double* inverse_distance(int axis) const { return inverse_distance_[axis].data(); }
 
@@ -38,14 +46,23 @@ public:
                      static_cast<Real>(normals_[row][2]) * slope[2];
         }
         const Real squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-        if (!(squared > Real(1e-25) && squared < Real(1e25))) return rare_normal({slope[0], slope[1], slope[2]}, axis, sign);
+        if (is_rare(squared)) return rare_normal({slope[0], slope[1], slope[2]}, axis, sign);
         const Real scale = Real(-1) / std::sqrt(squared);
         return {static_cast<float>(g[0] * scale), static_cast<float>(g[1] * scale), static_cast<float>(g[2] * scale)};
     }
 
-private:
-    /// For slopes that are zero, not finite, or too large or too small to be squared.
+    /// The same for `count` slopes at once, but for rare ones, which are zero, not finite, or too large or too small to be squared: true in
+    /// `rare`.
+    template <class Real>
+    void to_normals(std::size_t count, Lanes<Real>& slope, std::array<bool, kLanes>& rare) const;
+    /// For those.
     [[nodiscard]] std::array<float, 3> rare_normal(Vec3 slope, int axis, double sign) const;
+
+private:
+    template <class Real>
+    [[nodiscard]] static bool is_rare(Real squared) {
+        return !(squared > Real(1e-25) && squared < Real(1e25));
+    }
 
     const Geometry& geometry_;
     bool rectilinear_;

@@ -5,8 +5,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "base/big_vector.h"
 #include "field/slab_work.h"
-#include "mesh/huge_pages.h"
 
 namespace isoatlas {
 namespace {

@@ -19,9 +19,9 @@ std::int64_t count_segments(const MeshDomain& domain, std::int64_t y) {
 }
 
 template <class T>
-void write_segments(const GridView<T>& grid, double tau, const MeshDomain& domain, std::int64_t y, const Layout& layout, bool flip,
+void write_segments(const SampleGrid<T>& grid, double tau, const MeshDomain& domain, std::int64_t y, const Layout& layout, bool flip,
                     Surface& surface) {
-    const FaceJoiner<T> joiner(grid, tau);
+    const FaceJoiner<T> joiner{grid, tau};
     const RowPlace &near = layout[domain.row_number(y, 0)], &far = layout[domain.row_number(y + 1, 0)];
     std::array<std::int64_t, 2>* segment = surface.segments.data() + near.triangle;
     std::int64_t x_near = near.point, x_far = far.point, y_edge = near.first_y();
@@ -29,7 +29,7 @@ void write_segments(const GridView<T>& grid, double tau, const MeshDomain& domai
         int joined = 0;
         if (is_split(square)) {
             const Diagonal highs = square & 1 ? Diagonal::ac : Diagonal::bd;
-            joined = int{joiner(grid.extent.index(p - 1, y, 0), 0, highs)} << kTopFace;
+            joined = int{joiner({p - 1, y, 0}, 0, highs)} << kTopFace;
         }
         const int pattern = square << 4;
         const unsigned hit_edges = cell_cases().hit_edges[pattern];
@@ -51,13 +51,13 @@ void write_segments(const GridView<T>& grid, double tau, const MeshDomain& domai
     });
 }
 
-template void write_segments(const GridView<std::uint8_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<std::int8_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<std::uint16_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<std::int16_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<std::uint32_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<std::int32_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<float>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
-template void write_segments(const GridView<double>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<std::uint8_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<std::int8_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<std::uint16_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<std::int16_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<std::uint32_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<std::int32_t>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<float>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
+template void write_segments(const SampleGrid<double>&, double, const MeshDomain&, std::int64_t, const Layout&, bool, Surface&);
 
 }  // namespace isoatlas

@@ -11,7 +11,7 @@ namespace isoatlas {
 
 /// Writes the segments of square row y at its place. The Highs lie to the left; flip: the geometry is mirrored.
 template <class T>
-void write_segments(const GridView<T>& grid, double tau, const MeshDomain& domain, std::int64_t y, const Layout& layout, bool flip,
+void write_segments(const SampleGrid<T>& grid, double tau, const MeshDomain& domain, std::int64_t y, const Layout& layout, bool flip,
                     Surface& surface);
 
 }  // namespace isoatlas

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "isoatlas/array.h"
+
 namespace isoatlas::output {
 
 class PointTable {
@@ -24,7 +26,7 @@ public:
         }
         return slots_[slot];
     }
-    [[nodiscard]] std::vector<Point> take_points() { return std::move(points_); }
+    [[nodiscard]] Array<Point> take_points() { return std::move(points_); }
 
 private:
     [[nodiscard]] std::size_t slot_of(const Point& p) const {
@@ -44,7 +46,7 @@ private:
         }
     }
 
-    std::vector<Point> points_;
+    Array<Point> points_;
     std::vector<std::int64_t> slots_;  ///< open addressing; -1: free; a power of two, at most half full
 };
 

@@ -201,7 +201,7 @@ private:
         if (has_[3]) add_id(mesh_.object, value[3], ids_are_whole_[0]);
         if (has_[4]) add_id(mesh_.contour, value[4], ids_are_whole_[1]);
     }
-    static void add_id(std::vector<std::int64_t>& ids, double value, bool& whole) {
+    static void add_id(Array<std::int64_t>& ids, double value, bool& whole) {
         whole = whole && is_whole(value);
         if (whole) ids.push_back(static_cast<std::int64_t>(value));
     }

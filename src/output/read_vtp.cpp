@@ -100,7 +100,7 @@ void read_cells(const pugi::xml_node& cells, VtkEncoding& encoding, std::size_t 
 }
 
 /// Ids of a piece; false when it has none (or somebody else's array of this name, with another type or length).
-bool read_ids(const pugi::xml_node& piece, const char* name, std::size_t points, VtkEncoding& encoding, std::vector<std::int64_t>& ids) {
+bool read_ids(const pugi::xml_node& piece, const char* name, std::size_t points, VtkEncoding& encoding, Array<std::int64_t>& ids) {
     const pugi::xml_node element = array_named(piece.child("PointData"), name);
     if (!element) return points == 0;
     const VtkValues values = read_vtk_array(element, encoding);

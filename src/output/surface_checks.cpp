@@ -11,7 +11,7 @@ namespace isoatlas::output {
 namespace {
 
 template <std::size_t N>
-void check_indices(const std::vector<std::array<std::int64_t, N>>& cells, std::int64_t points, const char* name, const std::string& file) {
+void check_indices(const Array<std::array<std::int64_t, N>>& cells, std::int64_t points, const char* name, const std::string& file) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         for (const std::int64_t p : cells[i]) {
             if (p >= 0 && p < points) continue;

@@ -1,5 +1,6 @@
 // PLY, binary little endian. PLY has no 64-bit integers: ids are int when all fit, else double (exact up to 2^53).
 #include <limits>
+#include <span>
 
 #include "output/byte_writer.h"
 #include "output/mesh_formats.h"
@@ -9,7 +10,7 @@ namespace isoatlas::output {
 
 namespace {
 
-bool fit_int32(const std::vector<std::int64_t>& ids) {
+bool fit_int32(std::span<const std::int64_t> ids) {
     for (const std::int64_t id : ids) {
         if (id < std::numeric_limits<std::int32_t>::min() || id > std::numeric_limits<std::int32_t>::max()) return false;
     }

@@ -20,8 +20,8 @@ std::string points_element(AppendedArrays& arrays, const Surface& surface) {
     });
 }
 
-std::string id_element(AppendedArrays& arrays, const char* name, const std::vector<std::int64_t>& ids) {
-    return arrays.add<std::int64_t>(name, 1, static_cast<std::int64_t>(ids.size()), [&ids](ByteWriter& out) {
+std::string id_element(AppendedArrays& arrays, const char* name, std::span<const std::int64_t> ids) {
+    return arrays.add<std::int64_t>(name, 1, static_cast<std::int64_t>(ids.size()), [ids](ByteWriter& out) {
         for (const std::int64_t id : ids) out.put(id);
     });
 }
@@ -42,7 +42,7 @@ std::string point_data(AppendedArrays& arrays, const Surface& surface) {
 }
 
 template <std::size_t N>
-std::string cells(AppendedArrays& arrays, const char* tag, const std::vector<std::array<std::int64_t, N>>& cells) {
+std::string cells(AppendedArrays& arrays, const char* tag, const Array<std::array<std::int64_t, N>>& cells) {
     const auto count = static_cast<std::int64_t>(cells.size());
     std::string text = std::string("<") + tag + ">\n";
     text += arrays.add<std::int64_t>("connectivity", 1, static_cast<std::int64_t>(N) * count, [&cells](ByteWriter& out) {
@@ -65,7 +65,7 @@ std::string field_data(AppendedArrays& arrays, const Surface& surface) {
 }  // namespace
 
 void write_vtp(AtomicFile& file, const Surface& surface, Warnings&) {
-    static const std::vector<std::array<std::int64_t, 3>> kNoTriangles;
+    static const Array<std::array<std::int64_t, 3>> kNoTriangles;
     const auto& triangles = surface.segments.empty() ? surface.triangles : kNoTriangles;
     AppendedArrays arrays;
     ByteWriter out(file);

@@ -10,7 +10,7 @@
 
 #include "field/cell_loops.h"
 #include "field/face.h"
-#include "field/order.h"
+#include "field/sample_grid.h"
 #include "query/high_bits.h"
 
 namespace isoatlas {
@@ -82,28 +82,24 @@ std::int64_t count_active_cells(const CellRow<kRows>& rows, const CellWindow& wi
 /// Decides 4-hit faces at one isovalue.
 template <class T>
 struct FaceJoiner {
-    const T* samples;
-    GridSteps steps;
+    SampleGrid<T> grid;
     double tau;
 
-    FaceJoiner(const GridView<T>& grid, double isovalue) : samples(grid.samples), steps(grid.extent), tau(isovalue) {}
-
-    /// Are the Highs of the face of an orientation with corner a at `voxel` joined? The face is 4-hit, the Highs on the given diagonal.
-    [[nodiscard]] bool operator()(std::int64_t voxel, int orientation, Diagonal highs) const {
-        const T* a = samples + voxel;
-        return highs_are_joined(a[0], a[steps.face_corner(orientation, 1)], a[steps.face_corner(orientation, 2)],
-                                a[steps.face_corner(orientation, 3)], highs, tau);
+    /// Are the Highs of the face of an orientation with corner a at a voxel joined? The face is 4-hit, the Highs on the given diagonal.
+    [[nodiscard]] bool operator()(const std::array<std::int64_t, 3>& voxel, int orientation, Diagonal highs) const {
+        const FaceAxes axes = kFaceAxes[orientation];
+        const int b = 1 << axes.axis1, d = 1 << axes.axis2;
+        return highs_are_joined(grid.corner(voxel, 0), grid.corner(voxel, b), grid.corner(voxel, b | d), grid.corner(voxel, d), highs, tau);
     }
 
-    /// Joined mask of the split faces of a cell whose corner 0 is at `voxel` (may be a padding position; split faces have real corners).
-    [[nodiscard]] int joined_mask(std::int64_t voxel, int pattern, int split_faces) const {
+    /// Joined mask of the split faces of a cell with corner 0 at `cell` (may be a padding position; split faces have real corners).
+    [[nodiscard]] int joined_mask(const std::array<std::int64_t, 3>& cell, int pattern, int split_faces) const {
         int joined = 0;
         for (int rest = split_faces; rest != 0; rest &= rest - 1) {
             const int f = std::countr_zero(static_cast<unsigned>(rest));
             const int a = kFaceCorners[f][0];
-            const std::int64_t corner = voxel + (a & 1) * steps.axis[0] + (a >> 1 & 1) * steps.axis[1] + (a >> 2) * steps.axis[2];
             const Diagonal highs = pattern >> a & 1 ? Diagonal::ac : Diagonal::bd;
-            joined |= int{(*this)(corner, f / 2, highs)} << f;
+            joined |= int{(*this)({cell[0] + (a & 1), cell[1] + (a >> 1 & 1), cell[2] + (a >> 2)}, f / 2, highs)} << f;
         }
         return joined;
     }

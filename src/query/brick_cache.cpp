@@ -4,8 +4,6 @@
 
 namespace isoatlas {
 
-using store::Box;
-
 void BrickLease::release() {
     if (cache_ == nullptr) return;
     const std::lock_guard lock(cache_->mutex_);
@@ -14,51 +12,35 @@ void BrickLease::release() {
     bricks_.clear();
 }
 
-BrickCache::BrickCache(const store::BrickGrid& grid, std::size_t sample_bytes, VirtualArray& array, std::int64_t budget, std::mutex& mutex)
-    : grid_(grid),
-      sample_bytes_(static_cast<std::int64_t>(sample_bytes)),
+BrickCache::BrickCache(std::int64_t count, std::int64_t brick_bytes, VirtualArray& array, std::int64_t budget, std::mutex& mutex)
+    : brick_bytes_(brick_bytes),
       page_bytes_(static_cast<std::int64_t>(VirtualArray::page_bytes())),
       budget_(budget),
       array_(array),
       mutex_(mutex),
-      users_(static_cast<std::size_t>(2 * (grid.extent.voxels() * sample_bytes_ / page_bytes_ + 1))),
-      state_(static_cast<std::size_t>(grid.count())) {}
+      users_(static_cast<std::size_t>(last_page(count) + 1)),
+      state_(static_cast<std::size_t>(count)) {}
 
-template <class Visit>
-void BrickCache::for_pages(std::int64_t brick, Visit&& visit) const {
-    const Box box = grid_.box(brick);
-    std::int64_t next = 0;  // pages before it have been visited
-    for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-        for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-            const std::int64_t first = grid_.extent.index(box.begin[0], y, z) * sample_bytes_;
-            const std::int64_t last = first + box.size(0) * sample_bytes_ - 1;
-            for (next = std::max(next, first / page_bytes_); next <= last / page_bytes_; ++next) visit(next);
+void BrickCache::add_pages(std::int64_t brick) {
+    for (std::int64_t page = first_page(brick); page <= last_page(brick); ++page) pages_ += users_[static_cast<std::size_t>(page)]++ == 0;
+}
+
+void BrickCache::drop_pages(std::int64_t brick, PageRange& unused) {
+    for (std::int64_t page = first_page(brick); page <= last_page(brick); ++page) {
+        if (--users_[static_cast<std::size_t>(page)] > 0) continue;
+        --pages_;
+        if (page != unused.end) {
+            give_back(unused);
+            unused.begin = page;
         }
+        unused.end = page + 1;
     }
 }
 
-void BrickCache::add_pages(std::int64_t brick) {
-    auto* users = reinterpret_cast<std::uint16_t*>(users_.data());
-    for_pages(brick, [&](std::int64_t page) { pages_ += users[page]++ == 0; });
-}
-
-void BrickCache::drop_pages(std::int64_t brick) {
-    auto* users = reinterpret_cast<std::uint16_t*>(users_.data());
-    std::int64_t begin = 0, end = 0;  // pages in a row that nobody uses any more
-    const auto give_back = [&] {
-        if (begin < end)
-            array_.give_back(static_cast<std::size_t>(begin * page_bytes_), static_cast<std::size_t>((end - begin) * page_bytes_));
-    };
-    for_pages(brick, [&](std::int64_t page) {
-        if (--users[page] > 0) return;
-        --pages_;
-        if (page != end) {
-            give_back();
-            begin = page;
-        }
-        end = page + 1;
-    });
-    give_back();
+void BrickCache::give_back(const PageRange& unused) {
+    if (unused.begin == unused.end) return;
+    array_.give_back(static_cast<std::size_t>(unused.begin * page_bytes_),
+                     static_cast<std::size_t>((unused.end - unused.begin) * page_bytes_));
 }
 
 std::vector<std::int64_t> BrickCache::admit(std::span<const std::int64_t> bricks, BrickLease& lease) {
@@ -83,7 +65,9 @@ void BrickCache::settle(std::span<const std::int64_t> bricks) {
 }
 
 void BrickCache::abandon(std::span<const std::int64_t> bricks) {
-    for (const std::int64_t b : bricks) drop_pages(b);
+    PageRange unused;
+    for (const std::int64_t b : bricks) drop_pages(b, unused);
+    give_back(unused);
 }
 
 void BrickCache::end(std::span<const std::int64_t> bricks) {
@@ -102,19 +86,23 @@ void BrickCache::trim() {
         const std::uint64_t p_used = state_[static_cast<std::size_t>(p)].used, q_used = state_[static_cast<std::size_t>(q)].used;
         return p_used != q_used ? p_used < q_used : p > q;
     });
+    PageRange unused;
     for (const std::int64_t b : idle) {
         if (bytes() <= budget_) break;
         state_[static_cast<std::size_t>(b)].present = false;
-        drop_pages(b);
+        drop_pages(b, unused);
     }
+    give_back(unused);
 }
 
 void BrickCache::clear() {
+    PageRange unused;
     for (std::size_t b = 0; b < state_.size(); ++b) {
         if (!state_[b].present || state_[b].leases > 0) continue;
         state_[b].present = false;
-        drop_pages(static_cast<std::int64_t>(b));
+        drop_pages(static_cast<std::int64_t>(b), unused);
     }
+    give_back(unused);
 }
 
 }  // namespace isoatlas

@@ -1,7 +1,7 @@
 // Which bricks of a store are present, and which have to go: those that were not used for longest, never one that a query holds.
 //
-// Samples lie where they would lie in the whole volume, so one page of memory belongs to several bricks. Pages are counted: a page without
-// a present brick is given back to the system. What is budgeted is pages, that is, real memory.
+// Every brick has its place in memory, of one size, which may share a page with its neighbours'. Pages are counted: a page without a
+// present brick is given back to the system. What is budgeted is pages, that is, real memory.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/virtual_array.h"
-#include "store/brick_grid.h"
 
 namespace isoatlas {
 
@@ -34,8 +33,8 @@ private:
 /// Not thread safe but for the end of leases: the owner's mutex guards every call and is taken when a lease ends.
 class BrickCache {
 public:
-    /// array: of all samples. budget: bytes; 0: no limit. All must live as long as this.
-    BrickCache(const store::BrickGrid& grid, std::size_t sample_bytes, VirtualArray& array, std::int64_t budget, std::mutex& mutex);
+    /// array: of `count` bricks of `brick_bytes`. budget: bytes; 0: no limit. All must live as long as this.
+    BrickCache(std::int64_t count, std::int64_t brick_bytes, VirtualArray& array, std::int64_t budget, std::mutex& mutex);
 
     /// Makes room for bricks, holds them, and returns those that are not present: the caller fills them, then calls settle(), or
     /// abandon() when that failed. A brick that no lease holds goes first when the budget is short; held ones may exceed it.
@@ -56,18 +55,23 @@ private:
         bool present = false;
     };
     void end(std::span<const std::int64_t> bricks);
-    /// Calls visit(page) once for every page that a brick touches, ascending.
-    template <class Visit>
-    void for_pages(std::int64_t brick, Visit&& visit) const;
+    /// Pages that a brick touches: first to last.
+    [[nodiscard]] std::int64_t first_page(std::int64_t brick) const { return brick * brick_bytes_ / page_bytes_; }
+    [[nodiscard]] std::int64_t last_page(std::int64_t brick) const { return ((brick + 1) * brick_bytes_ - 1) / page_bytes_; }
     void add_pages(std::int64_t brick);
-    void drop_pages(std::int64_t brick);
+    /// Pages that are not used any more, in a row.
+    struct PageRange {
+        std::int64_t begin = 0, end = 0;
+    };
+    /// Adds a brick's pages to `unused`, which is given back when others come.
+    void drop_pages(std::int64_t brick, PageRange& unused);
+    void give_back(const PageRange& unused);
     void trim();
 
-    const store::BrickGrid& grid_;
-    std::int64_t sample_bytes_, page_bytes_, budget_;
+    std::int64_t brick_bytes_, page_bytes_, budget_;
     VirtualArray& array_;
     std::mutex& mutex_;
-    VirtualArray users_;  ///< per page: how many present bricks touch it, 16 bits
+    std::vector<std::uint16_t> users_;  ///< per page: how many present bricks touch it
     std::vector<State> state_;
     std::uint64_t now_ = 0;
     std::int64_t pages_ = 0;

@@ -35,44 +35,43 @@ bool is_uniform_around(const BrickGrid& grid, const HighBits& high, std::int64_t
 
 }  // namespace
 
-bool may_touch(const BrickGrid& grid, std::int64_t brick, const std::vector<BrickClass>& classes) {
-    const BrickClass own = classes[static_cast<std::size_t>(brick)];
-    const std::array<std::int64_t, 3> at = grid.place(brick);
-    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
-    for (std::int64_t z = at[2] - flat; z <= at[2] + flat; ++z) {
-        for (std::int64_t y = at[1] - 1; y <= at[1] + 1; ++y) {
-            for (std::int64_t x = at[0] - 1; x <= at[0] + 1; ++x) {
-                const bool inside = x >= 0 && y >= 0 && z >= 0 && x < grid.size[0] && y < grid.size[1] && z < grid.size[2];
-                const BrickClass other = inside ? classes[static_cast<std::size_t>(grid.brick({x, y, z}))] : BrickClass::low;
-                if (other != own) return true;
-            }
-        }
-    }
-    return false;
+std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vector<BrickClass>& classes) {
+    constexpr std::uint8_t kLow = 1, kHigh = 2;
+    std::vector<std::uint8_t> has(classes.size());
+    std::transform(classes.begin(), classes.end(), has.begin(), [](BrickClass own) {
+        return own == BrickClass::divided ? kLow | kHigh : own == BrickClass::high ? kHigh : kLow;
+    });
+    std::vector<std::uint8_t> touching = with_neighbours(grid, has, kLow);
+    for (std::size_t b = 0; b < touching.size(); ++b) touching[b] = classes[b] != BrickClass::divided && touching[b] != has[b];
+    return touching;
 }
 
-bool is_beside_surface(const HighBits& high, const BrickGrid& grid, std::int64_t brick, const std::vector<BrickClass>& classes) {
-    const BrickClass own = classes[static_cast<std::size_t>(brick)];
-    if (own == BrickClass::divided || !may_touch(grid, brick, classes)) return false;
+bool is_beside_surface(const HighBits& high, const BrickGrid& grid, std::int64_t brick, BrickClass own) {
     return !is_uniform_around(grid, high, brick, own == BrickClass::high);
 }
 
 std::vector<std::int64_t> beside_surface(const HighBits& high, const BrickGrid& grid, const std::vector<BrickClass>& classes, int threads) {
-    std::vector<std::uint8_t> wanted(classes.size());
-    for_bricks(grid, threads, [&](std::int64_t b) { wanted[static_cast<std::size_t>(b)] = is_beside_surface(high, grid, b, classes); });
+    std::vector<std::uint8_t> wanted = touching_others(grid, classes);
+    for_bricks(grid, threads, [&](std::int64_t b) {
+        const auto i = static_cast<std::size_t>(b);
+        if (wanted[i]) wanted[i] = is_beside_surface(high, grid, b, classes[i]);
+    });
     return flagged(wanted);
 }
 
-std::vector<std::uint8_t> with_neighbours(const BrickGrid& grid, std::vector<std::uint8_t> flags) {
-    std::int64_t stride = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+std::vector<std::uint8_t> with_neighbours(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside) {
+    const std::size_t axes = grid.extent.rank == 2 ? 2 : 3;
+    std::size_t stride = 1;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
         const std::vector<std::uint8_t> before = flags;
-        for (std::int64_t b = 0; b < grid.count(); ++b) {
-            const std::int64_t at = grid.place(b)[axis];
-            if (at > 0) flags[static_cast<std::size_t>(b)] |= before[static_cast<std::size_t>(b - stride)];
-            if (at + 1 < grid.size[axis]) flags[static_cast<std::size_t>(b)] |= before[static_cast<std::size_t>(b + stride)];
+        const auto size = static_cast<std::size_t>(grid.size[axis]), line = stride * size;
+        for (std::size_t first = 0; first < flags.size(); first += line) {
+            const auto add = [&](std::size_t i, std::size_t from) { flags[first + i] |= before[first + from]; };
+            for (std::size_t i = 0; i < stride; ++i) flags[first + i] |= outside, flags[first + line - stride + i] |= outside;
+            for (std::size_t i = stride; i < line; ++i) add(i, i - stride);
+            for (std::size_t i = 0; i + stride < line; ++i) add(i, i + stride);
         }
-        stride *= grid.size[axis];
+        stride = line;
     }
     return flags;
 }

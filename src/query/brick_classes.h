@@ -43,19 +43,18 @@ std::uint64_t bits_of_samples(const T* values, std::int64_t count, T least) {
     return bits;
 }
 
-/// Is any brick around a brick of another class, or the grid at an end?
-[[nodiscard]] bool may_touch(const store::BrickGrid& grid, std::int64_t brick, const std::vector<BrickClass>& classes);
+/// Which bricks are High or Low as a whole, and beside a brick of another class or, if High, at an end of the grid?
+[[nodiscard]] std::vector<std::uint8_t> touching_others(const store::BrickGrid& grid, const std::vector<BrickClass>& classes);
 
-/// Is a brick High or Low as a whole, with something else among the samples around it that matter (query/brick_surroundings.h), or High at
-/// an end of the grid?
-[[nodiscard]] bool is_beside_surface(const HighBits& high, const store::BrickGrid& grid, std::int64_t brick,
-                                     const std::vector<BrickClass>& classes);
+/// Of a brick that touches others: is there something else among the samples around it that matter (query/brick_surroundings.h)?
+[[nodiscard]] bool is_beside_surface(const HighBits& high, const store::BrickGrid& grid, std::int64_t brick, BrickClass own);
 /// All of these.
 [[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const store::BrickGrid& grid,
                                                        const std::vector<BrickClass>& classes, int threads);
 
-/// The flags of bricks, and of those around them.
-[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const store::BrickGrid& grid, std::vector<std::uint8_t> flags);
+/// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
+[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const store::BrickGrid& grid, std::vector<std::uint8_t> flags,
+                                                        std::uint8_t outside = 0);
 
 /// The numbers of the flagged bricks.
 [[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);

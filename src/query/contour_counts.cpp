@@ -43,14 +43,13 @@ template <class T>
 void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels, const HighBits& high, const Components& components,
                     std::int64_t y, std::int64_t z, Tally& tally) {
     const CellCaseTables& cases = cell_cases();
-    const std::int64_t base = high.extent().index(-1, y, z);
     std::array<ComponentCursor, 4> cursor{ComponentCursor(components, y, z), ComponentCursor(components, y + 1, z),
                                           ComponentCursor(components, y, z + 1), ComponentCursor(components, y + 1, z + 1)};
     for_active_cells(cell_row(high, y, z), CellWindow::all(high.extent().size[0]), [&](std::int64_t p, int pattern) {
         std::array<std::int32_t, 8> component;
         for (int k = 0; k < 8; ++k) component[k] = cursor[k / 2].at(p + (k & 1));
         const int split = cases.split_faces[pattern];
-        const int joined = split == 0 ? 0 : joiner.joined_mask(base + p, pattern, split);
+        const int joined = split == 0 ? 0 : joiner.joined_mask({p - 1, y, z}, pattern, split);
         const CellLoops& loops = cases.loops[cases.case_of(pattern, joined)];
         for (int loop = 0; loop < loops.count; ++loop) {
             const std::array<int, 2>& ends = kEdgeCorners[loops.edge[loops.begin[loop]]];
@@ -59,7 +58,7 @@ void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels,
                       loops.size(loop));
         }
         if (tunnels == nullptr || p == 0 || p == high.extent().size[0]) return;
-        const std::optional<OpenTunnel> tunnel = (*tunnels)(base + p, pattern, joined);
+        const std::optional<OpenTunnel> tunnel = (*tunnels)({p - 1, y, z}, pattern, joined);
         if (!tunnel) return;
         const std::int32_t joined_component = component[std::countr_zero(tunnel->a)], ring = component[std::countr_zero(tunnel->ring)];
         tally.add(
@@ -84,9 +83,9 @@ void count_square_row(const HighBits& high, const Components& components, std::i
 }
 
 template <class T>
-void count_3d(const GridView<T>& grid, double tau, double tunnel_height, const HighBits& high, const Components& components,
+void count_3d(const SampleGrid<T>& grid, double tau, double tunnel_height, const HighBits& high, const Components& components,
               const Context& context, ContourCounts& counts) {
-    const FaceJoiner<T> joiner(grid, tau);
+    const FaceJoiner<T> joiner{grid, tau};
     const TunnelFinder<T> tunnels(grid, tau, tunnel_height);
     const auto is_inner = [](std::int64_t row, std::int64_t size) { return row >= 0 && row + 1 < size; };
     std::atomic<std::int64_t> active{0};
@@ -111,7 +110,7 @@ void count_3d(const GridView<T>& grid, double tau, double tunnel_height, const H
 
 }  // namespace
 
-ContourCounts count_contours(const VolumeView& volume, double tau, double tunnel_height, const HighBits& high, const Components& components,
+ContourCounts count_contours(const SampleView& volume, double tau, double tunnel_height, const HighBits& high, const Components& components,
                              const Context& context) {
     const Extent& extent = volume.info->extent;
     const auto contours = static_cast<std::size_t>(components.contours());
@@ -131,10 +130,7 @@ ContourCounts count_contours(const VolumeView& volume, double tau, double tunnel
         }
         return counts;
     }
-    visit_samples(volume, [&](auto samples) {
-        using T = typename decltype(samples)::value_type;
-        count_3d(GridView<T>{samples.data(), extent}, tau, tunnel_height, high, components, context, counts);
-    });
+    visit_grid(volume, [&](const auto& grid) { count_3d(grid, tau, tunnel_height, high, components, context, counts); });
     return counts;
 }
 

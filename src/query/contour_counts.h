@@ -1,7 +1,7 @@
 // How many hits and loops each contour has: its Euler number, hence its genus.
 #pragma once
 
-#include "field/volume_view.h"
+#include "field/sample_grid.h"
 #include "query/components.h"
 
 namespace isoatlas {
@@ -16,7 +16,7 @@ struct ContourCounts {
 
 /// Counts over all active cells, padding cells included. A tunnel turns two loops of a contour into one annulus: two faces less. Throws
 /// Error{internal} when a loop does not separate the object and the low component of a contour. Cost: O(volume / 64) plus O(active cells).
-[[nodiscard]] ContourCounts count_contours(const VolumeView& volume, double tau, double tunnel_height, const HighBits& high,
+[[nodiscard]] ContourCounts count_contours(const SampleView& volume, double tau, double tunnel_height, const HighBits& high,
                                            const Components& components, const Context& context);
 
 }  // namespace isoatlas

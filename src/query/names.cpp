@@ -22,7 +22,7 @@ bool beats(bool high, const Extremum& a, const Extremum& b) {
 template <class T>
 class Namer {
 public:
-    Namer(const GridView<T>& grid, const LevelBricks* bricks, const Components& components)
+    Namer(const SampleGrid<T>& grid, const LevelBricks* bricks, const Components& components)
         : grid_(grid), bricks_(bricks), components_(components), runs_(components.runs) {
         highest_.assign(static_cast<std::size_t>(components.objects()), kNone);
         lowest_.assign(static_cast<std::size_t>(components.lows()), kNone);
@@ -62,7 +62,9 @@ private:
         }
     }
 
-    [[nodiscard]] Extremum extremum_at(std::int64_t voxel) const { return {voxel, static_cast<double>(grid_.samples[voxel])}; }
+    [[nodiscard]] Extremum extremum_at(std::int64_t voxel) const {
+        return {voxel, static_cast<double>(grid_.at(grid_.extent.voxel(voxel)))};
+    }
     [[nodiscard]] Extremum& best(bool high, std::int32_t component) { return high ? highest_[component] : lowest_[component]; }
     [[nodiscard]] const Extremum& best(bool high, std::int32_t component) const { return high ? highest_[component] : lowest_[component]; }
     void offer(bool high, std::int32_t component, const Extremum& extremum) {
@@ -110,18 +112,19 @@ private:
         return found;
     }
 
+    /// Of a part of a row that lies in one brick, where there are bricks.
     [[nodiscard]] Extremum extreme_of_stretch(std::int64_t begin, std::int64_t end, bool high, std::int64_t y, std::int64_t z) const {
-        const T* samples = grid_.row(y, z);
-        std::int64_t found = begin;
+        const T* samples = grid_.samples + grid_.layout.at(begin, y, z);
+        std::int64_t found = 0;
         if (high) {
-            for (std::int64_t x = begin + 1; x < end; ++x) found = samples[x] >= samples[found] ? x : found;
+            for (std::int64_t i = 1; i < end - begin; ++i) found = samples[i] >= samples[found] ? i : found;
         } else {
-            for (std::int64_t x = begin + 1; x < end; ++x) found = samples[x] < samples[found] ? x : found;
+            for (std::int64_t i = 1; i < end - begin; ++i) found = samples[i] < samples[found] ? i : found;
         }
-        return extremum_at(grid_.extent.index(found, y, z));
+        return extremum_at(grid_.extent.index(begin + found, y, z));
     }
 
-    const GridView<T>& grid_;
+    const SampleGrid<T>& grid_;
     const LevelBricks* bricks_;
     const Components& components_;
     const Runs& runs_;
@@ -139,9 +142,7 @@ std::vector<std::int64_t> voxels_of(const std::vector<Extremum>& extrema) {
 }  // namespace
 
 void name_components(const TauLevel& level, const Context& context, Components& components) {
-    visit_samples(level.volume, [&](auto samples) {
-        using T = typename decltype(samples)::value_type;
-        const GridView<T> grid{samples.data(), level.info().extent};
+    visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
         Namer<T> namer(grid, level.bricks, components);
         namer.take_runs(context);
         components.highest = voxels_of(namer.highest());

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/prefetch.h"
 #include "isoatlas/error.h"
 #include "query/brick_classes.h"
+#include "query/brick_layout.h"
 #include "query/brick_part.h"
 #include "query/threshold.h"
 
@@ -21,8 +21,6 @@ using store::BrickReader;
 using store::IoCounters;
 using store::kBrickRow;
 
-constexpr std::int64_t kRowsAhead = 8;  // whose samples are asked for while a row is classified: they lie far apart
-
 template <class T>
 class Samples final : public StoredSamples {
 public:
@@ -30,10 +28,11 @@ public:
         : info_(store.contents().volume),
           bricks_(store),
           grid_(bricks_.grid()),
-          array_(static_cast<std::size_t>(info_.extent.voxels()) * sizeof(T)),
-          cache_(grid_, sizeof(T), array_, cache_bytes, mutex_) {}
+          layout_(grid_),
+          array_(static_cast<std::size_t>(layout_.first_sample(grid_.count())) * sizeof(T)),
+          cache_(grid_.count(), layout_.samples_of_brick() * static_cast<std::int64_t>(sizeof(T)), array_, cache_bytes, mutex_) {}
 
-    [[nodiscard]] VolumeView view() const override { return {info_, array_.data()}; }
+    [[nodiscard]] SampleView view() const override { return {info_, array_.data(), layout_.by_voxel()}; }
 
     [[nodiscard]] StoredLevel classify(double tau, const Context& context, LevelQuery& query) override {
         require_finite(tau);
@@ -55,17 +54,22 @@ public:
             return grid_.count();
         }
         auto& [high, bricks] = *kept.level;
-        bricks = bricks_of(BrickPart(grid_), threshold);
+        bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
         high.set_busy(bricks);
         hold(divided_bricks(BrickPart(grid_), bricks), context.threads, query);
         const std::vector<std::uint8_t> changed = bricks_between(threshold_for<T>(*before), threshold);
         refill(high, changed, bricks.classes, threshold.least, context.threads);
         const std::vector<std::uint8_t> near = with_neighbours(grid_, changed);
+        const std::vector<std::uint8_t> touching = touching_others(grid_, bricks.classes);
         for_bricks(grid_, context.threads, [&](std::int64_t b) {
-            if (near[b]) kept.beside[b] = is_beside_surface(high, grid_, b, bricks.classes);
+            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, grid_, b, bricks.classes[b]);
         });
         hold(flagged(kept.beside), context.threads, query);
         return std::count(changed.begin(), changed.end(), std::uint8_t{1});
+    }
+
+    void add_extremes(LevelBricks& bricks, const Context& context) const override {
+        add_extremes(BrickPart(grid_), context.threads, bricks);
     }
 
     [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
@@ -78,6 +82,7 @@ public:
         Classified classified = classify_part(part, threshold, 1, own);
         StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
+        add_extremes(part, 1, result.level.bricks);
         result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
         for (const std::int64_t b : classified.needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
         query += own;
@@ -86,11 +91,8 @@ public:
     }
 
     [[nodiscard]] Foreseen foresee(double tau) const override {
-        const LevelBricks bricks = bricks_of(BrickPart(grid_), threshold_for<T>(tau));
-        std::vector<std::int64_t> beside;
-        for (std::int64_t b = 0; b < grid_.count(); ++b) {
-            if (bricks.classes[b] != BrickClass::divided && may_touch(grid_, b, bricks.classes)) beside.push_back(b);
-        }
+        const LevelBricks bricks = bricks_of(BrickPart(grid_), threshold_for<T>(tau), 1);
+        const std::vector<std::int64_t> beside = flagged(touching_others(grid_, bricks.classes));
         const IoCounters least = bricks_.cost_of(divided_bricks(BrickPart(grid_), bricks));
         Foreseen foreseen{least, least};
         foreseen.most += bricks_.most_of_part(beside);
@@ -109,7 +111,7 @@ public:
         const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);
         load({grid_.brick(BrickGrid::place_of(at))}, 1, query);
         counters += query;
-        return static_cast<double>(samples()[voxel]);
+        return static_cast<double>(samples()[layout_.by_voxel().at(at[0], at[1], at[2])]);
     }
 
     void read_all(std::span<std::byte> out, const Context& context, IoCounters& counters) override {
@@ -131,6 +133,19 @@ public:
 private:
     [[nodiscard]] T* samples() { return reinterpret_cast<T*>(array_.data()); }
 
+    /// The samples of a brick, from how they are coded to its place.
+    void place(std::int64_t brick, std::span<const T> values) {
+        if (static_cast<std::int64_t>(values.size()) == layout_.samples_of_brick()) {
+            std::copy(values.begin(), values.end(), samples() + layout_.first_sample(brick));
+            return;
+        }
+        const std::array<std::int64_t, 3> size = grid_.box(brick).size();
+        const T* from = values.data();
+        for (std::int64_t z = 0; z < size[2]; ++z) {
+            for (std::int64_t y = 0; y < size[1]; ++y, from += size[0]) std::copy_n(from, size[0], samples() + layout_.row(brick, y, z));
+        }
+    }
+
     static void require_finite(double tau) {
         if (std::isfinite(tau)) return;
         throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
@@ -140,7 +155,7 @@ private:
     void load(const std::vector<std::int64_t>& wanted, int threads, LevelQuery& query) {
         const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
         try {
-            query += bricks_.read_into(samples(), missing, threads);
+            query += bricks_.read(missing, threads, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
         } catch (...) {
             cache_.abandon(missing);
             throw;
@@ -164,7 +179,7 @@ private:
     };
 
     Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, int threads, LevelQuery& query) {
-        LevelBricks around = bricks_of(part, threshold);
+        LevelBricks around = bricks_of(part, threshold, threads);
         HighBits bits(around);
         Classified result{{std::move(bits), std::move(around)}, {}};
         auto& [high, bricks] = result.level;
@@ -210,7 +225,7 @@ private:
         const std::uint64_t whole = own == BrickClass::high ? 0xffff >> (kBrickRow - count) : 0;
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
             for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-                const T* values = samples() + info_.extent.index(box.begin[0], y, z);
+                const T* values = samples() + layout_.row(brick, y - box.begin[1], z - box.begin[2]);
                 replace_bits(high.row(y, z), box.begin[0] + 1, count,
                              own == BrickClass::divided ? bits_of_samples(values, count, least) : whole);
             }
@@ -218,18 +233,21 @@ private:
     }
 
     /// What the numbers of the bricks say.
-    [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold) const {
-        const auto count = static_cast<std::size_t>(part.grid.count());
-        LevelBricks bricks{part.grid, std::vector<BrickClass>(count), std::vector<Extremum>(count), std::vector<Extremum>(count)};
-        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+    [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold, int threads) const {
+        LevelBricks bricks{part.grid, std::vector<BrickClass>(static_cast<std::size_t>(part.grid.count())), {}, {}};
+        for_bricks(part.grid, threads, [&](std::int64_t b) { bricks.classes[b] = class_of(part.number(b), threshold); });
+        return bricks;
+    }
+    void add_extremes(const BrickPart& part, int threads, LevelBricks& bricks) const {
+        bricks.highest.resize(bricks.classes.size());
+        bricks.lowest.resize(bricks.classes.size());
+        for_bricks(part.grid, threads, [&](std::int64_t b) {
             const std::int64_t brick = part.number(b);
-            bricks.classes[b] = class_of(brick, threshold);
             if (bricks.classes[b] != BrickClass::low)
                 bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
             if (bricks.classes[b] != BrickClass::high)
                 bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
-        }
-        return bricks;
+        });
     }
 
     void copy_brick(std::int64_t brick, const BrickPart& part, T* to) {
@@ -238,7 +256,7 @@ private:
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
             for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
                 const std::int64_t at = part.grid.extent.index(box.begin[0] - part.origin[0], y - part.origin[1], z - part.origin[2]);
-                std::memcpy(to + at, samples() + info_.extent.index(box.begin[0], y, z), bytes);
+                std::memcpy(to + at, samples() + layout_.row(brick, y - box.begin[1], z - box.begin[2]), bytes);
             }
         }
     }
@@ -249,23 +267,14 @@ private:
             const std::int64_t first = row_of_bricks * grid.size[0];
             const Box box = grid.box(first);
             std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
-            std::vector<std::int64_t> divided;
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
                 if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones(grid, i));
-                if (classes[first + i] == BrickClass::divided) divided.push_back(i);
             }
-            for (std::int64_t i = 0; i < box.size(1) * box.size(2); ++i) {
-                const auto values_at = [&](std::int64_t row) {
-                    const std::int64_t y = box.begin[1] + row % box.size(1), z = box.begin[2] + row / box.size(1);
-                    return samples() + info_.extent.index(part.origin[0], y + part.origin[1], z + part.origin[2]);
-                };
-                const T *values = values_at(i), *later = values_at(i + kRowsAhead);
-                std::uint64_t* row = high.row(box.begin[1] + i % box.size(1), box.begin[2] + i / box.size(1));
-                std::copy(whole.begin(), whole.end(), row);
-                for (const std::int64_t x : divided) {
-                    prefetch(later + x * kBrickRow);
-                    fill_brick(row, values, grid, x, least);
-                }
+            for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+                for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) std::copy(whole.begin(), whole.end(), high.row(y, z));
+            }
+            for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+                if (classes[first + i] == BrickClass::divided) fill_brick(high, grid.box(first + i), part.number(first + i), least);
             }
         });
     }
@@ -275,14 +284,20 @@ private:
         return 0xffff >> (kBrickRow - std::min(kBrickRow, grid.extent.size[0] - i * kBrickRow));
     }
 
-    static void fill_brick(std::uint64_t* row, const T* values, const BrickGrid& grid, std::int64_t i, T least) {
-        const std::int64_t begin = i * kBrickRow, count = std::min(kBrickRow, grid.extent.size[0] - begin);
-        put_bits(row, begin + 1, bits_of_samples(values + begin, count, least));  // position p is voxel p - 1
+    /// box: of the brick in the part that `high` belongs to.
+    void fill_brick(HighBits& high, const Box& box, std::int64_t brick, T least) {
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+                const T* values = samples() + layout_.row(brick, y - box.begin[1], z - box.begin[2]);
+                put_bits(high.row(y, z), box.begin[0] + 1, bits_of_samples(values, box.size(0), least));  // position p is voxel p - 1
+            }
+        }
     }
 
     VolumeInfo info_;
     BrickReader<T> bricks_;
     const BrickGrid& grid_;
+    BrickLayout layout_;
     VirtualArray array_;
     mutable std::mutex mutex_;
     BrickCache cache_;

@@ -1,7 +1,7 @@
 // The samples of a store at one isovalue: the bricks that the surface passes are read, the others are High or Low as a whole.
 //
-// Samples lie where they would lie in the whole volume, in a virtual array: so the kernels for volumes in memory work on them. Which bricks
-// are needed:
+// Samples lie brick by brick in a virtual array that has a place for every brick (query/brick_layout.h): a brick touches one or two pages
+// of memory, and the kernels find a sample as they find it in a volume (field/sample_grid.h). Which bricks are needed:
 //   1. those that the isovalue divides (low < tau <= high): afterwards all classes are known;
 //   2. those with a sample next to an active cell: cells between two bricks, and normals, which look one sample further.
 #pragma once
@@ -29,7 +29,7 @@ struct StoredWindow {
     StoredLevel level;
 
     [[nodiscard]] TauLevel at(double tau) const {
-        return {.volume = {info, samples.data()}, .tau = tau, .high = level.high, .bricks = &level.bricks, .window = window};
+        return {.volume = VolumeView(info, samples.data()), .tau = tau, .high = level.high, .bricks = &level.bricks, .window = window};
     }
 };
 
@@ -58,7 +58,9 @@ public:
     /// The same for another isovalue than that of `kept`, which becomes this one: only bricks with a sample between the two are classified
     /// again. Returns how many these are. When it throws, `kept` must not be used again.
     virtual std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) = 0;
-    /// The same for the bricks of a box alone (bricks, not samples). Cost: proportional to the box.
+    /// What names need (query/names.h) of the bricks of a level.
+    virtual void add_extremes(LevelBricks& bricks, const Context& context) const = 0;
+    /// classify() for the bricks of a box alone (bricks, not samples), with all that names need. Cost: proportional to the box.
     [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, LevelQuery& query) = 0;
     /// What classify() would read of a store that was just opened: the divided bricks at least, at most also those beside bricks of
     /// another class. Reads nothing.
@@ -66,7 +68,7 @@ public:
         store::IoCounters least, most;
     };
     [[nodiscard]] virtual Foreseen foresee(double tau) const = 0;
-    [[nodiscard]] virtual VolumeView view() const = 0;
+    [[nodiscard]] virtual SampleView view() const = 0;
     [[nodiscard]] virtual const store::BrickGrid& grid() const = 0;
     /// Lowest and highest sample; reads nothing.
     [[nodiscard]] virtual std::array<double, 2> range() const = 0;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "field/volume_view.h"
+#include "field/sample_grid.h"
 #include "query/high_bits.h"
 #include "query/level_bricks.h"
 
@@ -19,7 +19,7 @@ struct Window {
 };
 
 struct TauLevel {
-    VolumeView volume;  ///< samples are needed at the corners of active cells, and one sample around them for normals
+    SampleView volume;  ///< samples are needed at the corners of active cells, and one sample around them for normals
     double tau;
     const HighBits& high;                          ///< of all samples
     const LevelBricks* bricks = nullptr;           ///< of the volume; null: all samples are there
@@ -29,7 +29,7 @@ struct TauLevel {
     [[nodiscard]] const VolumeInfo& info() const { return *volume.info; }
     [[nodiscard]] double sample_at(std::int64_t voxel) const {
         if (sample) return sample(voxel);
-        return visit_samples(volume, [voxel](auto samples) { return static_cast<double>(samples[static_cast<std::size_t>(voxel)]); });
+        return visit_grid(volume, [voxel](const auto& grid) { return static_cast<double>(grid.at(grid.extent.voxel(voxel))); });
     }
 };
 

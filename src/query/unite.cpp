@@ -12,8 +12,8 @@ namespace {
 template <class T>
 class RunJoiner {
 public:
-    RunJoiner(const GridView<T>& grid, double tau, double tunnel_height, const HighBits& high, const Runs& runs, RunSets& sets)
-        : extent_(grid.extent), joined_(grid, tau), tunnels_(grid, tau, tunnel_height), high_(high), runs_(runs), sets_(sets) {}
+    RunJoiner(const SampleGrid<T>& grid, double tau, double tunnel_height, const HighBits& high, const Runs& runs, RunSets& sets)
+        : extent_(grid.extent), joined_{grid, tau}, tunnels_(grid, tau, tunnel_height), high_(high), runs_(runs), sets_(sets) {}
 
     /// All connections inside slice z.
     void join_inside(std::int64_t z) {
@@ -50,8 +50,7 @@ private:
             if (end_a == end && end_b == end) return;
             if (end_a == end_b && ((i ^ j) & 1) == 1) {  // both rows change here, in opposite directions
                 const bool a_is_high = i & 1;
-                const std::int64_t voxel = extent_.index(end_a - 2, y0, z0);
-                const bool joined = joined_(voxel, orientation, a_is_high ? Diagonal::ac : Diagonal::bd);
+                const bool joined = joined_({end_a - 2, y0, z0}, orientation, a_is_high ? Diagonal::ac : Diagonal::bd);
                 if (a_is_high == joined)
                     join(a, i, b, j + 1);
                 else
@@ -71,7 +70,7 @@ private:
                 const int bit = std::countr_zero(rest);
                 const std::int64_t p = 64 * w + bit;
                 const bool a_is_high = a >> bit & 1;
-                const bool joined = joined_(extent_.index(p - 1, y, z), 2, a_is_high ? Diagonal::ac : Diagonal::bd);
+                const bool joined = joined_({p - 1, y, z}, 2, a_is_high ? Diagonal::ac : Diagonal::bd);
                 if (a_is_high == joined)
                     join_at(p, runs_.row(y, z), runs_.row(y + 1, z + 1));
                 else
@@ -84,11 +83,10 @@ private:
     /// The two regions that a tunnel through a cell of the row (y, z) joins.
     void join_tunnels(std::int64_t y, std::int64_t z) {
         const CellCaseTables& cases = cell_cases();
-        const std::int64_t base = extent_.index(-1, y, z);
         for_active_cells(cell_row(high_, y, z), CellWindow::real(extent_.size[0]), [&](std::int64_t p, int pattern) {
             const int split = cases.split_faces[pattern];
-            const int joined = split == 0 ? 0 : joined_.joined_mask(base + p, pattern, split);
-            const std::optional<OpenTunnel> tunnel = tunnels_(base + p, pattern, joined);
+            const int joined = split == 0 ? 0 : joined_.joined_mask({p - 1, y, z}, pattern, split);
+            const std::optional<OpenTunnel> tunnel = tunnels_({p - 1, y, z}, pattern, joined);
             if (!tunnel) return;
             const int i = std::countr_zero(tunnel->a), j = std::countr_zero(tunnel->b);
             const auto row_of = [&](int corner) { return runs_.row(y + (corner >> 1 & 1), z + (corner >> 2)); };
@@ -107,12 +105,10 @@ private:
 
 }  // namespace
 
-RunSets unite_runs(const VolumeView& volume, double tau, double tunnel_height, const HighBits& high, const Runs& runs,
+RunSets unite_runs(const SampleView& volume, double tau, double tunnel_height, const HighBits& high, const Runs& runs,
                    const Context& context) {
     RunSets sets(static_cast<std::size_t>(runs.count()));
-    visit_samples(volume, [&](auto samples) {
-        using T = typename decltype(samples)::value_type;
-        const GridView<T> grid{samples.data(), volume.info->extent};
+    visit_grid(volume, [&]<class T>(const SampleGrid<T>& grid) {
         RunJoiner<T> joiner(grid, tau, tunnel_height, high, runs, sets);
         const Slices slices{grid.extent.size[2], grid.extent.slice()};
         // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.

@@ -6,6 +6,9 @@
 #include <cstring>
 #include <limits>
 
+#include "base/check.h"
+#include "store/brick_grid.h"
+
 namespace isoatlas::store {
 namespace {
 
@@ -55,23 +58,34 @@ void for_each_piece(std::span<const T> samples, const Units& units, const Put& p
 
 class BitReader {
 public:
-    explicit BitReader(std::span<const std::byte> bytes) : size_(bytes.size()), bytes_(bytes.begin(), bytes.end()) {
-        bytes_.resize(size_ + 8);  // so that no look at 8 bytes goes too far
+    explicit BitReader(std::span<const std::byte> bytes) : size_(bytes.size()) {
+        ISOATLAS_CHECK(size_ <= kMost);
+        std::copy(bytes.begin(), bytes.end(), bytes_.begin());
+        std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(size_), kLookedAt, std::byte{0});
     }
+    /// More bytes than tails of a brick ever take.
+    static constexpr std::size_t kMost = static_cast<std::size_t>(kBrickSamples) * (sizeof(std::uint64_t) + 1);
 
     /// The next bits, at most 56; zeros behind the end.
     std::uint64_t take(int bits) {
         std::uint64_t word;
         std::memcpy(&word, bytes_.data() + std::min(position_ / 8, size_), 8);
-        word = word >> position_ % 8 & ((std::uint64_t{1} << bits) - 1);
+        word = word >> position_ % 8 & kMasks[static_cast<std::size_t>(bits)];
         position_ += static_cast<std::size_t>(bits);
         return word;
     }
     [[nodiscard]] bool is_at_end() const { return (position_ + 7) / 8 == size_; }
 
 private:
+    static constexpr std::size_t kLookedAt = 8;  ///< bytes behind the end
+    static constexpr std::array<std::uint64_t, 57> kMasks = [] {
+        std::array<std::uint64_t, 57> masks{};
+        for (std::size_t bits = 0; bits < masks.size(); ++bits) masks[bits] = (std::uint64_t{1} << bits) - 1;
+        return masks;
+    }();
+
     std::size_t size_, position_ = 0;
-    std::vector<std::byte> bytes_;
+    std::array<std::byte, kMost + kLookedAt> bytes_;  // only what is read has a value
 };
 
 template <class T>
@@ -141,14 +155,17 @@ void append_tails(std::span<const T> samples, const Units& units, std::vector<st
 template <class T>
 bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
     if (units.exponent < kLeastPlace<T> || units.exponent >= std::numeric_limits<T>::max_exponent) return false;
+    if (tails.size() > BitReader::kMost || samples.size() > static_cast<std::size_t>(kBrickSamples)) return false;
     from_units(numbers, units, samples);
+    std::array<std::int8_t, kBrickSamples> bits;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        bits[i] = static_cast<std::int8_t>(std::clamp(units.exponent - Parts<T>(samples[i]).place, 0, 56));
     BitReader reader(tails);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (numbers[i] == 0) {
             samples[i] = take_small<T>(reader);
         } else {  // the lowest bits of a mantissa are those below the unit
-            const int tail = std::max(0, units.exponent - Parts<T>(samples[i]).place);
-            samples[i] = std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(samples[i]) | reader.take(tail)));
+            samples[i] = std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(samples[i]) | reader.take(bits[i])));
         }
     }
     return reader.is_at_end();

@@ -65,7 +65,7 @@ template <class T, class Id>
 BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elements, std::size_t names, OpenVoxelBuckets<T, Id>& open) {
     const std::size_t n = value.size();
     BigVector<Id> voxels(n);
-    Components<Id, BigAllocator<Id>> components;  // marks: the last element
+    Components<Id, ArrayAllocator<Id>> components;  // marks: the last element
     components.start(names, [](Id) { return Id{0}; });
     PartReaders<CountedElement<Id>> counted(elements.counted, elements.first);
     PacedCheck memory;

@@ -20,8 +20,8 @@ struct Question {
 /// Bytes of numbers, one behind the other.
 class Answer {
 public:
-    template <class N>
-    Answer& add(const std::vector<N>& numbers) {
+    template <class N, class Memory>
+    Answer& add(const std::vector<N, Memory>& numbers) {
         return add_bytes(std::as_bytes(std::span<const N>(numbers)));
     }
     template <class... N>

@@ -13,7 +13,6 @@ namespace oracle {
 namespace {
 
 using isoatlas::Extent;
-using isoatlas::GridView;
 
 /// The numbers of corners of the regions tell the shapes apart.
 int shape_of(const isoatlas::OpenTunnel& tunnel) {
@@ -24,13 +23,13 @@ int shape_of(const isoatlas::OpenTunnel& tunnel) {
 }
 
 template <class T>
-std::optional<isoatlas::OpenTunnel> tunnel_of_cell(const GridView<T>& grid, std::int64_t cell, double tau) {
-    const isoatlas::GridSteps steps(grid.extent);
+std::optional<isoatlas::OpenTunnel> tunnel_of_cell(const isoatlas::SampleGrid<T>& grid, const std::array<std::int64_t, 3>& cell,
+                                                   double tau) {
     int pattern = 0;
-    for (int k = 0; k < 8; ++k) pattern |= int{static_cast<double>(grid.samples[steps.cell_corner(cell, k)]) >= tau} << k;
+    for (int k = 0; k < 8; ++k) pattern |= int{static_cast<double>(grid.corner(cell, k)) >= tau} << k;
     if (pattern == 0 || pattern == 255) return std::nullopt;
     const int split = isoatlas::cell_cases().split_faces[pattern];
-    const int joined = isoatlas::FaceJoiner<T>(grid, tau).joined_mask(cell, pattern, split);
+    const int joined = isoatlas::FaceJoiner<T>{grid, tau}.joined_mask(cell, pattern, split);
     return isoatlas::TunnelFinder<T>(grid, tau, 0)(cell, pattern, joined);
 }
 
@@ -52,14 +51,12 @@ std::optional<TunnelSample> with_life(const std::array<double, 8>& value, bool j
 
 std::array<std::int64_t, 6> count_tunnels(const isoatlas::Volume& volume, double tau) {
     std::array<std::int64_t, 6> count{};
-    isoatlas::visit_samples(volume, [&](auto samples) {
-        using T = typename decltype(samples)::value_type;
-        const GridView<T> grid{samples.data(), volume.info.extent};
+    isoatlas::visit_grid(volume, [&](const auto& grid) {
         const auto& size = grid.extent.size;
         for (std::int64_t z = 0; z + 1 < size[2]; ++z) {
             for (std::int64_t y = 0; y + 1 < size[1]; ++y) {
                 for (std::int64_t x = 0; x + 1 < size[0]; ++x) {
-                    if (const auto tunnel = tunnel_of_cell(grid, grid.extent.index(x, y, z), tau)) ++count.at(shape_of(*tunnel));
+                    if (const auto tunnel = tunnel_of_cell(grid, {x, y, z}, tau)) ++count.at(shape_of(*tunnel));
                 }
             }
         }
@@ -78,8 +75,9 @@ TunnelSample random_tunnel(int shape, bool joins_highs, std::mt19937_64& random)
         }
         const std::optional<TunnelSample> sample = with_life(value, joins_highs);
         if (!sample) continue;
-        const GridView<double> grid{value.data(), Extent{3, {2, 2, 2}}};
-        const auto tunnel = tunnel_of_cell(grid, 0, sample->low + (sample->high - sample->low) / 2);
+        const Extent extent{3, {2, 2, 2}};
+        const isoatlas::SampleGrid<double> grid{value.data(), extent, isoatlas::SampleLayout::of_volume(extent)};
+        const auto tunnel = tunnel_of_cell(grid, {0, 0, 0}, sample->low + (sample->high - sample->low) / 2);
         if (tunnel && tunnel->joins_highs == joins_highs && shape_of(*tunnel) == shape) return *sample;
     }
 }

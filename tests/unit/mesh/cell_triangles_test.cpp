@@ -70,7 +70,7 @@ Surface cell_surface(int number, SurfaceStyle style, std::mt19937& random) {
     std::uniform_int_distribution<int> kind(0, 2);
     std::uniform_real_distribution<double> inside(0.001, 0.999);
     Surface surface;
-    surface.points.resize(16);
+    surface.points.assign(16, {0, 0, 0});
     for (int e = 0; e < 12; ++e) {
         const int k = kind(random);
         const double t = k == 0 ? 0.001 : k == 1 ? 0.999 : inside(random);

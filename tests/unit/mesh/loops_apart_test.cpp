@@ -208,7 +208,7 @@ void add_fan(const CellLoops& loops, int loop, int centre, CellTriangles& cell) 
 /// Do two triangles of hits cross somewhere? Hits close to the ends of their edges, at random.
 bool are_seen_to_cross(const CellTriangles& cell, int triangle, int other, std::mt19937& random) {
     Surface surface;
-    surface.points.resize(12);
+    surface.points.assign(12, {0, 0, 0});
     surface.triangles = {{cell.corner[3 * triangle], cell.corner[3 * triangle + 1], cell.corner[3 * triangle + 2]},
                          {cell.corner[3 * other], cell.corner[3 * other + 1], cell.corner[3 * other + 2]}};
     for (int trial = 0; trial < 200; ++trial) {

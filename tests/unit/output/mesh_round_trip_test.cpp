@@ -28,7 +28,7 @@ protected:
 
 /// Equal triangles; positions equal in float32 (a text says 0.1 where the binary formats say float32(0.1)).
 void expect_same(const Mesh& mesh, const Surface& surface, const std::string& extension) {
-    const std::vector<std::int64_t> none;
+    const isoatlas::Array<std::int64_t> none;
     const auto expected = sorted_triangles(in_float32(surface.points), surface.triangles, has_object(extension) ? surface.object : none,
                                            has_contour(extension) ? surface.contour : none);
     EXPECT_TRUE(sorted_triangles(in_float32(mesh.points), mesh.triangles, mesh.object, mesh.contour) == expected);

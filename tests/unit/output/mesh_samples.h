@@ -109,8 +109,9 @@ struct Corner {
 };
 using Triangle = std::array<Corner, 3>;
 
-inline std::vector<Triangle> sorted_triangles(const std::vector<Point>& points, const std::vector<std::array<std::int64_t, 3>>& triangles,
-                                              const std::vector<std::int64_t>& object, const std::vector<std::int64_t>& contour) {
+inline std::vector<Triangle> sorted_triangles(const isoatlas::Array<Point>& points,
+                                              const isoatlas::Array<std::array<std::int64_t, 3>>& triangles,
+                                              const isoatlas::Array<std::int64_t>& object, const isoatlas::Array<std::int64_t>& contour) {
     std::vector<Triangle> result;
     for (const auto& t : triangles) {
         Triangle triangle;
@@ -124,7 +125,7 @@ inline std::vector<Triangle> sorted_triangles(const std::vector<Point>& points, 
     return result;
 }
 
-inline std::vector<Point> in_float32(std::vector<Point> points) {
+inline isoatlas::Array<Point> in_float32(isoatlas::Array<Point> points) {
     for (Point& p : points) {
         for (double& x : p) x = static_cast<double>(static_cast<float>(x));
     }

@@ -12,7 +12,7 @@ using namespace mesh_samples;
 
 namespace {
 
-using Triangles = std::vector<std::array<std::int64_t, 3>>;
+using Triangles = isoatlas::Array<std::array<std::int64_t, 3>>;
 
 template <class T>
 std::string bytes_of_number(T value, bool big_endian) {
@@ -30,7 +30,7 @@ TEST(ply_variants, ascii_with_polygons_comments_and_foreign_properties) {
         "vertex_index\r\nend_header\r\n"
         "77\r\n255 2 1 3 2 8 9\r\n0 5 4 6 0\r\n0 8 7 9 0\r\n0 1 1 1 0\r\n0 +2.5e0 2 -2 0\r\n1 4 0 1 2 3\r\n1 3 2 3 4\r\n",
         "a.ply");
-    EXPECT_EQ(mesh.points, (std::vector<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 1}, {2, 2.5, -2}}));
+    EXPECT_EQ(mesh.points, (isoatlas::Array<Point>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 1}, {2, 2.5, -2}}));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {2, 3, 4}}));
     EXPECT_TRUE(mesh.object.empty());
 }
@@ -48,10 +48,10 @@ TEST(ply_variants, both_byte_orders_and_every_scalar_type) {
         file += bytes_of_number(std::uint16_t{3}, big);
         for (const std::int16_t corner : std::array<std::int16_t, 3>{2, 1, 0}) file += bytes_of_number(corner, big);
         const Mesh mesh = output::parse_ply(file, "b.ply");
-        EXPECT_EQ(mesh.points, (std::vector<Point>{{0, 40000, 0}, {-1, 40001, 0.1}, {-2, 40002, 0.2}}));
+        EXPECT_EQ(mesh.points, (isoatlas::Array<Point>{{0, 40000, 0}, {-1, 40001, 0.1}, {-2, 40002, 0.2}}));
         EXPECT_EQ(mesh.triangles, (Triangles{{2, 1, 0}}));
-        EXPECT_EQ(mesh.object, (std::vector<std::int64_t>{4'000'000'000, 4'000'000'001, 4'000'000'002}));
-        EXPECT_EQ(mesh.contour, (std::vector<std::int64_t>{0, -7, -14}));
+        EXPECT_EQ(mesh.object, (isoatlas::Array<std::int64_t>{4'000'000'000, 4'000'000'001, 4'000'000'002}));
+        EXPECT_EQ(mesh.contour, (isoatlas::Array<std::int64_t>{0, -7, -14}));
     }
 }
 
@@ -129,7 +129,7 @@ constexpr const char* kVtkDefault = R"(<?xml version="1.0"?>
 
 TEST(vtp_variants, default_output_of_vtk) {
     const Mesh mesh = output::parse_vtp(kVtkDefault, "a.vtp");
-    EXPECT_EQ(mesh.points, (std::vector<Point>{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}}));
+    EXPECT_EQ(mesh.points, (isoatlas::Array<Point>{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}}));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 3}, {0, 3, 2}}));
 }
 
@@ -141,13 +141,13 @@ TEST(vtp_variants, ascii_pieces_strips_big_endian_and_ids) {
     const Mesh mesh = output::parse_vtp(
         "<VTKFile type=\"PolyData\" byte_order=\"BigEndian\"><PolyData>" + piece + piece + "</PolyData></VTKFile>", "b.vtp");
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 5, 7}}));
-    EXPECT_EQ(mesh.object, (std::vector<std::int64_t>{1, 2, 3, 9007199254740993, 1, 2, 3, 9007199254740993}));
+    EXPECT_EQ(mesh.object, (isoatlas::Array<std::int64_t>{1, 2, 3, 9007199254740993, 1, 2, 3, 9007199254740993}));
     const std::string array = "<DataArray type=\"UInt16\" NumberOfComponents=\"3\" format=\"binary\">AAAABgABAAIAAw==</DataArray>";
     const Mesh big =
         output::parse_vtp("<VTKFile type=\"PolyData\" byte_order=\"BigEndian\"><PolyData><Piece NumberOfPoints=\"1\"><Points>" + array +
                               "</Points></Piece></PolyData></VTKFile>",
                           "c.vtp");
-    EXPECT_EQ(big.points, (std::vector<Point>{{1, 2, 3}}));
+    EXPECT_EQ(big.points, (isoatlas::Array<Point>{{1, 2, 3}}));
 }
 
 std::string glb(std::string json, std::string binary) {
@@ -171,9 +171,9 @@ TEST(glb_variants, transforms_children_strides_and_short_indices) {
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteLength":48,"byteStride":16},{"buffer":0,"byteOffset":48,"byteLength":6}],"buffers":[{"byteLength":54}]})";
     const Mesh mesh = output::parse_glb(glb(json, binary), "a.glb");
-    EXPECT_EQ(mesh.points, (std::vector<Point>{{10, 20, 30}, {9, 20, 30}, {10, 21, 30}, {10, 20, 35}, {10, 21, 35}, {9, 20, 35}}));
+    EXPECT_EQ(mesh.points, (isoatlas::Array<Point>{{10, 20, 30}, {9, 20, 30}, {10, 21, 30}, {10, 20, 35}, {10, 21, 35}, {9, 20, 35}}));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 2, 1}, {3, 4, 5}}));  // the mirrored one is turned over
-    EXPECT_EQ(mesh.object, (std::vector<std::int64_t>{6, 6, 6, 5'000'000'000, 5'000'000'000, 5'000'000'000}));
+    EXPECT_EQ(mesh.object, (isoatlas::Array<std::int64_t>{6, 6, 6, 5'000'000'000, 5'000'000'000, 5'000'000'000}));
 }
 
 TEST(glb_variants, rotation_and_no_indices) {
@@ -182,7 +182,7 @@ TEST(glb_variants, rotation_and_no_indices) {
     const std::string json = R"({"nodes":[{"mesh":0,"rotation":[0,0,1,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]})";
     const Mesh mesh = output::parse_glb(glb(json, binary), "b.glb");  // half a turn around z
-    EXPECT_EQ(mesh.points, (std::vector<Point>{{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}}));
+    EXPECT_EQ(mesh.points, (isoatlas::Array<Point>{{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}}));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
     EXPECT_TRUE(mesh.object.empty());
 }
