@@ -37,7 +37,7 @@ def blanked(pattern, text):
 def files_of(root):
     """All files but hidden ones and what a build leaves, as paths relative to the root; no git, so that an exported tree can be checked."""
     for folder, folders, names in os.walk(root):
-        folders[:] = sorted(name for name in folders if not re.match(r"\.|build$|build-|__pycache__$", name))
+        folders[:] = sorted(name for name in folders if not re.match(r"\.|build$|build-|__pycache__$|node_modules$", name))
         for name in sorted(names):
             yield pathlib.Path(folder, name).relative_to(root).as_posix()
 
