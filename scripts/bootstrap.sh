@@ -18,7 +18,8 @@ demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores
 demo|libxxhash-dev|checksums of stores
-demo|libdeflate-dev|compressed trees in stores
+demo|libdeflate-dev|compressed trees in stores, PNG files
+demo|libembree-dev|ray tracing of pictures
 demo|libcli11-dev|command line
 demo|libfmt-dev|text output of the command line
 demo|nlohmann-json3-dev|JSON output of the command line
@@ -29,6 +30,7 @@ test|python3|layering test, schema test, documentation test
 test|assimp-utils|independent reader of the surfaces we write
 test|python3-vtk9|independent reader of the surfaces and trees we write
 test|python3-numpy|arrays of python3-vtk9
+test|python3-pil|independent reader of the pictures we write
 test|python3-h5py|independent reader of stores
 test|python3-networkx|independent reader of the trees we write
 test|clang-format-19|format check

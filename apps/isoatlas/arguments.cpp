@@ -26,6 +26,7 @@ struct Typed {
     double no_data = 0;
     double tau = 0, gaussian = 0;
     std::int64_t skip = 0, time_step = 0;
+    PictureWords picture;
 };
 
 /// The range is told in the message of a failure, not in the help.
@@ -97,6 +98,25 @@ void add_shape(CLI::App& app, Typed& typed) {
     app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
 }
 
+void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
+    const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
+        return app.add_option(name, value, meaning)->type_name(type);
+    };
+    add("--tau", words.taus, "Everything at these isovalues (calibrated), one object in the picture each", "T");
+    add("--object", words.objects, "These objects, each at its isovalue; left out: its best one", "ID[@T]");
+    add("--top", arguments.top, "The first N objects of the table, each at its best isovalue (1)", "N")->check(in_range(1, 1000));
+    add("--opacity", words.opacities, "Of each thing in the picture, 0 to 1; left out: what hides others is transparent", "P");
+    add("--colour", words.colours, "Of each thing in the picture, as #RRGGBB", "C");
+    add("--cut", words.cut, "Cut away: octant (nearest to the eye), half, or where all hold: x>12.5,y<3 (physical)", "WHAT");
+    add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
+    add("--size", words.size, "Pixels: 768x768", "WxH");
+    add("--background", words.background, "light, dark or transparent", "NAME");
+    add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));
+    app.add_flag("--perspective", arguments.picture.perspective, "Things further away look smaller; no scale bar then");
+    app.add_flag("--plain", arguments.picture.plain, "No scale bar and no legend");
+    add_output(app, arguments, ".png", true);
+}
+
 void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed& typed) {
     if (verb == "tree") {
         app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
@@ -119,6 +139,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
         app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
         add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
+    } else if (verb == "render") {
+        add_picture(app, arguments, typed.picture);
     } else if (verb == "label") {
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
@@ -218,7 +240,8 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     if (given("--time-step")) arguments.open.time_step = typed.time_step;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) arguments.missing.no_data = typed.no_data;
-    if (given("--tau")) {
+    if (app.get_option_no_throw("--background") != nullptr) convert_picture(typed.picture, arguments.picture);
+    if (given("--tau") && typed.picture.taus.empty()) {
         if (!std::isfinite(typed.tau))
             usage("--tau is not a finite number", "give an isovalue inside the range that `isoatlas info` prints");
         arguments.tau = typed.tau;

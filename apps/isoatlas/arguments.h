@@ -8,6 +8,8 @@
 
 #include <isoatlas/isoatlas.h>
 
+#include "picture.h"
+
 namespace isoatlas::cli {
 
 struct Arguments {
@@ -51,6 +53,7 @@ struct Arguments {
     Boundary boundary = Boundary::closed;
     TreeDetail detail = TreeDetail::events;
     PhantomOptions phantom;
+    PictureArguments picture;
 };
 
 /// What to do with a command line: run a verb, or print a text (help, version) and stop.

@@ -60,16 +60,15 @@ double Source::tunnel_height() {
     return arguments_.tunnel_height / 100 * (range().high - range().low);
 }
 
-double Source::tau() {
+double Source::stored(double typed) {
     const Scale scale(info_);
-    const double tau = scale.stored(*arguments_.tau);
+    const double tau = scale.stored(typed);
     const ValueRange all = range();
     if (tau >= all.low && tau <= all.high) return tau;
-    throw Error(ErrorKind::not_found,
-                {.file = arguments_.file,
-                 .what = fmt::format("the isovalue {} is {} every sample", *arguments_.tau, tau > all.high ? "above" : "below"),
-                 .expected = fmt::format("{} .. {}", scale.text(all.low), scale.text(all.high)),
-                 .next = "isoatlas objects " + shell_word(arguments_.file) + " lists isovalues that show something"});
+    throw Error(ErrorKind::not_found, {.file = arguments_.file,
+                                       .what = fmt::format("the isovalue {} is {} every sample", typed, tau > all.high ? "above" : "below"),
+                                       .expected = fmt::format("{} .. {}", scale.text(all.low), scale.text(all.high)),
+                                       .next = "isoatlas objects " + shell_word(arguments_.file) + " lists isovalues that show something"});
 }
 
 Cut Source::cut(double tau, bool label) {

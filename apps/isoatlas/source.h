@@ -26,7 +26,9 @@ public:
     [[nodiscard]] double tunnel_height();  ///< stored values
     [[nodiscard]] AnalysisOptions analysis_options() { return {.interpolant = interpolant(), .tunnel_height = tunnel_height()}; }
     /// The stored isovalue of --tau. Throws Error{not_found} with the range when no sample of the volume has it between them.
-    [[nodiscard]] double tau();
+    [[nodiscard]] double tau() { return stored(*arguments_.tau); }
+    /// The same of any isovalue that the user typed.
+    [[nodiscard]] double stored(double typed);
     [[nodiscard]] Context context() { return session_.context(); }
 
     [[nodiscard]] Cut cut(double tau, bool label);

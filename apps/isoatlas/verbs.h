@@ -14,6 +14,7 @@ int run_info(const Arguments& arguments, Terminal& terminal);
 int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
+int run_render(const Arguments& arguments, Terminal& terminal);
 int run_build(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);

@@ -30,6 +30,7 @@
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
+#include "isoatlas/render.h"
 #include "isoatlas/search_table.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"

@@ -54,6 +54,8 @@ void run_both(int threads, const std::function<void()>& first, const std::functi
     arena_of(thread_count(threads)).execute([&] { tbb::parallel_invoke(first, second); });
 }
 
+void with_threads(int threads, const std::function<void()>& job) { arena_of(thread_count(threads)).execute(job); }
+
 }  // namespace isoatlas
 
 #endif

@@ -25,4 +25,7 @@ void for_each_index(int threads, std::size_t n, const Work& work) {
 /// Runs two independent jobs, at the same time when threads allow.
 void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second);
 
+/// Runs a job that starts threads by itself (a library that works with oneTBB), which then has at most `threads` (0: all).
+void with_threads(int threads, const std::function<void()>& job);
+
 }  // namespace isoatlas

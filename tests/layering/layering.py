@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "atlas", "output", "phantom", "verify"]
+STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "atlas", "output", "render", "phantom", "verify"]
 MAX_LINES = 400
 
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
@@ -28,7 +28,8 @@ DOORS = {
     r"cassert|assert\.h": r"(?!)",
     r"CLI/.*|fmt/.*": r"apps/.*",
     r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/io/.*|src/output/.*|src/store/contents\.cpp",
-    r"libdeflate\.h": r"src/store/chunk_codec\.cpp",
+    r"libdeflate\.h": r"src/store/chunk_codec\.cpp|src/render/png\.cpp",
+    r"embree3/.*": r"src/render/ray_surfaces\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",
     r"hdf5\.h": r"src/store/hdf5_layout\.cpp",
     r"xxhash\.h": r"src/store/checksum\.h",

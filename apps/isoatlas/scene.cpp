@@ -1,0 +1,153 @@
+// The scene that the options ask for: which surfaces, in which colours, and what is cut away.
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "picture.h"
+#include "source.h"
+#include "terminal.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr double kGlass = 0.28;  // opacity of what would hide others
+
+[[noreturn]] void nothing_there(const Arguments& arguments, const std::string& what) {
+    throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                       .what = what,
+                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists objects and their isovalues"});
+}
+
+/// A surface to be drawn, before it is known.
+struct Wanted {
+    double tau = 0;  ///< stored
+    std::vector<std::int64_t> objects;
+    std::string name;
+};
+
+Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
+    return {
+        entry.best_tau, {entry.id}, fmt::format("{}  at {}", entry.id, scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high))};
+}
+
+void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& wanted) {
+    const Scale scale(source.info());
+    std::optional<ObjectTable> table;
+    for (const ShownObject& shown : arguments.picture.objects) {
+        if (shown.id < 0 || shown.id >= source.info().extent.voxels())
+            nothing_there(arguments, fmt::format("there is no object {}", shown.id));
+        if (shown.tau) {
+            wanted.push_back({scale.stored(*shown.tau), {shown.id}, fmt::format("{}  at {}", shown.id, *shown.tau)});
+            continue;
+        }
+        if (!table) table = source.objects({.top = 0, .gate = false});
+        const auto entry =
+            std::find_if(table->entries.begin(), table->entries.end(), [&](const ObjectEntry& e) { return e.id == shown.id; });
+        if (entry == table->entries.end()) nothing_there(arguments, fmt::format("no object of the table has the id {}", shown.id));
+        wanted.push_back(wanted_entry(*entry, scale));
+    }
+}
+
+std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
+    const Scale scale(source.info());
+    std::vector<Wanted> wanted;
+    for (const double tau : arguments.picture.taus) {
+        const double stored = source.stored(tau);
+        wanted.push_back({stored, {}, fmt::format("isovalue {}", tau)});
+    }
+    add_shown(arguments, source, wanted);
+    if (!wanted.empty() && arguments.top == 0) return wanted;
+    const ObjectTable table = source.objects({.top = std::max<std::int64_t>(1, arguments.top)});
+    if (table.entries.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
+    for (const ObjectEntry& entry : table.entries) wanted.push_back(wanted_entry(entry, scale));
+    return wanted;
+}
+
+struct Box {
+    Vec3 low, high;
+};
+
+Box box_of(const Surface& surface) {
+    Box box{surface.points[0], surface.points[0]};
+    for (const Vec3& p : surface.points) {
+        for (std::size_t a = 0; a < 3; ++a) box.low[a] = std::min(box.low[a], p[a]), box.high[a] = std::max(box.high[a], p[a]);
+    }
+    return box;
+}
+
+/// Does the box of a higher isovalue lie in that of a lower one? Then the surface of the lower one hides that of the higher one.
+bool hides(const SceneObject& outer, const SceneObject& inner) {
+    if (outer.surface.tau >= inner.surface.tau) return false;
+    const Box a = box_of(outer.surface), b = box_of(inner.surface);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double slack = 1e-9 * (a.high[i] - a.low[i]);
+        if (b.low[i] < a.low[i] - slack || b.high[i] > a.high[i] + slack) return false;
+    }
+    return true;
+}
+
+void choose_opacities(const PictureArguments& picture, std::vector<SceneObject>& objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const bool cut = picture.cut != CutShape::none;
+        const bool in_the_way = std::any_of(objects.begin(), objects.end(), [&](const SceneObject& o) { return hides(objects[i], o); });
+        objects[i].opacity = i < picture.opacities.size() ? picture.opacities[i] : in_the_way && !cut ? kGlass : 1;
+    }
+}
+
+/// What the file calls a unit of length, for the scale bar.
+std::string length_unit(const VolumeInfo& info) {
+    if (!info.geometry.unit.empty()) return info.geometry.unit;
+    const bool voxels = info.geometry.coordinates[0].empty() && info.geometry.spacing == Vec3{1, 1, 1};
+    return voxels ? "voxels" : "units";
+}
+
+}  // namespace
+
+Scene scene_of(const Arguments& arguments, Source& source) {
+    const PictureArguments& picture = arguments.picture;
+    if (source.info().extent.rank == 2)
+        throw Error(ErrorKind::usage, {.file = arguments.file,
+                                       .what = "a 2D volume has curves, no surfaces to draw in space",
+                                       .next = "isoatlas extract " + shell_word(arguments.file) + " --tau T -o curves.vtp writes them"});
+    Scene scene;
+    scene.unit = length_unit(source.info());
+    for (const Wanted& wanted : wanted_of(arguments, source)) {
+        ExtractOptions options;
+        options.objects = wanted.objects;
+        options.ids = false;
+        Surface surface = source.extract(wanted.tau, options);
+        if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
+        const std::size_t i = scene.objects.size();
+        const Colour colour = i < picture.colours.size() ? picture.colours[i] : palette(static_cast<std::int64_t>(i));
+        scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
+    }
+    choose_opacities(picture, scene.objects);
+    return scene;
+}
+
+std::vector<HalfSpace> removed_part(const PictureArguments& picture, const Scene& scene, const View& view) {
+    if (picture.cut == CutShape::none || picture.cut == CutShape::planes) return picture.planes;
+    Box box = box_of(scene.objects[0].surface);
+    for (const SceneObject& object : scene.objects) {
+        const Box other = box_of(object.surface);
+        for (std::size_t a = 0; a < 3; ++a)
+            box.low[a] = std::min(box.low[a], other.low[a]), box.high[a] = std::max(box.high[a], other.high[a]);
+    }
+    std::vector<HalfSpace> removed;
+    std::size_t nearest = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (std::abs(view.toward[a]) > std::abs(view.toward[nearest])) nearest = a;
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (picture.cut == CutShape::half && a != nearest) continue;
+        HalfSpace half;
+        const double sign = view.toward[a] >= 0 ? 1 : -1;
+        half.normal[a] = sign;
+        half.offset = sign * (box.low[a] + box.high[a]) / 2;
+        removed.push_back(half);
+    }
+    return removed;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,90 @@
+// The view that shows most: viewpoint entropy (Vazquez, Feixas, Sbert, Heidrich: Viewpoint selection using viewpoint entropy, 2001).
+//
+// Surfaces are divided into pieces by place and by the way they face. In a view, p(i) is the part of the picture that piece i takes (the
+// background is a piece too); the entropy -sum p log p is large when many pieces are seen, each of a decent size.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "render/camera_rays.h"
+#include "render/ray_surfaces.h"
+#include "render/scene_box.h"
+
+namespace isoatlas {
+namespace render {
+namespace {
+
+constexpr std::int64_t kSide = 72;             // pixels of a picture that is tried
+constexpr int kAround = 12;                    // directions around the axis
+constexpr double kElevations[] = {8, 24, 40};  // degrees; never from below, seldom from far above: as one looks at a thing on a table
+constexpr double kNearlyAsGood = 0.985;        // the first direction that is so good: noise must not turn the picture around
+
+std::vector<View> candidates() {
+    std::vector<View> views;
+    for (const double elevation : kElevations) {
+        for (int i = 0; i < kAround; ++i) {
+            // From the front (-y) first, then to both sides.
+            const int step = i % 2 == 1 ? (i + 1) / 2 : -(i / 2);
+            const double around = (2 * std::numbers::pi * (step + 0.5)) / kAround, height = elevation * std::numbers::pi / 180;
+            const Vec3 toward{std::cos(height) * std::sin(around), -std::cos(height) * std::cos(around), std::sin(height)};
+            views.push_back({toward, {0, 0, 1}});
+        }
+    }
+    return views;
+}
+
+/// Which piece: place in a 4 x 4 x 4 grid, and the octant its normal points to.
+int piece_of(const Vec3& point, const Vec3& normal) {
+    int piece = 0;
+    for (int a = 0; a < 3; ++a) {
+        piece = 4 * piece + std::clamp(static_cast<int>(std::floor((point[a] + 1) * 2)), 0, 3);
+        piece = 2 * piece + (normal[a] > 0 ? 1 : 0);
+    }
+    return piece;
+}
+
+double entropy_of(const RaySurfaces& surfaces, const View& view) {
+    const Camera camera{.view = view, .height = 2};
+    const CameraRays rays(camera, kSide, kSide);
+    std::map<int, std::int64_t> pixels;
+    for (std::int64_t y = 0; y < kSide; ++y) {
+        for (std::int64_t x = 0; x < kSide; ++x) {
+            const Ray ray = rays.through(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5, 2);
+            const std::optional<Crossing> hit = surfaces.first(ray);
+            ++pixels[hit ? piece_of(along(ray.origin, hit->t, ray.direction), hit->normal) : -1];
+        }
+    }
+    double entropy = 0;
+    for (const auto& [piece, count] : pixels) {
+        const double p = static_cast<double>(count) / (kSide * kSide);
+        entropy -= p * std::log2(p);
+    }
+    return entropy;
+}
+
+}  // namespace
+}  // namespace render
+
+View best_view(const Scene& scene, const Context& context) {
+    const render::SceneBox box = render::box_of(scene);
+    const render::Frame frame{box.centre(), box.radius()};
+    const std::vector<HalfSpace> none;
+    // What is hidden behind glass counts for less than the glass itself: where nothing is opaque, the glass is looked at.
+    const auto which = std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& o) { return o.opacity >= 1; })
+                           ? render::RaySurfaces::Which::opaque
+                           : render::RaySurfaces::Which::transparent;
+    const render::RaySurfaces surfaces(scene, which, frame, none, context.threads);
+    const std::vector<View> views = render::candidates();
+    std::vector<double> entropy(views.size());
+    for_each_block(context.threads, static_cast<std::int64_t>(views.size()),
+                   [&](std::int64_t i) { entropy[i] = render::entropy_of(surfaces, views[i]); });
+    const double best = *std::max_element(entropy.begin(), entropy.end());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (entropy[i] >= render::kNearlyAsGood * best) return views[i];
+    }
+    return views[0];
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,80 @@
+// Cameras: rays through pixels, points in the picture, and a camera that shows everything.
+#include <algorithm>
+#include <limits>
+
+#include "render/camera_rays.h"
+#include "render/scene_box.h"
+
+namespace isoatlas {
+namespace render {
+
+namespace {
+constexpr double kMargin = 1.06;      // of the fitted picture, around the scene
+constexpr double kEyeDistance = 3.5;  // of perspective cameras, in radii of the scene: a moderate telephoto lens
+}  // namespace
+
+CameraRays::CameraRays(const Camera& camera, std::int64_t width, std::int64_t height)
+    : camera_(camera), width_(static_cast<double>(width)), height_(static_cast<double>(height)), pixel_(camera.height / height_) {
+    toward = unit(camera.view.toward);
+    right = unit(cross(camera.view.up, toward));
+    if (length(right) == 0) basis_of(toward, right, up);
+    up = cross(toward, right);
+}
+
+Ray CameraRays::through(double x, double y, double behind) const {
+    const Vec3 point = along(along(camera_.target, (x - width_ / 2) * pixel_, right), (height_ / 2 - y) * pixel_, up);
+    if (camera_.projection == Projection::orthographic) return {along(point, behind, toward), scale(toward, -1)};
+    const Vec3 eye = along(camera_.target, camera_.distance, toward);
+    return {eye, unit(subtract(point, eye))};
+}
+
+Vec3 CameraRays::project(const Vec3& point) const {
+    const Vec3 from = subtract(point, camera_.target);
+    const double depth = dot(from, toward);
+    const double nearer = camera_.projection == Projection::orthographic ? 1 : camera_.distance / (camera_.distance - depth);
+    return {width_ / 2 + nearer * dot(from, right) / pixel_, height_ / 2 - nearer * dot(from, up) / pixel_, depth};
+}
+
+namespace {
+
+struct Span {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void take(double x) { low = std::min(low, x), high = std::max(high, x); }
+};
+
+}  // namespace
+}  // namespace render
+
+Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& options) {
+    const render::SceneBox box = render::box_of(scene);
+    Camera camera{.projection = options.projection, .target = box.centre(), .view = view};
+    camera.distance = render::kEyeDistance * box.radius();
+    render::Span across, upwards;
+    const auto measure = [&] {
+        const render::CameraRays rays(camera, options.width, options.height);
+        across = {}, upwards = {};
+        render::for_each_outline_point(scene, [&](const Vec3& point) {
+            const Vec3 p = rays.project(point);
+            across.take(p[0]), upwards.take(p[1]);
+        });
+        return rays;
+    };
+    // Centred on what is seen; a perspective picture shifts a little when its target moves, so twice.
+    for (int round = 0; round < 2; ++round) {
+        const render::CameraRays rays = measure();
+        const double x = (across.low + across.high) / 2 - static_cast<double>(options.width) / 2;
+        const double y = (upwards.low + upwards.high) / 2 - static_cast<double>(options.height) / 2;
+        camera.target = render::along(render::along(camera.target, x * rays.pixel_size(), rays.right), -y * rays.pixel_size(), rays.up);
+    }
+    measure();
+    const double filled = std::max((across.high - across.low) / static_cast<double>(options.width),
+                                   (upwards.high - upwards.low) / static_cast<double>(options.height));
+    camera.height *= std::max(filled * render::kMargin, 1e-12);
+    return camera;
+}
+
+Vec3 project(const Camera& camera, const RenderOptions& options, const Vec3& point) {
+    return render::CameraRays(camera, options.width, options.height).project(point);
+}
+
+}  // namespace isoatlas

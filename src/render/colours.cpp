@@ -1,0 +1,25 @@
+#include "render/colours.h"
+
+namespace isoatlas {
+
+Colour palette(std::int64_t i) {
+    static constexpr std::array<std::array<int, 3>, 7> kColours{
+        {{230, 216, 186}, {86, 180, 233}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {0, 114, 178}}};
+    const auto& c = kColours[(i % 7 + 7) % 7];
+    return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
+}
+
+namespace render {
+
+Vec3 background_light(Background background, double down) {
+    if (background == Background::transparent) return {0, 0, 0};
+    const bool light = background == Background::light;
+    const Vec3 top = light ? Vec3{1, 1, 1} : Vec3{0.020, 0.023, 0.030};
+    const Vec3 bottom = light ? Vec3{0.80, 0.82, 0.85} : Vec3{0.004, 0.005, 0.007};
+    return mix(top, bottom, down * down);
+}
+
+Colour ink_of(Background background) { return background == Background::dark ? Colour{0.92, 0.92, 0.92} : Colour{0.12, 0.13, 0.15}; }
+
+}  // namespace render
+}  // namespace isoatlas

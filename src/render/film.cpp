@@ -1,0 +1,96 @@
+#include "render/film.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "render/colours.h"
+
+namespace isoatlas::render {
+namespace {
+
+constexpr int kSmooth = 3;  // pixels to each side
+
+std::array<float, 3> floats(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}; }
+Vec3 doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+/// How much of b's light is a's: near one in the picture, on the same sheet, facing the same way. depth_scale: 1 / allowed difference.
+double likeness(const FilmPixel& a, const FilmPixel& b, double squared_distance, double depth_scale) {
+    if (b.surface == 0) return 0;
+    const double facing = std::max(0.0, dot(doubles(a.normal), doubles(b.normal)));
+    const double f2 = facing * facing, f4 = f2 * f2, f8 = f4 * f4;
+    const double depth = (a.depth - b.depth) * depth_scale;
+    return b.surface * f8 * f8 * std::exp(-squared_distance / 6 - depth * depth);
+}
+
+void smooth_pixel(const Film& from, std::int64_t x, std::int64_t y, double pixel, FilmPixel& to) {
+    const FilmPixel& centre = from.pixels[x + from.width * y];
+    if (centre.surface == 0) return;
+    double weight = 0, sky = 0, key = 0;
+    for (std::int64_t v = std::max<std::int64_t>(0, y - kSmooth); v <= std::min(from.height - 1, y + kSmooth); ++v) {
+        for (std::int64_t u = std::max<std::int64_t>(0, x - kSmooth); u <= std::min(from.width - 1, x + kSmooth); ++u) {
+            const FilmPixel& other = from.pixels[u + from.width * v];
+            const auto squared = static_cast<double>((u - x) * (u - x) + (v - y) * (v - y));
+            const double w = likeness(centre, other, squared, 1 / (pixel * (4 + 3 * std::sqrt(squared))));
+            weight += w, sky += w * other.open_sky, key += w * other.open_key;
+        }
+    }
+    if (!(weight > 0)) return;
+    to.open_sky = static_cast<float>(sky / weight), to.open_key = static_cast<float>(key / weight);
+}
+
+void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent, std::uint8_t* out) {
+    Vec3 light = doubles(pixel.glow);
+    light = along(light, pixel.open_sky, doubles(pixel.ambient));
+    light = along(light, pixel.open_key, doubles(pixel.key));
+    const double opacity = std::clamp<double>(pixel.opacity, 0, 1);
+    if (transparent) {
+        if (opacity > 0) light = scale(light, 1 / opacity);
+        out[3] = byte_of(opacity);
+    } else {
+        light = along(light, 1 - opacity, behind);
+        out[3] = 255;
+    }
+    for (int c = 0; c < 3; ++c) out[c] = srgb_byte(light[c]);
+}
+
+}  // namespace
+
+void FilmSum::add(const Seen& seen) {
+    ++samples_;
+    glow_ = render::add(glow_, seen.glow), ambient_ = render::add(ambient_, seen.shade.ambient), key_ = render::add(key_, seen.shade.key);
+    opacity_ += seen.opacity;
+    if (seen.object < 0) return;
+    ++hits_;
+    normal_ = render::add(normal_, seen.normal);
+    sky_ += seen.open_sky, key_light_ += seen.open_key, depth_ += seen.depth;
+}
+
+FilmPixel FilmSum::mean() const {
+    const double part = 1.0 / samples_, part_of_hits = hits_ > 0 ? 1.0 / hits_ : 0;
+    FilmPixel pixel{floats(scale(glow_, part)), floats(scale(ambient_, part)), floats(scale(key_, part)),
+                    static_cast<float>(opacity_ * part)};
+    if (hits_ == 0) return pixel;
+    pixel.open_sky = static_cast<float>(sky_ * part_of_hits), pixel.open_key = static_cast<float>(key_light_ * part_of_hits);
+    pixel.surface = static_cast<float>(hits_ * part), pixel.depth = static_cast<float>(depth_ * part_of_hits);
+    pixel.normal = floats(unit(normal_));
+    return pixel;
+}
+
+void smooth_light(Film& film, double pixel, int threads) {
+    const Film from = film;
+    for_each_block(threads, film.height, [&](std::int64_t y) {
+        for (std::int64_t x = 0; x < film.width; ++x) smooth_pixel(from, x, y, pixel, film.pixels[x + film.width * y]);
+    });
+}
+
+Image developed(const Film& film, Background background, int threads) {
+    Image image(film.width, film.height);
+    for_each_block(threads, film.height, [&](std::int64_t y) {
+        const Vec3 behind = background_light(background, (static_cast<double>(y) + 0.5) / static_cast<double>(film.height));
+        for (std::int64_t x = 0; x < film.width; ++x)
+            develop_pixel(film.pixels[x + film.width * y], behind, background == Background::transparent, image.at(x, y));
+    });
+    return image;
+}
+
+}  // namespace isoatlas::render

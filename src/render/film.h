@@ -1,0 +1,43 @@
+// The picture while it is being made: means over the samples of every pixel, before shadows are put into the light.
+#pragma once
+
+#include <vector>
+
+#include "isoatlas/render.h"
+#include "render/tracer.h"
+
+namespace isoatlas::render {
+
+struct FilmPixel {
+    std::array<float, 3> glow{}, ambient{}, key{};
+    float opacity = 0;
+    float open_sky = 1, open_key = 1;
+    float surface = 0;  ///< part of the samples that hit an opaque surface
+    float depth = 0;    ///< mean over those
+    std::array<float, 3> normal{};
+};
+
+class FilmSum {
+public:
+    void add(const Seen& seen);
+    [[nodiscard]] FilmPixel mean() const;
+
+private:
+    Vec3 glow_{}, ambient_{}, key_{}, normal_{};
+    double opacity_ = 0, sky_ = 0, key_light_ = 0, depth_ = 0;
+    int samples_ = 0, hits_ = 0;
+};
+
+struct Film {
+    std::int64_t width, height;
+    std::vector<FilmPixel> pixels;
+    Film(std::int64_t columns, std::int64_t rows) : width(columns), height(rows), pixels(columns * rows) {}
+};
+
+/// Smooths what reaches surfaces of sky and key light over neighbouring pixels of the same surface: it was measured with few rays.
+void smooth_light(Film& film, double pixel, int threads);
+
+/// Adds up light and background, in sRGB.
+[[nodiscard]] Image developed(const Film& film, Background background, int threads);
+
+}  // namespace isoatlas::render

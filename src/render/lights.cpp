@@ -1,0 +1,52 @@
+#include "render/lights.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace isoatlas::render {
+namespace {
+
+constexpr double kKey = 0.78, kSky = 0.36, kGround = 0.20, kEye = 0.12, kHighlight = 0.10;
+constexpr double kShine = 48;       // exponent of the highlight
+constexpr double kKeyRadius = 0.1;  // tangent of half the angle under which the key light is seen
+
+}  // namespace
+
+Lights::Lights(const CameraRays& camera)
+    : up_(camera.up),
+      toward_(camera.toward),
+      key_(unit(add(along(scale(camera.right, -0.55), 0.75, camera.up), scale(camera.toward, 0.75)))) {
+    basis_of(key_, key_u_, key_v_);
+}
+
+Shade Lights::shade(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
+    const double height = 0.5 + 0.5 * dot(normal, up_);
+    const double ambient = kGround + (kSky - kGround) * height + kEye * std::max(0.0, dot(normal, to_eye));
+    const double facing = std::max(0.0, dot(normal, key_));
+    const double shine = std::pow(std::max(0.0, dot(normal, unit(add(key_, to_eye)))), kShine);
+    const double highlight = facing > 0 ? kHighlight * shine : 0;
+    return {scale(albedo, ambient), add(scale(albedo, kKey * facing), {highlight, highlight, highlight})};
+}
+
+Vec3 Lights::shade_sheet(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
+    const double facing = std::abs(dot(normal, key_));
+    const double shine = std::pow(std::max(0.0, dot(normal, unit(add(key_, to_eye)))), kShine);
+    const double highlight = 3 * kHighlight * shine;
+    return add(scale(albedo, kSky + kEye + 0.7 * kKey * facing), {highlight, highlight, highlight});
+}
+
+Vec3 Lights::to_key(Sample2 sample) const {
+    const double r = kKeyRadius * std::sqrt(sample.u), angle = 2 * std::numbers::pi * sample.v;
+    return unit(along(along(key_, r * std::cos(angle), key_u_), r * std::sin(angle), key_v_));
+}
+
+Vec3 to_sky(const Vec3& normal, Sample2 sample) {
+    Vec3 u, v;
+    basis_of(normal, u, v);
+    const double r = std::sqrt(sample.u), angle = 2 * std::numbers::pi * sample.v;
+    return unit(along(along(scale(normal, std::sqrt(1 - sample.u)), r * std::cos(angle), u), r * std::sin(angle), v));
+}
+
+double sheet_opacity(double opacity, double cosine) { return 1 - std::pow(1 - opacity, 1 / std::max(0.08, std::abs(cosine))); }
+
+}  // namespace isoatlas::render

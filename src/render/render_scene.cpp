@@ -1,0 +1,102 @@
+// From a scene to a picture: tiles of pixels in parallel, then light is smoothed, added up and written over.
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "render/film.h"
+#include "render/overlay.h"
+#include "render/scene_box.h"
+
+namespace isoatlas {
+namespace render {
+namespace {
+
+constexpr std::int64_t kTile = 16;
+constexpr std::int64_t kMostSide = 16384;
+
+void check_options(const Scene& scene, const RenderOptions& options) {
+    const auto refuse = [](const std::string& what, const std::string& expected) {
+        throw Error(ErrorKind::usage, {.what = what, .expected = expected});
+    };
+    if (options.width < 1 || options.height < 1 || options.width > kMostSide || options.height > kMostSide)
+        refuse("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels", "1 to 16384 each");
+    if (options.samples < 1 || options.samples > 256) refuse("the number of samples per pixel is out of range", "1 to 256");
+    for (const SceneObject& object : scene.objects) {
+        if (!(object.opacity > 0 && object.opacity <= 1)) refuse("the opacity of an object is out of range", "above 0, at most 1");
+        if (!object.surface.segments.empty()) refuse("a curve of a 2D volume is no surface to draw in space", "surfaces of 3D volumes");
+    }
+}
+
+/// Point s of n in a pixel: rows and columns filled evenly, shifted by a number that belongs to the pixel.
+Sample2 point_in_pixel(std::uint32_t seed, int s, int n) {
+    if (n == 1) return {0.5, 0.5};
+    return sample_2d(seed ^ 0x2545f491U, static_cast<std::uint32_t>(s));
+}
+
+/// Draws pixels of a film.
+class Painter {
+public:
+    Painter(const Tracer& tracer, const Camera& camera, const CameraRays& rays, const Frame& frame, const RenderOptions& options)
+        : tracer_(tracer),
+          rays_(rays),
+          frame_(frame),
+          options_(options),
+          behind_(2 * frame.radius + length(subtract(camera.target, frame.centre))) {}
+
+    void paint_tile(std::int64_t tile, Film& film) const {
+        const std::int64_t across = (film.width + kTile - 1) / kTile;
+        const std::int64_t x0 = tile % across * kTile, y0 = tile / across * kTile;
+        std::vector<Crossing> crossings;
+        for (std::int64_t y = y0; y < std::min(film.height, y0 + kTile); ++y) {
+            for (std::int64_t x = x0; x < std::min(film.width, x0 + kTile); ++x) film.pixels[x + film.width * y] = paint(x, y, crossings);
+        }
+    }
+
+private:
+    [[nodiscard]] FilmPixel paint(std::int64_t x, std::int64_t y, std::vector<Crossing>& crossings) const {
+        const std::uint32_t seed = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+        FilmSum sum;
+        for (int s = 0; s < options_.samples; ++s) {
+            const Sample2 at = point_in_pixel(seed, s, options_.samples);
+            Ray ray = rays_.through(static_cast<double>(x) + at.u, static_cast<double>(y) + at.v, behind_);
+            ray.origin = frame_.inside(ray.origin);
+            sum.add(tracer_.trace(ray, seed, static_cast<std::uint32_t>(s), crossings));
+        }
+        return sum.mean();
+    }
+
+    const Tracer& tracer_;
+    const CameraRays& rays_;
+    const Frame& frame_;
+    const RenderOptions& options_;
+    double behind_;  ///< physical distance of orthographic eyes from the target: outside of the scene
+};
+
+}  // namespace
+}  // namespace render
+
+Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options, const Context& context) {
+    render::check_options(scene, options);
+    const render::SceneBox box = render::box_of(scene);
+    const render::Frame frame{box.centre(), box.radius()};
+    const render::CameraRays rays(camera, options.width, options.height);
+    context.report("prepare surfaces", 0, 2, 0);
+    const render::Tracer tracer(scene, frame, rays, options.shading, context.threads);
+    render::Film film(options.width, options.height);
+    const render::Painter painter(tracer, camera, rays, frame, options);
+    const auto tiles_of = [](std::int64_t pixels) { return (pixels + render::kTile - 1) / render::kTile; };
+    const std::int64_t across = tiles_of(film.width), rows = tiles_of(film.height);
+    constexpr std::int64_t kRowsAtOnce = 4;  // between two looks at the caller
+    for (std::int64_t row = 0; row < rows; row += kRowsAtOnce) {
+        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "stopped"});
+        context.report("draw", 1, 2, static_cast<double>(row) / static_cast<double>(rows));
+        const std::int64_t count = std::min(kRowsAtOnce, rows - row) * across;
+        for_each_block(context.threads, count, [&](std::int64_t tile) { painter.paint_tile(row * across + tile, film); });
+    }
+    render::smooth_light(film, rays.pixel_size() / frame.radius, context.threads);
+    Image image = render::developed(film, options.background, context.threads);
+    render::draw_overlay(scene, camera, options, image);
+    return image;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,38 @@
+// Where a scene lies: the box around everything in it.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "isoatlas/render.h"
+#include "render/vectors.h"
+
+namespace isoatlas::render {
+
+struct SceneBox {
+    Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+
+    void take(const Vec3& p) {
+        for (int a = 0; a < 3; ++a) low[a] = std::min(low[a], p[a]), high[a] = std::max(high[a], p[a]);
+    }
+    [[nodiscard]] bool empty() const { return low[0] > high[0]; }
+    [[nodiscard]] Vec3 centre() const { return scale(add(low, high), 0.5); }
+    /// Of a ball around the centre that contains the box; above 0.
+    [[nodiscard]] double radius() const { return std::max(length(subtract(high, low)) / 2, 1e-30); }
+
+private:
+    static constexpr double kFar = std::numeric_limits<double>::infinity();
+};
+
+/// Calls function(point) with points whose convex hull contains everything in the scene.
+template <class Function>
+void for_each_outline_point(const Scene& scene, const Function& function) {
+    for (const SceneObject& object : scene.objects) {
+        for (const Vec3& point : object.surface.points) function(point);
+    }
+}
+
+/// Throws Error{not_found} for an empty scene.
+SceneBox box_of(const Scene& scene);
+
+}  // namespace isoatlas::render

@@ -1,0 +1,147 @@
+#include "render/tracer.h"
+
+#include <algorithm>
+
+#include "render/colours.h"
+
+namespace isoatlas::render {
+namespace {
+
+constexpr int kSkyRays = 2;     // per sample
+constexpr double kReach = 0.5;  // of the sky's light: what is further away than this takes none
+constexpr double kMostLift = 0.01;
+
+std::vector<HalfSpace> in_frame(const std::vector<HalfSpace>& removed, const Frame& frame) {
+    std::vector<HalfSpace> inside;
+    for (const HalfSpace& half : removed) {
+        const double size = length(half.normal);
+        const Vec3 normal = unit(half.normal);
+        inside.push_back({normal, (half.offset / size - dot(normal, frame.centre)) / frame.radius});
+    }
+    return inside;
+}
+
+/// Some part of a triangle's edge: a ray that begins so far above a facet does not meet its neighbours.
+double lift_of(const Scene& scene, const Frame& frame) {
+    double sum = 0, count = 0;
+    for (const SceneObject& object : scene.objects) {
+        const auto& triangles = object.surface.triangles;
+        const std::size_t step = triangles.size() / 1000 + 1;
+        for (std::size_t i = 0; i < triangles.size(); i += step) {
+            const auto& points = object.surface.points;
+            sum += length(subtract(points[triangles[i][1]], points[triangles[i][0]])) / frame.radius;
+            count += 1;
+        }
+    }
+    return count > 0 ? std::clamp(0.3 * sum / count, 1e-5, kMostLift) : kMostLift;
+}
+
+/// Towards the eye: a smooth normal may lean away from it at the rim of a thing.
+Vec3 facing(const Vec3& normal, const Ray& ray) {
+    const double lean = dot(normal, ray.direction);
+    return lean <= 0 ? normal : unit(along(normal, -1.001 * lean, ray.direction));
+}
+
+}  // namespace
+
+Tracer::Tracer(const Scene& scene, const Frame& frame, const CameraRays& camera, bool shading, int threads)
+    : scene_(scene),
+      shading_(shading),
+      removed_(in_frame(scene.removed, frame)),
+      opaque_(scene, RaySurfaces::Which::opaque, frame, removed_, threads),
+      transparent_(scene, RaySurfaces::Which::transparent, frame, removed_, threads),
+      lights_(camera),
+      lift_(lift_of(scene, frame)) {
+    for (const SceneObject& object : scene.objects) albedo_.push_back(linear(object.colour));
+}
+
+Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, std::vector<Crossing>& crossings) const {
+    Seen seen;
+    const Gap gap = gap_of(removed_, ray);
+    const std::optional<Crossing> hit = first_opaque(ray, gap, crossings);
+    add_sheets(ray, hit ? hit->t : INFINITY, gap, crossings, seen);
+    if (!hit) return seen;
+    add_opaque(ray, *hit, seen);
+    if (shading_) look_around(ray, *hit, seed, sample, seen);
+    return seen;
+}
+
+std::optional<Crossing> Tracer::first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const {
+    if (opaque_.empty()) return std::nullopt;
+    std::optional<Crossing> hit;
+    if (gap.empty()) {
+        hit = opaque_.first(ray);
+    } else {
+        opaque_.all(ray, INFINITY, crossings);
+        const auto there = std::find_if(crossings.begin(), crossings.end(), [&](const Crossing& c) { return !gap.holds(c.t); });
+        if (there != crossings.end()) hit = *there;
+        const std::optional<Crossing> face = cut_face(ray, gap, crossings);
+        if (face && (!hit || face->t <= hit->t)) hit = face;
+    }
+    if (!hit) return hit;
+    // Seen from behind (through an open border, or inside a cut): the other side of the sheet.
+    if (!hit->enters(ray)) hit->normal = scale(hit->normal, -1), hit->face_normal = scale(hit->face_normal, -1);
+    hit->normal = facing(hit->normal, ray);
+    return hit;
+}
+
+/// Where the ray comes out of what is cut away, if that is inside of an object: its last crossing before went in.
+std::optional<Crossing> Tracer::cut_face(const Ray& ray, const Gap& gap, const std::vector<Crossing>& crossings) const {
+    if (!(gap.end > 0) || !std::isfinite(gap.end)) return std::nullopt;
+    std::vector<std::int8_t> inside(scene_.objects.size(), 0);
+    for (const Crossing& crossing : crossings) {
+        if (crossing.t < gap.end) inside[crossing.object] = crossing.enters(ray) ? 1 : 0;
+    }
+    std::int64_t best = -1;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        if (inside[i] == 0) continue;
+        if (best < 0 || scene_.objects[i].surface.tau > scene_.objects[best].surface.tau) best = static_cast<std::int64_t>(i);
+    }
+    if (best < 0) return std::nullopt;
+    const Vec3 point = along(ray.origin, gap.end, ray.direction);
+    const auto on = std::min_element(removed_.begin(), removed_.end(), [&](const HalfSpace& a, const HalfSpace& b) {
+        return std::abs(dot(a.normal, point) - a.offset) < std::abs(dot(b.normal, point) - b.offset);
+    });
+    return Crossing{gap.end, best, on->normal, on->normal};
+}
+
+void Tracer::add_sheets(const Ray& ray, double most, const Gap& gap, std::vector<Crossing>& crossings, Seen& seen) const {
+    transparent_.all(ray, most, crossings);
+    for (const Crossing& crossing : crossings) {
+        if (gap.holds(crossing.t)) continue;
+        const Vec3 normal = facing(crossing.enters(ray) ? crossing.normal : scale(crossing.normal, -1), ray);
+        const Vec3 to_eye = scale(ray.direction, -1);
+        const double opacity = sheet_opacity(scene_.objects[crossing.object].opacity, shading_ ? dot(normal, to_eye) : 1);
+        const Vec3& albedo = albedo_[crossing.object];
+        const double weight = (1 - seen.opacity) * opacity;
+        seen.glow = along(seen.glow, weight, shading_ ? lights_.shade_sheet(albedo, normal, to_eye) : albedo);
+        seen.opacity += weight;
+    }
+}
+
+void Tracer::add_opaque(const Ray& ray, const Crossing& crossing, Seen& seen) const {
+    const double weight = 1 - seen.opacity;
+    seen.object = crossing.object, seen.depth = crossing.t, seen.normal = crossing.normal;
+    seen.opacity = 1;
+    const Vec3& albedo = albedo_[crossing.object];
+    if (!shading_) {
+        seen.glow = along(seen.glow, weight, albedo);
+        return;
+    }
+    const Shade shade = lights_.shade(albedo, crossing.normal, scale(ray.direction, -1));
+    seen.shade = {scale(shade.ambient, weight), scale(shade.key, weight)};
+}
+
+void Tracer::look_around(const Ray& ray, const Crossing& crossing, std::uint32_t seed, std::uint32_t sample, Seen& seen) const {
+    const Vec3 point = along(along(ray.origin, crossing.t, ray.direction), lift_, crossing.face_normal);
+    double open = 0;
+    for (int i = 0; i < kSkyRays; ++i) {
+        const Vec3 direction = to_sky(crossing.normal, sample_2d(seed, kSkyRays * sample + i));
+        if (dot(direction, crossing.face_normal) <= 0 || !opaque_.blocked({point, direction}, 0, kReach)) open += 1.0 / kSkyRays;
+    }
+    seen.open_sky = open;
+    const Vec3 key = lights_.to_key(sample_2d(seed ^ 0xa511e9b3U, sample));
+    seen.open_key = dot(key, crossing.normal) > 0 && opaque_.blocked({point, key}, 0, INFINITY) ? 0 : 1;
+}
+
+}  // namespace isoatlas::render

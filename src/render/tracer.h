@@ -1,0 +1,48 @@
+// What one ray sees: everything along it, front to back.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isoatlas/render.h"
+#include "render/lights.h"
+#include "render/ray_surfaces.h"
+
+namespace isoatlas::render {
+
+/// Light along a ray, in parts (see Shade), and what was hit. Colours are premultiplied.
+struct Seen {
+    Vec3 glow{};               ///< what no shadow changes
+    Shade shade{};             ///< of the opaque surface
+    double opacity = 0;        ///< of everything together
+    std::int64_t object = -1;  ///< of the opaque surface; -1: none
+    double depth = 0;          ///< t of the opaque surface
+    Vec3 normal{};
+    double open_sky = 1, open_key = 1;  ///< how much of their light reaches it
+};
+
+class Tracer {
+public:
+    /// The scene must live as long as this.
+    Tracer(const Scene& scene, const Frame& frame, const CameraRays& camera, bool shading, int threads);
+
+    /// ray: in the frame. seed and sample: which random numbers. `crossings`: memory to work in.
+    [[nodiscard]] Seen trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, std::vector<Crossing>& crossings) const;
+
+private:
+    void add_sheets(const Ray& ray, double most, const Gap& gap, std::vector<Crossing>& crossings, Seen& seen) const;
+    [[nodiscard]] std::optional<Crossing> first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const;
+    void add_opaque(const Ray& ray, const Crossing& crossing, Seen& seen) const;
+    void look_around(const Ray& ray, const Crossing& crossing, std::uint32_t seed, std::uint32_t sample, Seen& seen) const;
+    [[nodiscard]] std::optional<Crossing> cut_face(const Ray& ray, const Gap& gap, const std::vector<Crossing>& crossings) const;
+
+    const Scene& scene_;
+    bool shading_;
+    std::vector<HalfSpace> removed_;  ///< in the frame
+    RaySurfaces opaque_, transparent_;
+    Lights lights_;
+    std::vector<Vec3> albedo_;  ///< of every object
+    double lift_;               ///< rays to lights begin so far above a surface
+};
+
+}  // namespace isoatlas::render
