@@ -108,7 +108,12 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--opacity", words.opacities, "Of each thing in the picture, 0 to 1; left out: what hides others is transparent", "P");
     add("--colour", words.colours, "Of each thing in the picture, as #RRGGBB", "C");
     add("--cut", words.cut, "Cut away: octant (nearest to the eye), half, or where all hold: x>12.5,y<3 (physical)", "WHAT");
+    add("--slice", words.slices, "Also slices, in grey with the contours of the isovalues: x, y or z = number of samples", "z=40");
+    app.add_flag("--flat", arguments.picture.flat, "The (first) slice alone, as a plain picture");
+    app.add_flag("--volume", arguments.picture.volume, "Also the volume as glowing matter, one colour for each object of the table");
+    app.add_flag("--shadows", arguments.picture.shadows, "Matter throws shadows (with --volume)");
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
+    add("--up", words.up, "What is upwards: x, y, z, -x, -y or -z", "AXIS");
     add("--size", words.size, "Pixels: 768x768", "WxH");
     add("--background", words.background, "light, dark or transparent", "NAME");
     add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "words.h"
 
@@ -68,25 +67,33 @@ void convert_cut(const std::string& word, PictureArguments& picture) {
     }
 }
 
-View from_angles(double around, double above) {
-    const double a = around * std::numbers::pi / 180, b = above * std::numbers::pi / 180;
-    return {.toward = {std::cos(b) * std::sin(a), -std::cos(b) * std::cos(a), std::sin(b)},
-            .up = {-std::sin(b) * std::sin(a), std::sin(b) * std::cos(a), std::cos(b)}};
+ShownSlice shown_slice(const std::string& word) {
+    const std::optional<std::int64_t> index = word.size() > 2 && word[1] == '=' ? number_in<std::int64_t>(word.substr(2)) : std::nullopt;
+    if (!index || word[0] < 'x' || word[0] > 'z') bad("--slice", word, "an axis and the number of a sample, from 0: z=40");
+    return {.axis = word[0] - 'x', .index = *index};
 }
 
-std::optional<View> view_of(const std::string& word) {
+Vec3 axis_of(const std::string& word) {
+    const std::string axis = word.starts_with('-') ? word.substr(1) : word;
+    if (axis != "x" && axis != "y" && axis != "z") bad("--up", word, "x, y, z, -x, -y or -z");
+    Vec3 up{0, 0, 0};
+    up[static_cast<std::size_t>(axis[0] - 'x')] = word == axis ? 1 : -1;
+    return up;
+}
+
+std::optional<View> view_of(const std::string& word, const Vec3& up) {
     if (word == "auto") return std::nullopt;
-    if (word == "front") return from_angles(0, 0);
-    if (word == "right") return from_angles(90, 0);
-    if (word == "back") return from_angles(180, 0);
-    if (word == "left") return from_angles(270, 0);
-    if (word == "top") return from_angles(0, 90);
-    if (word == "bottom") return from_angles(0, -90);
+    if (word == "front") return view_from(0, 0, up);
+    if (word == "right") return view_from(90, 0, up);
+    if (word == "back") return view_from(180, 0, up);
+    if (word == "left") return view_from(270, 0, up);
+    if (word == "top") return view_from(0, 90, up);
+    if (word == "bottom") return view_from(0, -90, up);
     const std::size_t comma = word.find(',');
     const std::optional<double> around = number_in<double>(word.substr(0, comma));
     const std::optional<double> above = comma == std::string::npos ? 0 : number_in<double>(word.substr(comma + 1));
     if (!around || !above) bad("--view", word, "auto, front, back, left, right, top, bottom, or angles such as 30,20");
-    return from_angles(*around, *above);
+    return view_from(*around, *above, up);
 }
 
 void convert_size(const std::string& word, PictureArguments& picture) {
@@ -112,8 +119,12 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     }
     for (const std::string& word : words.objects) picture.objects.push_back(shown_object(word));
     for (const std::string& word : words.colours) picture.colours.push_back(colour_of(word));
+    for (const std::string& word : words.slices) picture.slices.push_back(shown_slice(word));
+    if (picture.flat && picture.slices.empty())
+        throw Error(ErrorKind::usage, {.what = "--flat needs a slice", .next = "add --slice z=N, with N from 0"});
     convert_cut(words.cut, picture);
-    picture.view = view_of(words.view);
+    picture.up = axis_of(words.up);
+    picture.view = view_of(words.view, picture.up);
     convert_size(words.size, picture);
     picture.background =
         parse_choice<Background>("--background", words.background,

@@ -12,14 +12,20 @@ namespace isoatlas::cli {
 /// As typed.
 struct PictureWords {
     std::vector<double> taus, opacities;
-    std::vector<std::string> objects, colours;
-    std::string cut, view = "auto", size = "768x768", background = "light";
+    std::vector<std::string> objects, colours, slices;
+    std::string cut, view = "auto", up = "z", size = "768x768", background = "light";
 };
 
 /// --object ID or ID@T
 struct ShownObject {
     std::int64_t id = 0;
     std::optional<double> tau;  ///< calibrated
+};
+
+/// --slice z=40
+struct ShownSlice {
+    int axis = 2;
+    std::int64_t index = 0;
 };
 
 enum class CutShape : std::uint8_t { none, octant, half, planes };
@@ -31,11 +37,14 @@ struct PictureArguments {
     std::vector<Colour> colours;
     CutShape cut = CutShape::none;
     std::vector<HalfSpace> planes;  ///< of CutShape::planes
-    std::optional<View> view;       ///< none: the best one
+    Vec3 up{0, 0, 1};
+    std::optional<View> view;  ///< none: the best one
     std::int64_t width = 768, height = 768;
     Background background = Background::light;
-    int samples = 4;
+    int samples = 0;  ///< 0: not given
+    std::vector<ShownSlice> slices;
     bool perspective = false, plain = false;
+    bool volume = false, shadows = false, flat = false;
 };
 
 /// Throws Error{usage} that names the option and what it takes.
@@ -45,7 +54,7 @@ void convert_picture(const PictureWords& words, PictureArguments& picture);
 class Source;
 struct Arguments;
 [[nodiscard]] Scene scene_of(const Arguments& arguments, Source& source);
-/// The part that --cut takes away, seen from `view`.
-[[nodiscard]] std::vector<HalfSpace> removed_part(const PictureArguments& picture, const Scene& scene, const View& view);
+/// The part that --cut takes away, seen from `view`; octants and halves are those of the volume.
+[[nodiscard]] std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view);
 
 }  // namespace isoatlas::cli

@@ -12,20 +12,20 @@
 namespace isoatlas::cli {
 namespace {
 
-RenderOptions options_of_picture(const PictureArguments& picture) {
+RenderOptions options_of_picture(const PictureArguments& picture, const Scene& scene) {
     RenderOptions options{.width = picture.width, .height = picture.height};
     options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
     options.background = picture.background;
-    options.samples = picture.samples;
+    options.samples = picture.samples > 0 ? picture.samples : scene.volume.volume != nullptr ? 2 : 4;  // matter has no edges
     options.scale_bar = options.legend = !picture.plain;
     return options;
 }
 
-Json to_json(const Arguments& arguments, Source& source, const Scene& scene, const Camera& camera) {
+Json to_json(const Arguments& arguments, Source& source, const Scene& scene, const Image& image, const Camera& camera) {
     Json json = document("render", source.info(), source.interpolant(), source.tunnel_height());
     json["output"] = arguments.output;
-    json["width"] = arguments.picture.width;
-    json["height"] = arguments.picture.height;
+    json["width"] = image.width;
+    json["height"] = image.height;
     Json objects = Json::array();
     for (const SceneObject& object : scene.objects) {
         objects.push_back({{"name", object.name},
@@ -35,13 +35,34 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
                            {"triangles", object.surface.triangles.size()}});
     }
     json["objects"] = std::move(objects);
-    json["camera"] = {{"projection", camera.projection == Projection::orthographic ? "orthographic" : "perspective"},
-                      {"target", camera.target},
-                      {"toward", camera.view.toward},
-                      {"up", camera.view.up},
-                      {"height", camera.height}};
+    json["slices"] = scene.slices.size();
+    Json bumps = Json::array();
+    const Scale scale(source.info());
+    for (const TransferBump& bump : scene.volume.bumps) {
+        bumps.push_back({{"low", scale.reported(bump.low)},
+                         {"high", scale.reported(bump.high)},
+                         {"density", bump.density},
+                         {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
+    }
+    json["transfer"] = std::move(bumps);
+    json["camera"] = nullptr;
+    if (!arguments.picture.flat)
+        json["camera"] = {{"projection", camera.projection == Projection::orthographic ? "orthographic" : "perspective"},
+                          {"target", camera.target},
+                          {"toward", camera.view.toward},
+                          {"up", camera.view.up},
+                          {"height", camera.height}};
     add_reads(json, source.reads());
     return json;
+}
+
+std::string contents_text(const Scene& scene) {
+    std::string text;
+    const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+    if (!scene.objects.empty()) add(counted(static_cast<std::int64_t>(scene.objects.size()), "surface"));
+    if (!scene.slices.empty()) add(counted(static_cast<std::int64_t>(scene.slices.size()), "slice"));
+    if (scene.volume.volume != nullptr) add("volume");
+    return text;
 }
 
 }  // namespace
@@ -51,21 +72,26 @@ int run_render(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
     const PictureArguments& picture = arguments.picture;
     Scene scene = scene_of(arguments, source);
-    const RenderOptions options = options_of_picture(picture);
-    const View view = picture.view ? *picture.view : best_view(scene, source.context());
-    scene.removed = removed_part(picture, scene, view);
-    const Camera camera = fit_camera(scene, view, options);
-    const Image image = render_scene(scene, camera, options, source.context());
+    const RenderOptions options = options_of_picture(picture, scene);
+    Camera camera;
+    Image image;
+    if (picture.flat) {
+        image = scene.slices[0].picture;
+    } else {
+        const View view = picture.view ? *picture.view : best_view(scene, picture.up, source.context());
+        scene.removed = removed_part(picture, source.info(), view);
+        camera = fit_camera(scene, view, options);
+        image = render_scene(scene, camera, options, source.context());
+    }
     {
         const WritingGuard guard(arguments.output);
         write_image(arguments.output, image);
     }
     if (arguments.json) {
-        print(terminal, to_json(arguments, source, scene, camera));
+        print(terminal, to_json(arguments, source, scene, image, camera));
         return 0;
     }
-    terminal.out() << arguments.output << ": " << counted(static_cast<std::int64_t>(scene.objects.size()), "object") << ", "
-                   << picture.width << " x " << picture.height << " pixels\n";
+    terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", arguments.output, contents_text(scene), image.width, image.height);
     for (const SceneObject& object : scene.objects) terminal.detail("  " + object.name);
     return 0;
 }

@@ -1,6 +1,6 @@
 // The scene that the options ask for: which surfaces, in which colours, and what is cut away.
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -57,7 +57,8 @@ std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
         wanted.push_back({stored, {}, fmt::format("isovalue {}", tau)});
     }
     add_shown(arguments, source, wanted);
-    if (!wanted.empty() && arguments.top == 0) return wanted;
+    const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
+    if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
     const ObjectTable table = source.objects({.top = std::max<std::int64_t>(1, arguments.top)});
     if (table.entries.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
     for (const ObjectEntry& entry : table.entries) wanted.push_back(wanted_entry(entry, scale));
@@ -95,6 +96,33 @@ void choose_opacities(const PictureArguments& picture, std::vector<SceneObject>&
     }
 }
 
+/// The longer side of a slice that fits a picture.
+std::int64_t slice_side(const VolumeInfo& info, int axis, std::int64_t width, std::int64_t height) {
+    const auto length = [&](int a) { return info.geometry.spacing[a] * static_cast<double>(info.extent.size[a]); };
+    const double across = length(axis == 0 ? 1 : 0), down = length(axis == 2 ? 1 : 2);
+    const double pixels = std::min(static_cast<double>(width) / across, static_cast<double>(height) / down);
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(pixels * std::max(across, down)), 16, 16384);
+}
+
+void add_slices(const Arguments& arguments, Source& source, Scene& scene) {
+    const PictureArguments& picture = arguments.picture;
+    for (const ShownSlice& shown : picture.slices) {
+        SliceOptions options{.axis = shown.axis, .index = shown.index, .side = std::max(picture.width, picture.height)};
+        if (picture.flat) options.side = slice_side(source.info(), shown.axis, picture.width, picture.height);
+        for (const SceneObject& object : scene.objects) options.contours.push_back({object.surface.tau, object.colour});
+        scene.slices.push_back(slice_picture(source.volume(), options, source.context()));
+    }
+}
+
+void add_volume(const Arguments& arguments, Source& source, Scene& scene) {
+    if (!arguments.picture.volume) return;
+    const ValueRange range = source.range();
+    const ObjectTable table = source.objects({.top = 5});
+    scene.volume = {.volume = &source.volume(),
+                    .bumps = propose_transfer(table, source.info(), {range.low, range.high}),
+                    .shadows = arguments.picture.shadows};
+}
+
 /// What the file calls a unit of length, for the scale bar.
 std::string length_unit(const VolumeInfo& info) {
     if (!info.geometry.unit.empty()) return info.geometry.unit;
@@ -123,28 +151,27 @@ Scene scene_of(const Arguments& arguments, Source& source) {
         scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
     }
     choose_opacities(picture, scene.objects);
+    add_slices(arguments, source, scene);
+    add_volume(arguments, source, scene);
     return scene;
 }
 
-std::vector<HalfSpace> removed_part(const PictureArguments& picture, const Scene& scene, const View& view) {
+std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view) {
     if (picture.cut == CutShape::none || picture.cut == CutShape::planes) return picture.planes;
-    Box box = box_of(scene.objects[0].surface);
-    for (const SceneObject& object : scene.objects) {
-        const Box other = box_of(object.surface);
-        for (std::size_t a = 0; a < 3; ++a)
-            box.low[a] = std::min(box.low[a], other.low[a]), box.high[a] = std::max(box.high[a], other.high[a]);
-    }
-    std::vector<HalfSpace> removed;
+    Vec3 middle{};
+    for (std::size_t a = 0; a < 3; ++a) middle[a] = static_cast<double>(info.extent.size[a] - 1) / 2;
+    const Vec3 centre = to_physical(info.geometry, middle);
     std::size_t nearest = 0;
     for (std::size_t a = 0; a < 3; ++a) {
         if (std::abs(view.toward[a]) > std::abs(view.toward[nearest])) nearest = a;
     }
+    std::vector<HalfSpace> removed;
     for (std::size_t a = 0; a < 3; ++a) {
         if (picture.cut == CutShape::half && a != nearest) continue;
         HalfSpace half;
         const double sign = view.toward[a] >= 0 ? 1 : -1;
         half.normal[a] = sign;
-        half.offset = sign * (box.low[a] + box.high[a]) / 2;
+        half.offset = sign * centre[a];
         removed.push_back(half);
     }
     return removed;

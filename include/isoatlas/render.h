@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "isoatlas/context.h"
+#include "isoatlas/objects.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
 
@@ -53,12 +54,37 @@ struct HalfSpace {
     double offset = 0;
 };
 
+/// A picture that hangs in space: its upper left corner, and the vectors to its right and its lower end. Nothing cuts it, no light shades
+/// it.
+struct SceneSlice {
+    Image picture;
+    Vec3 corner{}, across{}, down{};
+};
+
+/// Light that matter between two values sends out and swallows. Extinction per unit of length rises linearly from 0 at low and at high to
+/// `density`, over `ramp` of the range at each end, 0 (a box) to 0.5 (a triangle).
+struct TransferBump {
+    double low = 0, high = 0;  ///< stored values
+    Colour colour{};
+    double density = 0;
+    double ramp = 0.5;
+};
+
+/// A volume drawn as glowing matter: emission and absorption, composited front to back together with surfaces and slices.
+struct SceneVolume {
+    const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
+    std::vector<TransferBump> bumps{};
+    bool shadows = false;  ///< light of the key light is scattered once: matter and opaque surfaces keep it from what lies behind them
+};
+
 struct Scene {
-    std::vector<SceneObject> objects;
+    std::vector<SceneObject> objects{};
     /// What lies in all of these half-spaces is cut away; the faces of the cut have the colour of the object they cut, the object with
     /// the highest isovalue where several contain a point. Empty: nothing is cut away.
-    std::vector<HalfSpace> removed;
-    std::string unit;  ///< of lengths, for the scale bar; empty: that of the first surface
+    std::vector<HalfSpace> removed{};
+    std::vector<SceneSlice> slices{};
+    SceneVolume volume{};
+    std::string unit{};  ///< of lengths, for the scale bar; empty: that of the first surface
 };
 
 enum class Projection : std::uint8_t { orthographic, perspective };
@@ -91,9 +117,13 @@ struct RenderOptions {
 };
 
 /// The view, of a fixed set, in which most of the objects is seen and least of it is hidden: largest viewpoint entropy (Vazquez et al.,
-/// 2001) over pieces of the surfaces. Up is the head-foot axis of the space where there is one, else the last axis.
-/// Throws Error{not_found} for a scene without triangles. Cost: 40 small pictures.
-[[nodiscard]] View best_view(const Scene& scene, const Context& context = {});
+/// 2001) over pieces of the surfaces. up: what is upwards in the picture; the default is the head-foot axis of all spaces that have one.
+/// Throws Error{not_found} for a scene without triangles. Cost: 36 small pictures.
+[[nodiscard]] View best_view(const Scene& scene, const Vec3& up = {0, 0, 1}, const Context& context = {});
+
+/// Angles in degrees: 0, 0 is the front, which is at -y when z is up (in LPS: in front of the face), `around` goes to the right, `above`
+/// up. Other axes: the space turned the shortest way so that z becomes `up`; for -z half around y.
+[[nodiscard]] View view_from(double around, double above, const Vec3& up = {0, 0, 1});
 
 /// A camera that shows all of the scene with a margin. Throws Error{not_found} for an empty scene.
 [[nodiscard]] Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& options = {});
@@ -103,8 +133,8 @@ struct RenderOptions {
 
 /// A length of 1, 2 or 5 times a power of ten that takes at most a quarter of the picture's width.
 struct ScaleBar {
-    double length;  ///< physical
-    double pixels;
+    double length = 0;  ///< physical
+    double pixels = 0;
     std::string text;  ///< "20 mm"
 };
 /// pixel_size: physical size of a pixel.
@@ -113,6 +143,27 @@ struct ScaleBar {
 /// The picture. Throws Error: usage (sizes, opacity, a 2D surface), cancelled.
 /// Cost: O(triangles log triangles) once, then rays: some ten per pixel and sample.
 [[nodiscard]] Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options = {}, const Context& context = {});
+
+struct SliceContour {
+    double tau = 0;  ///< stored value
+    Colour colour{};
+};
+
+struct SliceOptions {
+    int axis = 2;                 ///< 0..2: what the slice is perpendicular to
+    std::int64_t index = 0;       ///< of the samples along that axis
+    double black = 0, white = 0;  ///< stored values of the darkest and the brightest grey; equal: lowest and highest sample
+    std::vector<SliceContour> contours{};
+    std::int64_t side = 512;  ///< pixels of the longer side, 16 to 16384
+};
+
+/// A slice in grey, in its true proportions, with our contours (those of the 2D volume that the slice is) drawn over it. Seen along z: x to
+/// the right, y down; along y: x to the right, z up; along x: y to the right, z up. Placed where it lies in space.
+/// Throws Error: usage (axis, index, side). Cost: O(slice + pixels).
+[[nodiscard]] SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, const Context& context = {});
+
+/// Bumps around the best isovalues of the objects of a table, one colour each, outer matter thinner. range: lowest and highest sample.
+[[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range);
 
 /// The bytes of a PNG file.
 [[nodiscard]] std::vector<std::byte> encode_png(const Image& image);

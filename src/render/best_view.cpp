@@ -21,15 +21,13 @@ constexpr int kAround = 12;                    // directions around the axis
 constexpr double kElevations[] = {8, 24, 40};  // degrees; never from below, seldom from far above: as one looks at a thing on a table
 constexpr double kNearlyAsGood = 0.985;        // the first direction that is so good: noise must not turn the picture around
 
-std::vector<View> candidates() {
+std::vector<View> candidates(const Vec3& up) {
     std::vector<View> views;
     for (const double elevation : kElevations) {
         for (int i = 0; i < kAround; ++i) {
-            // From the front (-y) first, then to both sides.
+            // From the front first, then to both sides.
             const int step = i % 2 == 1 ? (i + 1) / 2 : -(i / 2);
-            const double around = (2 * std::numbers::pi * (step + 0.5)) / kAround, height = elevation * std::numbers::pi / 180;
-            const Vec3 toward{std::cos(height) * std::sin(around), -std::cos(height) * std::cos(around), std::sin(height)};
-            views.push_back({toward, {0, 0, 1}});
+            views.push_back(view_from(360 * (step + 0.5) / kAround, elevation, up));
         }
     }
     return views;
@@ -67,7 +65,21 @@ double entropy_of(const RaySurfaces& surfaces, const View& view) {
 }  // namespace
 }  // namespace render
 
-View best_view(const Scene& scene, const Context& context) {
+View view_from(double around, double above, const Vec3& up) {
+    const double a = around * std::numbers::pi / 180, b = above * std::numbers::pi / 180;
+    const Vec3 toward{std::cos(b) * std::sin(a), -std::cos(b) * std::cos(a), std::sin(b)};
+    const Vec3 above_it{-std::sin(b) * std::sin(a), std::sin(b) * std::cos(a), std::cos(b)};
+    const Vec3 z = render::unit(up);
+    const auto turned = [&](const Vec3& v) -> Vec3 {
+        if (z[2] <= -1 + 1e-12) return {-v[0], v[1], -v[2]};
+        // v + axis x v + axis x (axis x v) / (1 + cos), axis = z x up (Rodrigues).
+        const Vec3 axis{-z[1], z[0], 0}, once = render::cross(axis, v);
+        return render::along(render::add(v, once), 1 / (1 + z[2]), render::cross(axis, once));
+    };
+    return {turned(toward), turned(above_it)};
+}
+
+View best_view(const Scene& scene, const Vec3& up, const Context& context) {
     const render::SceneBox box = render::box_of(scene);
     const render::Frame frame{box.centre(), box.radius()};
     const std::vector<HalfSpace> none;
@@ -76,7 +88,7 @@ View best_view(const Scene& scene, const Context& context) {
                            ? render::RaySurfaces::Which::opaque
                            : render::RaySurfaces::Which::transparent;
     const render::RaySurfaces surfaces(scene, which, frame, none, context.threads);
-    const std::vector<View> views = render::candidates();
+    const std::vector<View> views = render::candidates(up);
     std::vector<double> entropy(views.size());
     for_each_block(context.threads, static_cast<std::int64_t>(views.size()),
                    [&](std::int64_t i) { entropy[i] = render::entropy_of(surfaces, views[i]); });

@@ -46,21 +46,21 @@ public:
     void paint_tile(std::int64_t tile, Film& film) const {
         const std::int64_t across = (film.width + kTile - 1) / kTile;
         const std::int64_t x0 = tile % across * kTile, y0 = tile / across * kTile;
-        std::vector<Crossing> crossings;
+        Workspace work;
         for (std::int64_t y = y0; y < std::min(film.height, y0 + kTile); ++y) {
-            for (std::int64_t x = x0; x < std::min(film.width, x0 + kTile); ++x) film.pixels[x + film.width * y] = paint(x, y, crossings);
+            for (std::int64_t x = x0; x < std::min(film.width, x0 + kTile); ++x) film.pixels[x + film.width * y] = paint(x, y, work);
         }
     }
 
 private:
-    [[nodiscard]] FilmPixel paint(std::int64_t x, std::int64_t y, std::vector<Crossing>& crossings) const {
+    [[nodiscard]] FilmPixel paint(std::int64_t x, std::int64_t y, Workspace& work) const {
         const std::uint32_t seed = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         FilmSum sum;
         for (int s = 0; s < options_.samples; ++s) {
             const Sample2 at = point_in_pixel(seed, s, options_.samples);
             Ray ray = rays_.through(static_cast<double>(x) + at.u, static_cast<double>(y) + at.v, behind_);
             ray.origin = frame_.inside(ray.origin);
-            sum.add(tracer_.trace(ray, seed, static_cast<std::uint32_t>(s), crossings));
+            sum.add(tracer_.trace(ray, seed, static_cast<std::uint32_t>(s), work));
         }
         return sum.mean();
     }

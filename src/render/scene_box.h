@@ -30,6 +30,16 @@ void for_each_outline_point(const Scene& scene, const Function& function) {
     for (const SceneObject& object : scene.objects) {
         for (const Vec3& point : object.surface.points) function(point);
     }
+    for (const SceneSlice& slice : scene.slices) {
+        for (int i = 0; i < 4; ++i) function(along(along(slice.corner, i & 1, slice.across), i >> 1, slice.down));
+    }
+    if (scene.volume.volume == nullptr) return;
+    const VolumeInfo& info = scene.volume.volume->info;
+    for (int i = 0; i < 8; ++i) {
+        Vec3 corner{};
+        for (int a = 0; a < 3; ++a) corner[a] = (i >> a & 1) != 0 ? static_cast<double>(info.extent.size[a] - 1) : 0;
+        function(to_physical(info.geometry, corner));
+    }
 }
 
 /// Throws Error{not_found} for an empty scene.

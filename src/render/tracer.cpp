@@ -50,20 +50,53 @@ Tracer::Tracer(const Scene& scene, const Frame& frame, const CameraRays& camera,
       removed_(in_frame(scene.removed, frame)),
       opaque_(scene, RaySurfaces::Which::opaque, frame, removed_, threads),
       transparent_(scene, RaySurfaces::Which::transparent, frame, removed_, threads),
+      slices_(scene, frame),
       lights_(camera),
       lift_(lift_of(scene, frame)) {
     for (const SceneObject& object : scene.objects) albedo_.push_back(linear(object.colour));
+    if (scene.volume.volume != nullptr) medium_.emplace(scene, frame, shading ? &lights_ : nullptr, opaque_, threads);
 }
 
-Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, std::vector<Crossing>& crossings) const {
+Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Workspace& work) const {
     Seen seen;
     const Gap gap = gap_of(removed_, ray);
-    const std::optional<Crossing> hit = first_opaque(ray, gap, crossings);
-    add_sheets(ray, hit ? hit->t : INFINITY, gap, crossings, seen);
+    const std::optional<Crossing> hit = first_opaque(ray, gap, work.crossings);
+    const double most = hit ? hit->t : INFINITY;
+    work.layers.clear();
+    add_sheets(ray, most, gap, work);
+    slices_.add(ray, most, work.layers);
+    std::stable_sort(work.layers.begin(), work.layers.end(), [](const Layer& a, const Layer& b) { return a.t < b.t; });
+    const double shift = fraction_of(hash(seed ^ 0x51ed270bU) + sample * 2654435769U);
+    gather(ray, most, gap, shift, work.layers, seen);
     if (!hit) return seen;
     add_opaque(ray, *hit, seen);
     if (shading_) look_around(ray, *hit, seed, sample, seen);
     return seen;
+}
+
+/// Everything in front of the opaque surface, front to back: layers, and the matter between them.
+void Tracer::gather(const Ray& ray, double most, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const {
+    Gathered gathered;
+    double begin = 0;
+    for (const Layer& layer : layers) {
+        march(ray, begin, layer.t, gap, shift, gathered);
+        const double weight = (1 - gathered.opacity) * layer.opacity;
+        gathered.light = along(gathered.light, weight, layer.light);
+        gathered.opacity += weight;
+        begin = layer.t;
+    }
+    march(ray, begin, most, gap, shift, gathered);
+    seen.glow = gathered.light, seen.opacity = gathered.opacity;
+}
+
+void Tracer::march(const Ray& ray, double begin, double end, const Gap& gap, double shift, Gathered& gathered) const {
+    if (!medium_) return;
+    if (gap.empty()) {
+        medium_->march(ray, begin, end, shift, gathered);
+        return;
+    }
+    medium_->march(ray, begin, std::min(end, gap.begin), shift, gathered);
+    medium_->march(ray, std::max(begin, gap.end), end, shift, gathered);
 }
 
 std::optional<Crossing> Tracer::first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const {
@@ -105,17 +138,15 @@ std::optional<Crossing> Tracer::cut_face(const Ray& ray, const Gap& gap, const s
     return Crossing{gap.end, best, on->normal, on->normal};
 }
 
-void Tracer::add_sheets(const Ray& ray, double most, const Gap& gap, std::vector<Crossing>& crossings, Seen& seen) const {
-    transparent_.all(ray, most, crossings);
-    for (const Crossing& crossing : crossings) {
+void Tracer::add_sheets(const Ray& ray, double most, const Gap& gap, Workspace& work) const {
+    transparent_.all(ray, most, work.crossings);
+    for (const Crossing& crossing : work.crossings) {
         if (gap.holds(crossing.t)) continue;
         const Vec3 normal = facing(crossing.enters(ray) ? crossing.normal : scale(crossing.normal, -1), ray);
         const Vec3 to_eye = scale(ray.direction, -1);
         const double opacity = sheet_opacity(scene_.objects[crossing.object].opacity, shading_ ? dot(normal, to_eye) : 1);
         const Vec3& albedo = albedo_[crossing.object];
-        const double weight = (1 - seen.opacity) * opacity;
-        seen.glow = along(seen.glow, weight, shading_ ? lights_.shade_sheet(albedo, normal, to_eye) : albedo);
-        seen.opacity += weight;
+        work.layers.push_back({crossing.t, shading_ ? lights_.shade_sheet(albedo, normal, to_eye) : albedo, opacity});
     }
 }
 
@@ -142,6 +173,7 @@ void Tracer::look_around(const Ray& ray, const Crossing& crossing, std::uint32_t
     seen.open_sky = open;
     const Vec3 key = lights_.to_key(sample_2d(seed ^ 0xa511e9b3U, sample));
     seen.open_key = dot(key, crossing.normal) > 0 && opaque_.blocked({point, key}, 0, INFINITY) ? 0 : 1;
+    if (medium_) seen.open_key *= medium_->lit(along(point, 2 * lift_, crossing.normal));
 }
 
 }  // namespace isoatlas::render

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "isoatlas/render.h"
+#include "render/layers.h"
 #include "render/lights.h"
+#include "render/medium.h"
 #include "render/ray_surfaces.h"
 
 namespace isoatlas::render {
@@ -21,16 +23,24 @@ struct Seen {
     double open_sky = 1, open_key = 1;  ///< how much of their light reaches it
 };
 
+/// Memory to work in.
+struct Workspace {
+    std::vector<Crossing> crossings;
+    std::vector<Layer> layers;
+};
+
 class Tracer {
 public:
     /// The scene must live as long as this.
     Tracer(const Scene& scene, const Frame& frame, const CameraRays& camera, bool shading, int threads);
 
-    /// ray: in the frame. seed and sample: which random numbers. `crossings`: memory to work in.
-    [[nodiscard]] Seen trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, std::vector<Crossing>& crossings) const;
+    /// ray: in the frame. seed and sample: which random numbers.
+    [[nodiscard]] Seen trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Workspace& work) const;
 
 private:
-    void add_sheets(const Ray& ray, double most, const Gap& gap, std::vector<Crossing>& crossings, Seen& seen) const;
+    void add_sheets(const Ray& ray, double most, const Gap& gap, Workspace& work) const;
+    void gather(const Ray& ray, double most, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const;
+    void march(const Ray& ray, double begin, double end, const Gap& gap, double shift, Gathered& gathered) const;
     [[nodiscard]] std::optional<Crossing> first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const;
     void add_opaque(const Ray& ray, const Crossing& crossing, Seen& seen) const;
     void look_around(const Ray& ray, const Crossing& crossing, std::uint32_t seed, std::uint32_t sample, Seen& seen) const;
@@ -40,7 +50,9 @@ private:
     bool shading_;
     std::vector<HalfSpace> removed_;  ///< in the frame
     RaySurfaces opaque_, transparent_;
+    RaySlices slices_;
     Lights lights_;
+    std::optional<Medium> medium_;
     std::vector<Vec3> albedo_;  ///< of every object
     double lift_;               ///< rays to lights begin so far above a surface
 };
