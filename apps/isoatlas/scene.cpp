@@ -121,6 +121,8 @@ void add_volume(const Arguments& arguments, Source& source, Scene& scene) {
     scene.volume = {.volume = &source.volume(),
                     .bumps = propose_transfer(table, source.info(), {range.low, range.high}),
                     .shadows = arguments.picture.shadows};
+    const Scale scale(source.info());
+    for (TransferBump& bump : scene.volume.bumps) bump.name = "matter above " + scale.brief(bump.tau);
 }
 
 /// What the file calls a unit of length, for the scale bar.

@@ -68,6 +68,8 @@ struct TransferBump {
     Colour colour{};
     double density = 0;
     double ramp = 0.5;
+    double tau = 0;      ///< isovalue of the object that it shows; tells nothing but the caller
+    std::string name{};  ///< for the legend; empty: not in it
 };
 
 /// A volume drawn as glowing matter: emission and absorption, composited front to back together with surfaces and slices.

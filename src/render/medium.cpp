@@ -52,6 +52,13 @@ Gap inside_box(const Vec3& origin, const Vec3& way, const Vec3& low, const Vec3&
     return gap;
 }
 
+std::array<double, 2> range_of(const Volume& volume) {
+    return visit_samples(volume, [](auto samples) {
+        const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+        return std::array<double, 2>{static_cast<double>(*low), static_cast<double>(*high)};
+    });
+}
+
 Mat3 physical_to_voxel(const Geometry& geometry) {
     Vec3 axis[3];
     for (int a = 0; a < 3; ++a) {
@@ -68,7 +75,7 @@ Medium::Medium(const Scene& scene, const Frame& frame, const Lights* lights, con
     : volume_(scene.volume.volume),
       lights_(lights),
       frame_(frame),
-      transfer_(scene.volume.bumps, frame.radius),
+      transfer_(scene.volume.bumps, frame.radius, range_of(*volume_)),
       value_at_(visit_type(volume_->info.type, []<class T>(T) { return &interpolated<T>; })),
       to_voxel_(physical_to_voxel(volume_->info.geometry)) {
     const Geometry& geometry = volume_->info.geometry;

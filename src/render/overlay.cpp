@@ -48,15 +48,17 @@ void draw_scale_bar(const ScaleBar& bar, const Style& style, Image& image) {
 
 void draw_legend(const Scene& scene, const Style& style, Image& image) {
     double y = style.margin;
-    for (const SceneObject& object : scene.objects) {
-        if (object.name.empty()) continue;
+    const auto entry = [&](const std::string& name, const Colour& colour) {
+        if (name.empty()) return;
         const Point2 low{style.margin, y}, high{style.margin + 1.4 * style.size, y + style.size};
         fill_box(image, {low.x - style.line / 2, low.y - style.line / 2}, {high.x + style.line / 2, high.y + style.line / 2},
                  0.25 * style.size, style.ink);
-        fill_box(image, low, high, 0.2 * style.size, object.colour);
-        draw_text(image, object.name, {high.x + 0.7 * style.size, y + style.size}, style.size, style.ink, style.rim);
+        fill_box(image, low, high, 0.2 * style.size, colour);
+        draw_text(image, name, {high.x + 0.7 * style.size, y + style.size}, style.size, style.ink, style.rim);
         y += 1.8 * style.size;
-    }
+    };
+    for (const SceneObject& object : scene.objects) entry(object.name, object.colour);
+    for (const TransferBump& bump : scene.volume.bumps) entry(bump.name, bump.colour);
 }
 
 }  // namespace

@@ -8,71 +8,110 @@
 namespace isoatlas {
 namespace render {
 
-Transfer::Transfer(std::span<const TransferBump> bumps, double length_unit) {
+namespace {
+
+constexpr std::int64_t kPlaces = 4096;
+
+/// A trapezoid over the values.
+struct Part {
+    double low, rise, fall, high;
+    /// From -infinity to a value, of a top of 1.
+    [[nodiscard]] double integral(double value) const {
+        const double v = std::clamp(value, low, high), up = std::min(v, rise) - low;
+        double sum = rise > low ? up * up / (2 * (rise - low)) : 0;
+        if (v > rise) sum += std::min(v, fall) - rise;
+        if (v > fall && high > fall) sum += ((high - fall) * (high - fall) - (high - v) * (high - v)) / (2 * (high - fall));
+        return sum;
+    }
+};
+
+}  // namespace
+
+Transfer::Transfer(std::span<const TransferBump> bumps, double length_unit, std::array<double, 2> range)
+    : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
     for (const TransferBump& bump : bumps) {
         const double ramp = std::clamp(bump.ramp, 0.0, 0.5) * (bump.high - bump.low);
-        parts_.push_back({bump.low, bump.low + ramp, bump.high - ramp, bump.high, bump.density * length_unit, linear(bump.colour)});
+        const Part part{bump.low, bump.low + ramp, bump.high - ramp, bump.high};
+        const double density = bump.density * length_unit;
+        const Vec3 colour = linear(bump.colour);
+        const double first = part.integral(low_);
+        for (std::int64_t i = 0; i <= kPlaces; ++i) {
+            const double integral = density * (part.integral(low_ + static_cast<double>(i) / places_per_value_) - first);
+            sums_[i][0] += integral;
+            for (int c = 0; c < 3; ++c) sums_[i][c + 1] += integral * colour[c];
+        }
+        visible_.push_back({bump.low, bump.high});
     }
 }
 
-double Transfer::Part::at(double value) const {
-    if (value < low || value > high) return 0;
-    if (value < rise) return density * (value - low) / (rise - low);
-    return value > fall ? density * (high - value) / (high - fall) : density;
-}
-
-double Transfer::Part::integral(double value) const {
-    const double v = std::clamp(value, low, high);
-    double sum = 0;
-    if (v > low) sum += rise > low ? (std::min(v, rise) - low) * (std::min(v, rise) - low) / (2 * (rise - low)) : 0;
-    if (v > rise) sum += std::min(v, fall) - rise;
-    if (v > fall && high > fall) sum += ((high - fall) * (high - fall) - (high - v) * (high - v)) / (2 * (high - fall));
-    return density * sum;
+Transfer::Sums Transfer::sums_to(double place) const {
+    const double p = std::clamp(place, 0.0, static_cast<double>(kPlaces));
+    const auto i = std::min(static_cast<std::int64_t>(p), kPlaces - 1);
+    const double f = p - static_cast<double>(i);
+    Sums sums;
+    for (int c = 0; c < 4; ++c) sums[c] = sums_[i][c] + f * (sums_[i + 1][c] - sums_[i][c]);
+    return sums;
 }
 
 Matter Transfer::mean(double a, double b) const {
-    Matter matter;
-    const double low = std::min(a, b), high = std::max(a, b);
-    for (const Part& part : parts_) {
-        if (high < part.low || low > part.high) continue;
-        const bool flat = high - low < 1e-9 * (part.high - part.low);
-        const double extinction = flat ? part.at((low + high) / 2) : (part.integral(high) - part.integral(low)) / (high - low);
-        matter.extinction += extinction;
-        matter.glow = along(matter.glow, extinction, part.colour);
-    }
-    return matter;
+    // Closer together than a place, the sums would be lost in rounding: then over half a place to both sides.
+    double low = (std::min(a, b) - low_) * places_per_value_, high = (std::max(a, b) - low_) * places_per_value_;
+    if (high - low < 1e-3) low -= 0.5, high += 0.5;
+    const double first = std::clamp(low, 0.0, static_cast<double>(kPlaces)), last = std::clamp(high, 0.0, static_cast<double>(kPlaces));
+    if (!(last > first)) return {};
+    const Sums from = sums_to(first), to = sums_to(last);
+    const double part = places_per_value_ / (last - first);
+    return {part * (to[0] - from[0]), {part * (to[1] - from[1]), part * (to[2] - from[2]), part * (to[3] - from[3])}};
 }
 
 bool Transfer::visible(double low, double high) const {
-    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return high >= part.low && low <= part.high; });
+    return std::any_of(visible_.begin(), visible_.end(), [&](const Range& range) { return high > range.low && low < range.high; });
 }
 
 }  // namespace render
 
-std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range) {
-    struct Best {
-        double tau;
-        std::int64_t rank;
-    };
-    constexpr double kWidth = 0.05, kThinnest = 0.06, kDensest = 1.2;  // of the range; per voxel
+namespace {
+
+constexpr double kWidth = 0.10;                     // of a bump, in parts of the range
+constexpr double kBefore = 0.15;                    // of it lies below the isovalue: an object is what is at or above its isovalue
+constexpr double kMostVoxels = 0.5;                 // of the volume: what takes more is the background
+constexpr double kThinnest = 0.05, kDensest = 1.0;  // extinction per voxel of the lowest and the highest isovalue
+
+struct Best {
+    double tau;
+    std::int64_t rank;
+};
+
+std::vector<Best> best_isovalues(const ObjectTable& table, const VolumeInfo& info, double range) {
     std::vector<Best> best;
     for (const ObjectEntry& entry : table.entries) {
-        const bool known = std::any_of(best.begin(), best.end(),
-                                       [&](const Best& b) { return std::abs(b.tau - entry.best_tau) < kWidth * (range[1] - range[0]); });
-        if (!known) best.push_back({entry.best_tau, static_cast<std::int64_t>(best.size())});
+        const bool background = static_cast<double>(entry.voxels) > kMostVoxels * static_cast<double>(info.extent.voxels());
+        const bool known =
+            std::any_of(best.begin(), best.end(), [&](const Best& b) { return std::abs(b.tau - entry.best_tau) < kWidth / 2 * range; });
+        if (!background && !known) best.push_back({entry.best_tau, static_cast<std::int64_t>(best.size())});
     }
     std::sort(best.begin(), best.end(), [](const Best& a, const Best& b) { return a.tau < b.tau; });
+    return best;
+}
+
+}  // namespace
+
+std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range) {
+    const double width = kWidth * (range[1] - range[0]);
+    const std::vector<Best> best = best_isovalues(table, info, range[1] - range[0]);
     const double voxel = std::min({info.geometry.spacing[0], info.geometry.spacing[1], info.geometry.spacing[2]});
     std::vector<TransferBump> bumps;
     for (std::size_t i = 0; i < best.size(); ++i) {
-        const double part = best.size() > 1 ? static_cast<double>(i) / static_cast<double>(best.size() - 1) : 0.5;
-        const double half = kWidth * (range[1] - range[0]);
         const bool last = i + 1 == best.size();
-        bumps.push_back({.low = best[i].tau - half,
-                         .high = last ? std::max(best[i].tau + half, range[1]) : best[i].tau + half,
+        const double part = best.size() > 1 ? static_cast<double>(i) / static_cast<double>(best.size() - 1) : 0.5;
+        const double low = best[i].tau - kBefore * width, narrow = low + width;
+        const double high = last ? std::max(narrow, range[1] + 0.3 * width) : std::min(narrow, best[i + 1].tau);
+        bumps.push_back({.low = low,
+                         .high = high,
                          .colour = palette(best[i].rank),
                          .density = kThinnest * std::pow(kDensest / kThinnest, part) / voxel,
-                         .ramp = last ? std::min(0.5, half / (std::max(best[i].tau + half, range[1]) - best[i].tau + half)) : 0.5});
+                         .ramp = 0.3 * width / (high - low) < 0.5 ? 0.3 * width / (high - low) : 0.5,
+                         .tau = best[i].tau});
     }
     return bumps;
 }
