@@ -14,7 +14,7 @@ function(add_stage name)
     target_include_directories(stage_${name} SYSTEM PRIVATE ${HDF5_INCLUDE_DIR} ${XXHASH_INCLUDE_DIR} ${DEFLATE_INCLUDE_DIR})
   endif()
   if(name STREQUAL render)
-    target_include_directories(stage_${name} SYSTEM PRIVATE ${EMBREE_INCLUDE_DIR} ${DEFLATE_INCLUDE_DIR})
+    target_include_directories(stage_${name} SYSTEM PRIVATE ${EMBREE_INCLUDE_DIR} ${WEBP_INCLUDE_DIR} ${DEFLATE_INCLUDE_DIR})
   endif()
   set_target_properties(stage_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()
@@ -33,7 +33,8 @@ function(add_library_of_stages target)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   # Private: none of these shows in a public header; a static library still passes them on to the linker.
-  target_link_libraries(${target} PRIVATE TBB::tbb ZLIB::ZLIB TIFF::TIFF pugixml::pugixml ${HDF5_LIBRARY} ${DEFLATE_LIBRARY} ${EMBREE_LIBRARY} Threads::Threads)
+  target_link_libraries(${target} PRIVATE TBB::tbb ZLIB::ZLIB TIFF::TIFF pugixml::pugixml ${HDF5_LIBRARY} ${DEFLATE_LIBRARY} ${EMBREE_LIBRARY}
+    ${WEBP_MUX_LIBRARY} ${WEBP_LIBRARY} Threads::Threads)
   if(ISOATLAS_SANITIZE)
     target_link_options(${target} PUBLIC -fsanitize=${ISOATLAS_SANITIZE})
   endif()

@@ -119,7 +119,16 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));
     app.add_flag("--perspective", arguments.picture.perspective, "Things further away look smaller; no scale bar then");
     app.add_flag("--plain", arguments.picture.plain, "No scale bar and no legend");
-    add_output(app, arguments, ".png", true);
+}
+
+void add_animation(CLI::App& app, Arguments& arguments) {
+    AnimationArguments& animation = arguments.picture.animation;
+    app.add_option("--from", animation.from, "First isovalue of an evolution; without --from and --to things turn around")->type_name("A");
+    app.add_option("--to", animation.to, "Last isovalue of an evolution")->type_name("B");
+    app.add_option("--steps", animation.steps, "Number of frames (36)")
+        ->check(in_range(std::int64_t{1}, std::int64_t{10000}))
+        ->type_name("N");
+    app.add_option("--fps", animation.frames_per_second, "Frames per second (12)")->check(in_range(0.1, 100.0))->type_name("F");
 }
 
 void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed& typed) {
@@ -146,6 +155,11 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
     } else if (verb == "render") {
         add_picture(app, arguments, typed.picture);
+        add_output(app, arguments, ".png .webp", true);
+    } else if (verb == "animate") {
+        add_animation(app, arguments);
+        add_picture(app, arguments, typed.picture);
+        add_output(app, arguments, ".gif .webp .png .apng .mp4", true);
     } else if (verb == "label") {
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");

@@ -30,6 +30,12 @@ struct ShownSlice {
 
 enum class CutShape : std::uint8_t { none, octant, half, planes };
 
+struct AnimationArguments {
+    std::optional<double> from, to;  ///< calibrated; none: a turntable
+    std::int64_t steps = 36;
+    double frames_per_second = 12;
+};
+
 struct PictureArguments {
     std::vector<double> taus;  ///< calibrated
     std::vector<ShownObject> objects;
@@ -43,12 +49,17 @@ struct PictureArguments {
     Background background = Background::light;
     int samples = 0;  ///< 0: not given
     std::vector<ShownSlice> slices;
+    AnimationArguments animation;
     bool perspective = false, plain = false;
     bool volume = false, shadows = false, flat = false;
 };
 
 /// Throws Error{usage} that names the option and what it takes.
 void convert_picture(const PictureWords& words, PictureArguments& picture);
+
+[[nodiscard]] RenderOptions options_of_picture(const PictureArguments& picture);
+/// What the file calls a unit of length, for the scale bar.
+[[nodiscard]] std::string length_unit(const VolumeInfo& info);
 
 /// The scene with everything the arguments ask for but the cut. Throws Error: usage, not_found.
 class Source;

@@ -12,15 +12,6 @@
 namespace isoatlas::cli {
 namespace {
 
-RenderOptions options_of_picture(const PictureArguments& picture, const Scene& scene) {
-    RenderOptions options{.width = picture.width, .height = picture.height};
-    options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
-    options.background = picture.background;
-    options.samples = picture.samples > 0 ? picture.samples : scene.volume.volume != nullptr ? 2 : 4;  // matter has no edges
-    options.scale_bar = options.legend = !picture.plain;
-    return options;
-}
-
 Json to_json(const Arguments& arguments, Source& source, const Scene& scene, const Image& image, const Camera& camera) {
     Json json = document("render", source.info(), source.interpolant(), source.tunnel_height());
     json["output"] = arguments.output;
@@ -68,11 +59,11 @@ std::string contents_text(const Scene& scene) {
 }  // namespace
 
 int run_render(const Arguments& arguments, Terminal& terminal) {
-    check_output(arguments, {".png"});
+    check_output(arguments, {".png", ".webp"});
     Source source(arguments, terminal);
     const PictureArguments& picture = arguments.picture;
     Scene scene = scene_of(arguments, source);
-    const RenderOptions options = options_of_picture(picture, scene);
+    const RenderOptions options = options_of_picture(picture);
     Camera camera;
     Image image;
     if (picture.flat) {

@@ -125,14 +125,22 @@ void add_volume(const Arguments& arguments, Source& source, Scene& scene) {
     for (TransferBump& bump : scene.volume.bumps) bump.name = "matter above " + scale.brief(bump.tau);
 }
 
-/// What the file calls a unit of length, for the scale bar.
+}  // namespace
+
+RenderOptions options_of_picture(const PictureArguments& picture) {
+    RenderOptions options{.width = picture.width, .height = picture.height};
+    options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
+    options.background = picture.background;
+    options.samples = picture.samples > 0 ? picture.samples : picture.volume ? 2 : 4;  // matter has no edges
+    options.scale_bar = options.legend = !picture.plain;
+    return options;
+}
+
 std::string length_unit(const VolumeInfo& info) {
     if (!info.geometry.unit.empty()) return info.geometry.unit;
     const bool voxels = info.geometry.coordinates[0].empty() && info.geometry.spacing == Vec3{1, 1, 1};
     return voxels ? "voxels" : "units";
 }
-
-}  // namespace
 
 Scene scene_of(const Arguments& arguments, Source& source) {
     const PictureArguments& picture = arguments.picture;

@@ -15,6 +15,7 @@ int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
+int run_animate(const Arguments& arguments, Terminal& terminal);
 int run_build(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);

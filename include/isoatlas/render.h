@@ -111,11 +111,12 @@ struct RenderOptions {
     std::int64_t width = 768, height = 768;  ///< 1 to 16384
     Projection projection = Projection::orthographic;
     Background background = Background::light;
-    int samples = 4;         ///< per pixel, 1 to 256
-    bool shading = true;     ///< false: flat colours, no light and no shadow
-    bool scale_bar = false;  ///< a bar of a round physical length; needs an orthographic camera
-    bool legend = false;     ///< names of the objects with their colours
-    double text_size = 0;    ///< height of a capital letter in pixels; 0: fits the picture
+    int samples = 4;                     ///< per pixel, 1 to 256
+    bool shading = true;                 ///< false: flat colours, no light and no shadow
+    bool scale_bar = false;              ///< a bar of a round physical length; needs an orthographic camera
+    bool legend = false;                 ///< names of the objects with their colours
+    std::vector<std::string> caption{};  ///< lines in the lower left corner
+    double text_size = 0;                ///< height of a capital letter in pixels; 0: fits the picture
 };
 
 /// The view, of a fixed set, in which most of the objects is seen and least of it is hidden: largest viewpoint entropy (Vazquez et al.,
@@ -129,6 +130,11 @@ struct RenderOptions {
 
 /// A camera that shows all of the scene with a margin. Throws Error{not_found} for an empty scene.
 [[nodiscard]] Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& options = {});
+
+/// A camera that shows all of the scene however it is turned around the axis `up` through its middle.
+[[nodiscard]] Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const RenderOptions& options = {});
+/// The view after the eye has gone around an axis, counter-clockwise seen from its tip.
+[[nodiscard]] View turned(const View& view, const Vec3& axis, double degrees);
 
 /// Where a point appears, in pixels from the upper left corner of the picture (pixel centres at .5), and its depth towards the viewer.
 [[nodiscard]] Vec3 project(const Camera& camera, const RenderOptions& options, const Vec3& point);
@@ -167,10 +173,27 @@ struct SliceOptions {
 /// Bumps around the best isovalues of the objects of a table, one colour each, outer matter thinner. range: lowest and highest sample.
 [[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range);
 
+/// A picture with nothing in it but its caption.
+[[nodiscard]] Image blank_picture(const RenderOptions& options);
+
 /// The bytes of a PNG file.
 [[nodiscard]] std::vector<std::byte> encode_png(const Image& image);
 
-/// Writes .png. Written to a temporary name and renamed. Throws Error: usage (unknown extension), resource.
+struct Animation {
+    std::vector<Image> frames;  ///< at least one, all of one size
+    double frames_per_second = 12;
+};
+
+/// The bytes of an animation that is repeated for ever. GIF: at most 65535 x 65535 pixels, 256 colours for all frames, ordered dithering.
+/// WebP: at most 16383 x 16383, quality 0..100, 100: lossless. Throws Error: usage (no frames, sizes, frames per second).
+[[nodiscard]] std::vector<std::byte> encode_apng(const Animation& animation);
+[[nodiscard]] std::vector<std::byte> encode_gif(const Animation& animation);
+[[nodiscard]] std::vector<std::byte> encode_webp(const Animation& animation, double quality = 85);
+
+/// Writes .gif, .png (APNG), .apng or .webp. Written to a temporary name and renamed. Throws Error: usage (unknown extension), resource.
+void write_animation(const std::string& path, const Animation& animation);
+
+/// Writes .png or .webp. Written to a temporary name and renamed. Throws Error: usage (unknown extension), resource.
 void write_image(const std::string& path, const Image& image);
 
 }  // namespace isoatlas

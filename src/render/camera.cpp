@@ -1,6 +1,8 @@
 // Cameras: rays through pixels, points in the picture, and a camera that shows everything.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "render/camera_rays.h"
 #include "render/scene_box.h"
@@ -71,6 +73,35 @@ Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& opt
                                    (upwards.high - upwards.low) / static_cast<double>(options.height));
     camera.height *= std::max(filled * render::kMargin, 1e-12);
     return camera;
+}
+
+Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const RenderOptions& options) {
+    const render::SceneBox box = render::box_of(scene);
+    const Vec3 axis = render::unit(up);
+    double around = 0, along = 0;
+    render::for_each_outline_point(scene, [&](const Vec3& point) {
+        const Vec3 from = render::subtract(point, box.centre());
+        const double height = render::dot(from, axis);
+        around = std::max(around, render::length(render::along(from, -height, axis)));
+        along = std::max(along, std::abs(height));
+    });
+    const double sine = std::abs(render::dot(axis, view.toward)), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
+    const double shape = static_cast<double>(options.height) / static_cast<double>(options.width);
+    Camera camera{.projection = options.projection, .target = box.centre(), .view = view};
+    camera.distance = render::kEyeDistance * box.radius();
+    camera.height = 2 * render::kMargin * std::max({along * cosine + around * sine, around * shape, 1e-12});
+    if (camera.projection == Projection::perspective) camera.height *= camera.distance / (camera.distance - around);
+    return camera;
+}
+
+View turned(const View& view, const Vec3& axis, double degrees) {
+    const Vec3 z = render::unit(axis);
+    const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
+    const auto turn = [&](const Vec3& v) {
+        return render::add(render::along(render::scale(v, cosine), sine, render::cross(z, v)),
+                           render::scale(z, render::dot(z, v) * (1 - cosine)));
+    };
+    return {turn(view.toward), turn(view.up)};
 }
 
 Vec3 project(const Camera& camera, const RenderOptions& options, const Vec3& point) {

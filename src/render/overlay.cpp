@@ -61,11 +61,20 @@ void draw_legend(const Scene& scene, const Style& style, Image& image) {
     for (const TransferBump& bump : scene.volume.bumps) entry(bump.name, bump.colour);
 }
 
+void draw_caption(const std::vector<std::string>& lines, const Style& style, Image& image) {
+    double y = static_cast<double>(image.height) - style.margin - 1.8 * style.size * static_cast<double>(lines.size() - 1);
+    for (const std::string& line : lines) {
+        draw_text(image, line, {style.margin, y}, style.size, style.ink, style.rim);
+        y += 1.8 * style.size;
+    }
+}
+
 }  // namespace
 
 void draw_overlay(const Scene& scene, const Camera& camera, const RenderOptions& options, Image& image) {
     const Style style = style_of(options);
     if (options.legend) draw_legend(scene, style, image);
+    if (!options.caption.empty()) draw_caption(options.caption, style, image);
     if (!options.scale_bar || camera.projection != Projection::orthographic) return;
     const std::string unit = !scene.unit.empty() || scene.objects.empty() ? scene.unit : scene.objects[0].surface.unit;
     draw_scale_bar(scale_bar(camera.height / static_cast<double>(options.height), options.width, unit), style, image);

@@ -75,6 +75,15 @@ private:
 }  // namespace
 }  // namespace render
 
+Image blank_picture(const RenderOptions& options) {
+    render::check_options({}, options);
+    Image image = render::developed(render::Film(options.width, options.height), options.background, 1);
+    RenderOptions words = options;
+    words.scale_bar = false;
+    render::draw_overlay({}, {}, words, image);
+    return image;
+}
+
 Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options, const Context& context) {
     render::check_options(scene, options);
     const render::SceneBox box = render::box_of(scene);

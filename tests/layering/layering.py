@@ -29,6 +29,7 @@ DOORS = {
     r"CLI/.*|fmt/.*": r"apps/.*",
     r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/io/.*|src/output/.*|src/store/contents\.cpp",
     r"libdeflate\.h": r"src/store/chunk_codec\.cpp|src/render/png\.cpp",
+    r"webp/.*": r"src/render/webp\.cpp",
     r"embree3/.*": r"src/render/ray_surfaces\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",
     r"hdf5\.h": r"src/store/hdf5_layout\.cpp",
