@@ -26,11 +26,11 @@ def schema_problems(value, schema, where="$"):
         return found
     if "minimum" in schema and value < schema["minimum"]:
         found.append(f"{where} is below {schema['minimum']}: {value!r}")
-    for name in schema.get("required", []):
+    for name in schema.get("required", []) if isinstance(value, dict) else []:
         if name not in value:
             found.append(f"{where} has no {name}")
     for name, inner in schema.get("properties", {}).items():
-        if name in value:
+        if isinstance(value, dict) and name in value:
             found += schema_problems(value[name], inner, f"{where}.{name}")
     if isinstance(value, list) and not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
         found.append(f"{where} has {len(value)} items")

@@ -1,0 +1,127 @@
+"""Pictures and animations: what is in them, how they are asked for, what goes wrong."""
+import shutil
+import struct
+import zlib
+
+from harness import CliTest, main
+
+
+def png_pixels(data):
+    """Width, height and rows of RGB or RGBA pixels of a PNG file, with nothing but zlib."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed, shape = 8, b"", None
+    while at < len(data):
+        size, name = struct.unpack(">I4s", data[at:at + 8])
+        content = data[at + 8:at + 8 + size]
+        assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(name + content)
+        if name == b"IHDR":
+            shape = struct.unpack(">IIBBBBB", content)
+        if name == b"IDAT":
+            packed += content
+        at += 12 + size
+    width, height, depth, kind = shape[:4]
+    channels = {2: 3, 6: 4}[kind]
+    assert depth == 8
+    raw, rows, above = zlib.decompress(packed), [], bytes(width * channels)
+    for y in range(height):
+        begin = y * (width * channels + 1)
+        rule, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * channels])
+        for i in range(len(row)):
+            left, up = row[i - channels] if i >= channels else 0, above[i]
+            corner = above[i - channels] if i >= channels else 0
+            p = left + up - corner
+            nearest = min((abs(p - left), 0, left), (abs(p - up), 1, up), (abs(p - corner), 2, corner))[2]
+            row[i] = (row[i] + [0, left, up, (left + up) // 2, nearest][rule]) & 255
+        rows.append([tuple(row[i:i + channels]) for i in range(0, len(row), channels)])
+        above = bytes(row)
+    return width, height, rows
+
+
+class Pictures(CliTest):
+    phantoms = {"shells.nrrd": ["nested-shells", "--size", "32", "--shells", "2"], "figure.nrrd": ["figure-plateau"]}
+    small = ["--size", "64x48", "--samples", "1"]
+
+    def picture(self, *arguments):
+        self.run_ok("render", *arguments, *self.small, "-o", "p.png", "--quiet")
+        return png_pixels((self.folder / "p.png").read_bytes())
+
+    def test_a_picture_shows_something(self):
+        width, height, rows = self.picture("shells.nrrd", "--tau", "0.5", "--plain")
+        self.assertEqual((width, height), (64, 48))
+        self.assertNotEqual(rows[24][32], rows[24][1])
+        self.assertEqual(len(rows[0][0]), 3)
+        _, _, rows = self.picture("shells.nrrd", "--tau", "0.5", "--plain", "--background", "transparent")
+        self.assertEqual(rows[0][0][3], 0)
+        self.assertEqual(rows[24][32][3], 255)
+
+    def test_colours_and_cuts(self):
+        _, _, rows = self.picture("shells.nrrd", "--tau", "0.5", "--plain", "--colour", "#FF0000", "--view", "front")
+        red, green, blue = rows[24][32]
+        self.assertGreater(red, 2 * max(green, blue, 1))
+        whole = rows
+        _, _, rows = self.picture("shells.nrrd", "--tau", "0.5", "--plain", "--colour", "#FF0000", "--view", "front", "--cut", "half")
+        self.assertNotEqual(rows, whole)
+
+    def test_document(self):
+        document = self.run_json("render", "figure.nrrd", "--tau", "60", "--tau", "30", "--slice", "z=12", "--volume", *self.small, "-o", "p.png")
+        self.assert_schema(document, "render")
+        self.assertEqual([thing["tau"] for thing in document["objects"]], [60, 30])
+        self.assertEqual(document["objects"][0]["opacity"], 1)
+        self.assertLess(document["objects"][1]["opacity"], 1)
+        self.assertEqual(document["slices"], 1)
+        self.assertTrue(document["transfer"])
+        flat = self.run_json("render", "figure.nrrd", "--slice", "z=12", "--flat", *self.small, "-o", "p.png")
+        self.assert_schema(flat, "render")
+        self.assertIsNone(flat["camera"])
+        self.assertEqual((flat["width"], flat["height"]), (48, 48))
+
+    def test_a_store_gives_the_same_picture_with_any_threads(self):
+        self.run_ok("build", "figure.nrrd", "-o", "figure.atlas")
+        pictures = []
+        for name, threads in (("figure.nrrd", 1), ("figure.nrrd", 2), ("figure.atlas", 3)):
+            self.run_ok("render", name, "--top", "2", "--slice", "y=3", *self.small, "--threads", threads, "-o", "t.png")
+            pictures.append((self.folder / "t.png").read_bytes())
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertEqual(pictures[0], pictures[2])
+
+    def test_animations(self):
+        for name, begin in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.apng", b"\x89PNG"), ("a.webp", b"RIFF")):
+            document = self.run_json("animate", "figure.nrrd", "--from", "90", "--to", "10", "--steps", "4", *self.small, "-o", name)
+            self.assert_schema(document, "animate")
+            self.assertEqual(document["frame_count"], 4)
+            self.assertTrue((self.folder / name).read_bytes().startswith(begin), name)
+        frames = document["frames"]
+        self.assertEqual([frame["tau"] for frame in frames][0], 90)
+        for frame in frames:
+            cut = self.run_json("objects", "figure.nrrd", "--tau", frame["tau"])
+            self.assertEqual(frame["objects"], cut["object_count"])
+            self.assertEqual(frame["tunnels"], sum(thing["b1"] for thing in cut["objects"]))
+            self.assertEqual(frame["cavities"], sum(thing["b2"] for thing in cut["objects"]))
+        turn = self.run_json("animate", "figure.nrrd", "--tau", "60", "--steps", "3", *self.small, "-o", "t.gif")
+        self.assertEqual((turn["frame_count"], turn["frames"]), (3, []))
+
+    def test_what_goes_wrong(self):
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.bmp", says=".bmp")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--view", "above", says="--view")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--cut", "x=3", says="--cut")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--colour", "red", says="--colour")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--up", "w", says="--up")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--size", "0x7", says="--size")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--object", "12@", says="--object")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--slice", "z=99", says="slice 99")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--flat", says="--flat")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--opacity", "0", says="--opacity")
+        self.run_error(6, "render", "figure.nrrd", "-o", "p.png", "--tau", "1000", says="above every sample")
+        self.run_error(6, "render", "figure.nrrd", "-o", "p.png", "--object", "999999", says="999999")
+        self.run_error(2, "animate", "figure.nrrd", "-o", "p.gif", "--from", "3", says="--to")
+        if shutil.which("ffmpeg") is None:
+            self.run_error(4, "animate", "figure.nrrd", "-o", "p.mp4", says="ffmpeg")
+        (self.folder / "flat.raw").write_bytes(bytes(range(64)))
+        flat = ["flat.raw", "--dims", "8x8", "--type", "uint8"]
+        self.run_error(2, "render", *flat, "--tau", "9", "-o", "p.png", says="2D")
+        self.run_error(2, "animate", *flat, "--from", "9", "--to", "3", "-o", "p.gif", says="2D")
+        self.assert_no_partial()
+
+
+if __name__ == "__main__":
+    main()
