@@ -118,9 +118,10 @@ void add_volume(const Arguments& arguments, Source& source, Scene& scene) {
     if (!arguments.picture.volume) return;
     const ValueRange range = source.range();
     const ObjectTable table = source.objects({.top = 5});
-    scene.volume = {.volume = &source.volume(),
-                    .bumps = propose_transfer(table, source.info(), {range.low, range.high}),
-                    .shadows = arguments.picture.shadows};
+    scene.volume = {
+        .volume = &source.volume(),
+        .bumps = propose_transfer(table, source.info(), {range.low, range.high}, static_cast<std::int64_t>(scene.objects.size())),
+        .shadows = arguments.picture.shadows};
     const Scale scale(source.info());
     for (TransferBump& bump : scene.volume.bumps) bump.name = "matter above " + scale.brief(bump.tau);
 }

@@ -170,8 +170,10 @@ struct SliceOptions {
 /// Throws Error: usage (axis, index, side). Cost: O(slice + pixels).
 [[nodiscard]] SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, const Context& context = {});
 
-/// Bumps around the best isovalues of the objects of a table, one colour each, outer matter thinner. range: lowest and highest sample.
-[[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range);
+/// Bumps around the best isovalues of the objects of a table, one colour each (from palette(first_colour) on), outer matter thinner. range:
+/// lowest and highest sample.
+[[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
+                                                         std::int64_t first_colour = 0);
 
 /// A picture with nothing in it but its caption.
 [[nodiscard]] Image blank_picture(const RenderOptions& options);

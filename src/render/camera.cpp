@@ -51,14 +51,17 @@ Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& opt
     const render::SceneBox box = render::box_of(scene);
     Camera camera{.projection = options.projection, .target = box.centre(), .view = view};
     camera.distance = render::kEyeDistance * box.radius();
+    const std::vector<Vec3> shown = render::shown_corners_of(scene.volume);
     render::Span across, upwards;
     const auto measure = [&] {
         const render::CameraRays rays(camera, options.width, options.height);
         across = {}, upwards = {};
-        render::for_each_outline_point(scene, [&](const Vec3& point) {
+        const auto take = [&](const Vec3& point) {
             const Vec3 p = rays.project(point);
             across.take(p[0]), upwards.take(p[1]);
-        });
+        };
+        render::for_each_outline_point(scene, take);
+        for (const Vec3& corner : shown) take(corner);
         return rays;
     };
     // Centred on what is seen; a perspective picture shifts a little when its target moves, so twice.
@@ -79,12 +82,14 @@ Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const
     const render::SceneBox box = render::box_of(scene);
     const Vec3 axis = render::unit(up);
     double around = 0, along = 0;
-    render::for_each_outline_point(scene, [&](const Vec3& point) {
+    const auto take = [&](const Vec3& point) {
         const Vec3 from = render::subtract(point, box.centre());
         const double height = render::dot(from, axis);
         around = std::max(around, render::length(render::along(from, -height, axis)));
         along = std::max(along, std::abs(height));
-    });
+    };
+    render::for_each_outline_point(scene, take);
+    for (const Vec3& corner : render::shown_corners_of(scene.volume)) take(corner);
     const double sine = std::abs(render::dot(axis, view.toward)), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
     const double shape = static_cast<double>(options.height) / static_cast<double>(options.width);
     Camera camera{.projection = options.projection, .target = box.centre(), .view = view};

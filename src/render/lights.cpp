@@ -7,8 +7,13 @@ namespace isoatlas::render {
 namespace {
 
 constexpr double kKey = 0.78, kSky = 0.36, kGround = 0.20, kEye = 0.12, kHighlight = 0.10;
-constexpr double kShine = 48;       // exponent of the highlight
 constexpr double kKeyRadius = 0.1;  // tangent of half the angle under which the key light is seen
+
+/// The cosine to the power of 48, which shapes the highlight.
+double shine_of(double cosine) {
+    const double c = std::max(0.0, cosine), c2 = c * c, c4 = c2 * c2, c16 = c4 * c4 * c4 * c4;
+    return c16 * c16 * c16;
+}
 
 }  // namespace
 
@@ -23,14 +28,14 @@ Shade Lights::shade(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) 
     const double height = 0.5 + 0.5 * dot(normal, up_);
     const double ambient = kGround + (kSky - kGround) * height + kEye * std::max(0.0, dot(normal, to_eye));
     const double facing = std::max(0.0, dot(normal, key_));
-    const double shine = std::pow(std::max(0.0, dot(normal, unit(add(key_, to_eye)))), kShine);
+    const double shine = shine_of(dot(normal, unit(add(key_, to_eye))));
     const double highlight = facing > 0 ? kHighlight * shine : 0;
     return {scale(albedo, ambient), add(scale(albedo, kKey * facing), {highlight, highlight, highlight})};
 }
 
 Vec3 Lights::shade_sheet(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
     const double facing = std::abs(dot(normal, key_));
-    const double shine = std::pow(std::max(0.0, dot(normal, unit(add(key_, to_eye)))), kShine);
+    const double shine = shine_of(dot(normal, unit(add(key_, to_eye))));
     const double highlight = 3 * kHighlight * shine;
     return add(scale(albedo, kSky + kEye + 0.7 * kKey * facing), {highlight, highlight, highlight});
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kBlock = 8;   // samples along a side of a block that is leapt over when nothing in it is visible
 constexpr double kEnough = 0.996;    // opacity behind which nothing is seen
-constexpr double kLeast = 1e-4;      // opacity of a step that is worth a gradient
+constexpr double kLeast = 5e-4;      // opacity of a step that is worth a gradient
 constexpr std::int64_t kShadow = 4;  // samples between two points of the grid of shadows
 
 template <class T>
@@ -121,8 +121,7 @@ Vec3 Medium::shaded(const Matter& matter, const Vec3& voxel, const Ray& ray) con
     return along(shade.ambient, lit(point), shade.key);
 }
 
-/// How far the ray goes on in an invisible block; 0: the block is visible.
-double Medium::leap(const Vec3& voxel, const Vec3& way) const {
+Medium::BlockAhead Medium::block_ahead(const Vec3& voxel, const Vec3& way) const {
     std::int64_t index = 0;
     double exit = INFINITY;
     for (int a = 2; a >= 0; --a) {
@@ -133,7 +132,7 @@ double Medium::leap(const Vec3& voxel, const Vec3& way) const {
         const auto end = static_cast<double>(kBlock * (way[a] > 0 ? block + 1 : block));
         exit = std::min(exit, std::max(0.0, (end - voxel[a]) / way[a]));
     }
-    return blocks_.visible[index] != 0 ? 0 : exit;
+    return {blocks_.visible[index] != 0, exit};
 }
 
 void Medium::march(const Ray& ray, double begin, double end, double shift, Gathered& gathered) const {
@@ -143,24 +142,23 @@ void Medium::march(const Ray& ray, double begin, double end, double shift, Gathe
     const Gap inside = inside_box(origin, way, {0, 0, 0}, high);
     begin = std::max(begin, inside.begin), end = std::min(end, inside.end);
     // Steps end at whole numbers of steps along the ray, plus the shift: the same ones however a ray is cut into pieces.
-    double t = begin;
-    double value = 0;
+    double t = begin, known_until = begin, value = 0;
     bool known = false;
     while (t < end && gathered.opacity < kEnough) {
-        const Vec3 voxel = along(origin, t, way);
-        double next = (std::floor(t / step_ - shift + 1e-9) + 1 + shift) * step_;
-        if (const double skip = leap(along(voxel, 1e-7 * step_, way), way); skip > 0) {
-            t = std::min(end, std::max(t + skip, t + 1e-3 * step_));
-            known = false;
-            continue;
+        if (t >= known_until) {
+            const BlockAhead block = block_ahead(along(origin, t + 1e-7 * step_, way), way);
+            known_until = t + std::max(block.length, 1e-3 * step_);
+            if (!block.visible) {
+                t = known_until, known = false;
+                continue;
+            }
         }
-        next = std::min(next, end);
-        if (!known) value = value_at(voxel);
+        const double next = std::min(end, (std::floor(t / step_ - shift + 1e-9) + 1 + shift) * step_);
+        if (!known) value = value_at(along(origin, t, way));
         const double value_next = value_at(along(origin, next, way));
         const Matter matter = transfer_.mean(value, value_next);
-        const double opacity = 1 - std::exp(-matter.extinction * (next - t));
-        if (opacity > 0) {
-            const double weight = (1 - gathered.opacity) * opacity;
+        if (matter.extinction > 0) {
+            const double weight = (1 - gathered.opacity) * (1 - std::exp(-matter.extinction * (next - t)));
             const Vec3 middle = along(origin, (t + next) / 2, way);
             const Vec3 light = weight > kLeast ? shaded(matter, middle, ray) : scale(matter.glow, 1 / matter.extinction);
             gathered.light = along(gathered.light, weight, light);
@@ -204,7 +202,8 @@ void Medium::find_shadows(const RaySurfaces& solid, int threads) {
     for_each_block(threads, layer * shadow_count_[2] / shadow_count_[0], [&](std::int64_t row) {
         for (std::int64_t x = 0; x < shadow_count_[0]; ++x) {
             const std::int64_t i = row * shadow_count_[0] + x;
-            Vec3 voxel{static_cast<double>(x), static_cast<double>(row % shadow_count_[1]), static_cast<double>(row / shadow_count_[1])};
+            const std::int64_t y = row % shadow_count_[1], z = row / shadow_count_[1];
+            Vec3 voxel{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
             for (int a = 0; a < 3; ++a) voxel[a] = std::min(voxel[a] * kShadow, static_cast<double>(extent.size[a] - 1));
             const Vec3 point = scale(subtract(to_physical(volume_->info.geometry, voxel), frame_.centre), 1 / frame_.radius);
             const Ray ray{point, lights->to_key({0, 0})};

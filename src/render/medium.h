@@ -30,6 +30,11 @@ public:
     [[nodiscard]] double lit(const Vec3& point) const;
 
 private:
+    /// The block at a place: is anything in it visible, and how far does a ray go on in it?
+    struct BlockAhead {
+        bool visible;
+        double length;
+    };
     struct Blocks {
         std::array<std::int64_t, 3> count{};
         std::vector<std::uint8_t> visible;
@@ -39,7 +44,7 @@ private:
     [[nodiscard]] double value_at(const Vec3& voxel) const { return value_at_(*volume_, voxel); }
     [[nodiscard]] Vec3 slope_at(const Vec3& voxel) const;  ///< towards lower values, in the frame, unit length or zero
     [[nodiscard]] Vec3 shaded(const Matter& matter, const Vec3& voxel, const Ray& ray) const;
-    [[nodiscard]] double leap(const Vec3& voxel, const Vec3& way) const;
+    [[nodiscard]] BlockAhead block_ahead(const Vec3& voxel, const Vec3& way) const;
     void find_visible_blocks(int threads);
     void find_shadows(const RaySurfaces& solid, int threads);
 

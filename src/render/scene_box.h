@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "isoatlas/render.h"
 #include "render/vectors.h"
@@ -24,7 +25,12 @@ private:
     static constexpr double kFar = std::numeric_limits<double>::infinity();
 };
 
-/// Calls function(point) with points whose convex hull contains everything in the scene.
+/// Corners of the whole volume; none without a volume.
+std::vector<Vec3> corners_of(const SceneVolume& volume);
+/// Corners of the box around the samples that the transfer function shows; of the whole volume when it shows nothing. Cost: O(volume).
+std::vector<Vec3> shown_corners_of(const SceneVolume& volume);
+
+/// Calls function(point) with points whose convex hull contains everything in the scene but its volume.
 template <class Function>
 void for_each_outline_point(const Scene& scene, const Function& function) {
     for (const SceneObject& object : scene.objects) {
@@ -33,15 +39,9 @@ void for_each_outline_point(const Scene& scene, const Function& function) {
     for (const SceneSlice& slice : scene.slices) {
         for (int i = 0; i < 4; ++i) function(along(along(slice.corner, i & 1, slice.across), i >> 1, slice.down));
     }
-    if (scene.volume.volume == nullptr) return;
-    const VolumeInfo& info = scene.volume.volume->info;
-    for (int i = 0; i < 8; ++i) {
-        Vec3 corner{};
-        for (int a = 0; a < 3; ++a) corner[a] = (i >> a & 1) != 0 ? static_cast<double>(info.extent.size[a] - 1) : 0;
-        function(to_physical(info.geometry, corner));
-    }
 }
 
+/// Around everything, all of the volume included.
 /// Throws Error{not_found} for an empty scene.
 SceneBox box_of(const Scene& scene);
 

@@ -96,7 +96,8 @@ std::vector<Best> best_isovalues(const ObjectTable& table, const VolumeInfo& inf
 
 }  // namespace
 
-std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range) {
+std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
+                                           std::int64_t first_colour) {
     const double width = kWidth * (range[1] - range[0]);
     const std::vector<Best> best = best_isovalues(table, info, range[1] - range[0]);
     const double voxel = std::min({info.geometry.spacing[0], info.geometry.spacing[1], info.geometry.spacing[2]});
@@ -108,7 +109,7 @@ std::vector<TransferBump> propose_transfer(const ObjectTable& table, const Volum
         const double high = last ? std::max(narrow, range[1] + 0.3 * width) : std::min(narrow, best[i + 1].tau);
         bumps.push_back({.low = low,
                          .high = high,
-                         .colour = palette(best[i].rank),
+                         .colour = palette(first_colour + best[i].rank),
                          .density = kThinnest * std::pow(kDensest / kThinnest, part) / voxel,
                          .ramp = 0.3 * width / (high - low) < 0.5 ? 0.3 * width / (high - low) : 0.5,
                          .tau = best[i].tau});
