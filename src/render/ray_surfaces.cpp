@@ -11,6 +11,11 @@
 namespace isoatlas::render {
 namespace {
 
+#ifdef __SANITIZE_THREAD__
+constexpr const char* kDevice = "threads=1";  // the sanitizer does not see how Embree's threads wait for each other
+#else
+constexpr const char* kDevice = "";
+#endif
 constexpr double kTouching = 1e-5;  // of the scene's radius: crossings so close are at one place
 
 [[noreturn]] void fail(RTCError code) {
@@ -57,7 +62,7 @@ struct RaySurfaces::Data {
     const Scene* drawn = nullptr;
     const std::vector<HalfSpace>* removed = nullptr;
 
-    Data() : device(rtcNewDevice("")) {
+    Data() : device(rtcNewDevice(kDevice)) {
         if (device == nullptr) fail(rtcGetDeviceError(nullptr));
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
