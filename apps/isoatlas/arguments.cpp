@@ -92,6 +92,13 @@ void add_gaussian(CLI::App& app, Typed& typed) {
         ->type_name("SIGMA");
 }
 
+void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_gaussian(app, typed);
+    app.add_option("--memory", typed.memory, "Use at most this much memory, such as 1G or 500M; default: half of what there is")
+        ->type_name("SIZE");
+    app.add_flag("--restart", arguments.restart, "Forget what an earlier build has left");
+}
+
 /// What is made of a volume before anything else.
 void add_shape(CLI::App& app, Typed& typed) {
     add_gaussian(app, typed);
@@ -165,12 +172,13 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "build") {
-        add_gaussian(app, typed);
         add_output(app, arguments, ".atlas", true);
-        app.add_option("--memory", typed.memory, "Use at most this much memory, such as 1G or 500M; default: half of what there is")
-            ->type_name("SIZE");
+        add_build(app, arguments, typed);
         app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
-        app.add_flag("--restart", arguments.restart, "Forget the finished phases of an interrupted build");
+    } else if (verb == "atlas") {
+        app.add_option("--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
+        add_output(app, arguments, ".html", false);
+        add_build(app, arguments, typed);
     } else if (verb == "table131") {
         add_shape(app, typed);
     } else if (verb == "convert") {
@@ -302,10 +310,6 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
 [[noreturn]] void unknown_verb(const std::string& word) {
     std::vector<std::string> names{"help"};
     for (const Verb& verb : verbs()) names.push_back(verb.name);
-    std::error_code ignored;
-    if (std::filesystem::exists(word, ignored)) {
-        usage("\"" + word + "\" is a file, not a verb", "isoatlas objects " + word + ", or isoatlas --help");
-    }
     const std::string near = nearest(word, names);
     usage("there is no verb \"" + word + "\"", near.empty() ? "isoatlas --help" : "did you mean `isoatlas " + near + "`?", list_of(names));
 }
@@ -355,7 +359,12 @@ Parsed parse_help(const std::vector<std::string>& words) {
 
 Parsed parse(const std::vector<std::string>& given) {
     std::vector<std::string> words = join_numbers(given);
-    const std::string name = take_verb(words);
+    std::string name = take_verb(words);
+    std::error_code ignored;
+    if (find_verb(name) == nullptr && name != "help" && std::filesystem::exists(name, ignored)) {  // isoatlas FILE
+        words.insert(words.begin(), name);
+        name = "atlas";
+    }
     if (name.empty()) return parse_without_verb(words);
     if (name == "help") return parse_help(words);
     const Verb* verb = find_verb(name);

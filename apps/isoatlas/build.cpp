@@ -113,6 +113,20 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
 
 }  // namespace
 
+BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader) {
+    BuildReport report;
+    {
+        Session session(arguments, terminal);
+        const WritingGuard guard(arguments.output,
+                                 "stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
+        report = build_atlas(arguments.output, reader, options_of(arguments, reader.info()), session.context());
+    }
+    for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
+    for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
+    if (!report.left_behind.empty()) terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
+    return report;
+}
+
 int run_build(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".atlas"});
     if (is_atlas(arguments.file)) {
@@ -120,19 +134,8 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
                     {.file = arguments.file, .what = "is a store already", .expected = "a volume", .next = "name the volume file"});
     }
     const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
-    const BuildOptions options = options_of(arguments, reader->info());
-    if (arguments.dry_run) return dry_run(arguments, terminal, *reader, options);
-    BuildReport report;
-    {
-        Session session(arguments, terminal);
-        const WritingGuard guard(arguments.output,
-                                 "stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
-        report = build_atlas(arguments.output, *reader, options, session.context());
-    }
-    for (const std::string& note : reader->info().notes) terminal.say("note: " + note);
-    for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
-    if (!report.left_behind.empty())
-        terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
+    if (arguments.dry_run) return dry_run(arguments, terminal, *reader, options_of(arguments, reader->info()));
+    const BuildReport report = build_store(arguments, terminal, *reader);
     print_report(arguments, terminal, reader->info(), report);
     return 0;
 }

@@ -6,6 +6,11 @@ namespace isoatlas::cli {
 
 const std::vector<Verb>& verbs() {
     static const std::vector<Verb> list{
+        {"atlas",
+         "VOLUME",
+         "Show what is in a volume: a page with a picture of every object that matters. `isoatlas FILE` does the same.",
+         {"isoatlas scan.nii.gz", "isoatlas atlas scan.nii.gz -o scan.html --top 10", "isoatlas scan.atlas --json"},
+         run_atlas},
         {"info",
          "VOLUME",
          "Say what a file is and what an analysis would cost.",
@@ -104,6 +109,7 @@ std::string greeting() {
     return "isoatlas " ISOATLAS_VERSION
            ": which objects are in a volume, and at which isovalues?\n"
            "\n"
+           "  isoatlas scan.nii.gz                                  a page that shows them\n"
            "  isoatlas objects scan.nii.gz                          list them\n"
            "  isoatlas extract scan.nii.gz --tau 300 -o bone.ply    write a watertight surface\n"
            "  isoatlas phantom --list                               no data at hand? make some\n"

@@ -10,12 +10,15 @@ namespace isoatlas::cli {
 
 class Terminal;
 
+int run_atlas(const Arguments& arguments, Terminal& terminal);
 int run_info(const Arguments& arguments, Terminal& terminal);
 int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
+/// Builds arguments.output and says what there is to say about it.
+BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader);
 int run_build(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);

@@ -29,6 +29,7 @@
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"
+#include "isoatlas/page.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/render.h"
 #include "isoatlas/search_table.h"

@@ -10,7 +10,7 @@ export function turntable(picture: Picture, label: string): HTMLElement {
     tabindex: picture.frames > 1 ? 0 : undefined,
     style: `aspect-ratio: ${picture.width} / ${picture.height}`,
   });
-  const strip = html("img", { src: picture.image, alt: "", draggable: "false", loading: "lazy", decoding: "async" });
+  const strip = html("img", { src: picture.image, alt: "", draggable: "false" });
   strip.style.width = `${picture.frames * 100}%`;
   view.append(strip);
   let frame = 0;

@@ -1,0 +1,72 @@
+// isoatlas FILE: from a volume to the page that shows what is in it. Builds the store beside it when there is none.
+#include <filesystem>
+
+#include "document.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "session.h"
+#include "terminal.h"
+#include "values.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// scan.nii.gz, scan.nrrd and scan.atlas all give scan.
+std::string stem_of(const std::string& file) {
+    fs::path path(file);
+    if (path.filename().empty()) path = path.parent_path();  // a folder
+    std::string name = path.filename().string();
+    for (const char* suffix : {".gz", ".nii", ".atlas"}) {
+        if (name.ends_with(suffix)) name.resize(name.size() - std::string_view(suffix).size());
+    }
+    if (name == path.filename().string()) name = path.stem().string();
+    return name;
+}
+
+/// The store is of this file as it is now: newer than it.
+bool is_fresh(const std::string& store, const std::string& file) {
+    std::error_code error;
+    return is_atlas(store) && !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) && !error;
+}
+
+}  // namespace
+
+int run_atlas(const Arguments& arguments, Terminal& terminal) {
+    if (!arguments.output.empty()) check_output(arguments, {".html"});
+    const std::string page = arguments.output.empty() ? stem_of(arguments.file) + ".atlas.html" : arguments.output;
+    std::string store = arguments.file;
+    if (!is_atlas(arguments.file)) {
+        store = stem_of(arguments.file) + ".atlas";
+        if (is_fresh(store, arguments.file) && !arguments.restart) {
+            terminal.say("note: " + store + " is there already; --restart builds it anew");
+        } else {
+            Arguments build = arguments;
+            build.output = store;
+            build_store(build, terminal, *open_volume(arguments.file, arguments.open));
+        }
+    }
+    const Atlas atlas(store);
+    PageReport report;
+    {
+        Session session(arguments, terminal);
+        const WritingGuard guard(page);
+        report = write_page(page, atlas, {.top = arguments.top > 0 ? arguments.top : 24, .source = store}, session.context());
+    }
+    if (arguments.json) {
+        Json json = document("atlas", atlas.info(), atlas.interpolant(), atlas.tunnel_height());
+        json["store"] = store;
+        json["output"] = page;
+        json["bytes"] = report.bytes;
+        json["shown"] = report.objects;
+        print(terminal, json);
+        return 0;
+    }
+    terminal.out() << page << ": " << counted(report.objects, "object") << ", " << bytes_text(static_cast<double>(report.bytes)) << '\n';
+    terminal.next("open " + page + " in a browser");
+    return 0;
+}
+
+}  // namespace isoatlas::cli

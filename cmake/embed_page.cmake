@@ -1,0 +1,22 @@
+# Writes OUTPUT, a source file with the bytes of PAGE; none: an empty page.
+set(bytes "")
+if(PAGE)
+  file(READ ${PAGE} hexadecimal HEX)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${hexadecimal}")
+  string(REGEX REPLACE "(................................................................................................................)" "\\1\n    " bytes "${bytes}")
+endif()
+file(WRITE ${OUTPUT} "// Made from web/.
+#include \"page/template.h\"
+
+namespace isoatlas::page {
+namespace {
+
+const char kPage[] = {
+    ${bytes}'\\0'};
+
+}  // namespace
+
+std::string_view page_template() { return {kPage, sizeof kPage - 1}; }
+
+}  // namespace isoatlas::page
+")

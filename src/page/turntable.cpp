@@ -1,0 +1,67 @@
+#include "page/turntable.h"
+
+#include <webp/encode.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "base/check.h"
+#include "page/base64.h"
+
+namespace isoatlas::page {
+namespace {
+
+constexpr float kQuality = 80;
+
+Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {  // Rodrigues
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double along = (v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2]) * (1 - c);
+    const Vec3 across{axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]};
+    Vec3 result{};
+    for (int a = 0; a < 3; ++a) result[a] = v[a] * c + across[a] * s + axis[a] * along;
+    return result;
+}
+
+std::string webp_uri(const Image& image) {
+    std::uint8_t* bytes = nullptr;
+    const std::size_t size = WebPEncodeRGBA(image.rgba.data(), static_cast<int>(image.width), static_cast<int>(image.height),
+                                            static_cast<int>(4 * image.width), kQuality, &bytes);
+    const std::unique_ptr<std::uint8_t, void (*)(void*)> owner(bytes, WebPFree);
+    ISOATLAS_CHECK(size > 0);
+    return "data:image/webp;base64," + base64(std::as_bytes(std::span(bytes, size)));
+}
+
+void put_frame(const Image& frame, std::int64_t i, Image& strip) {
+    for (std::int64_t y = 0; y < frame.height; ++y)
+        std::copy_n(frame.at(0, y), 4 * frame.width, strip.at(i * frame.width, y));
+}
+
+}  // namespace
+
+Turntable draw_turntable(Surface surface, const Colour& colour, const PageOptions& options, const Context& context) {
+    Turntable result;
+    if (surface.triangles.empty()) return result;
+    Scene scene;
+    scene.objects.push_back({.surface = std::move(surface), .colour = colour});
+    const RenderOptions picture{.width = options.picture_size, .height = options.picture_size, .background = Background::transparent, .samples = 3};
+    const View best = best_view(scene, {0, 0, 1}, context);
+    std::vector<Camera> cameras;
+    for (std::int64_t i = 0; i < options.frames; ++i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(options.frames);
+        cameras.push_back(fit_camera(scene, {turned(best.toward, best.up, angle), best.up}, picture));
+    }
+    const Camera& widest = *std::max_element(cameras.begin(), cameras.end(), [](const Camera& p, const Camera& q) { return p.height < q.height; });
+    Image strip(options.frames * options.picture_size, options.picture_size);
+    const double height = widest.height;
+    for (std::int64_t i = 0; i < options.frames; ++i) {
+        cameras[i].height = height;
+        put_frame(render_scene(scene, cameras[i], picture, context), i, strip);
+    }
+    return {webp_uri(strip), options.frames, options.picture_size};
+}
+
+}  // namespace isoatlas::page

@@ -1,0 +1,19 @@
+// An object seen from all around, as one picture.
+#pragma once
+
+#include <string>
+
+#include "isoatlas/page.h"
+#include "isoatlas/render.h"
+
+namespace isoatlas::page {
+
+struct Turntable {
+    std::string image;  ///< a data: URI of a WebP picture, frames from left to right; empty: there is nothing to draw
+    std::int64_t frames = 0, side = 0;
+};
+
+/// The first frame is the best view; the others turn around what is upwards.
+[[nodiscard]] Turntable draw_turntable(Surface surface, const Colour& colour, const PageOptions& options, const Context& context);
+
+}  // namespace isoatlas::page
