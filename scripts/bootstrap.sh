@@ -20,7 +20,9 @@ demo|libhdf5-dev|stores
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
 demo|libembree-dev|ray tracing of pictures
-demo|libwebp-dev|WebP animations
+demo|libwebp-dev|WebP pictures
+demo|nodejs|bundles the page
+demo|npm|bundles the page
 demo|libcli11-dev|command line
 demo|libfmt-dev|text output of the command line
 demo|nlohmann-json3-dev|JSON output of the command line

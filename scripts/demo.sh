@@ -29,6 +29,9 @@ if [[ -z $volume ]]; then
     "$isoatlas" phantom demo -o "$volume"
 fi
 
+say "what is in $volume? A page shows it"
+"$isoatlas" "$volume" "${options[@]}" -o "$out/demo.atlas.html" --restart
+
 say "what is in $volume?"
 "$isoatlas" objects "$volume" "${options[@]}"
 "$isoatlas" objects "$volume" "${options[@]}" --top "$surfaces" --json --quiet >"$out/objects.json"

@@ -26,10 +26,17 @@ std::string stem_of(const std::string& file) {
     return name;
 }
 
+/// scan.atlas.html and scan.html stand beside scan.atlas.
+std::string store_beside(const std::string& page) {
+    std::string store = page.substr(0, page.size() - std::string_view(".html").size());
+    return store.ends_with(".atlas") ? store : store + ".atlas";
+}
+
 /// The store is of this file as it is now: newer than it.
 bool is_fresh(const std::string& store, const std::string& file) {
     std::error_code error;
-    return is_atlas(store) && !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) && !error;
+    return is_atlas(store) && !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) &&
+           !error;
 }
 
 }  // namespace
@@ -39,7 +46,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
     const std::string page = arguments.output.empty() ? stem_of(arguments.file) + ".atlas.html" : arguments.output;
     std::string store = arguments.file;
     if (!is_atlas(arguments.file)) {
-        store = stem_of(arguments.file) + ".atlas";
+        store = store_beside(page);
         if (is_fresh(store, arguments.file) && !arguments.restart) {
             terminal.say("note: " + store + " is there already; --restart builds it anew");
         } else {

@@ -123,7 +123,8 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
     }
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
-    if (!report.left_behind.empty()) terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
+    if (!report.left_behind.empty())
+        terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
     return report;
 }
 

@@ -9,10 +9,10 @@
 namespace isoatlas {
 
 struct PageOptions {
-    std::int64_t top = 24;           ///< at most so many objects
-    std::int64_t picture_size = 256; ///< pixels of a side, 32 to 1024
-    std::int64_t frames = 12;        ///< of a turntable, 1 to 64
-    std::string source{};            ///< what commands on the page name: the volume or the store; empty: the store
+    std::int64_t top = 24;            ///< at most so many objects
+    std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
+    std::int64_t frames = 12;         ///< of a turntable, 1 to 64
+    std::string source{};             ///< what commands on the page name: the volume or the store; empty: the store
 };
 
 struct PageReport {

@@ -49,7 +49,9 @@ std::string web_colour(const Colour& colour) {
 
 /// For a shell.
 std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+@%") == std::string::npos;
+    const bool plain =
+        !word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+@%") == std::string::npos;
     if (plain) return word;
     std::string text = "'";
     for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
@@ -152,7 +154,10 @@ private:
         json.begin_object().key("id").value(entry.id).key("side").value("bright").key("appears").value(scale_.reported(entry.appears));
         json.key("merges").value(scale_.reported(entry.merges));  // null: never
         json.key("best").value(scale_.reported(entry.best_tau));
-        json.key("low").value(scale_.reported(std::max(entry.tau_low, atlas_.range()[0]))).key("high").value(scale_.reported(entry.tau_high));
+        json.key("low")
+            .value(scale_.reported(std::max(entry.tau_low, atlas_.range()[0])))
+            .key("high")
+            .value(scale_.reported(entry.tau_high));
         json.key("voxels").value(entry.voxels).key("measure").value(entry.measure);
         json.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
         json.key("hypervolume").value(entry.hypervolume).key("inside").value(entry.inside).key("into").value(into_[i]);
@@ -169,8 +174,10 @@ private:
         const std::string object = " --object " + std::to_string(entry.id), tau = " --tau " + number_text(scale_.reported(entry.best_tau));
         const std::string name = "object-" + std::to_string(i + 1);
         put_command(json, "surface", "isoatlas extract " + source_ + object + tau + " -o " + name + ".ply");
-        put_command(json, "labels", "isoatlas label " + source_ + object + tau + " -o " + name + ".nrrd");
-        put_command(json, "picture", "isoatlas render " + source_ + " --object " + std::to_string(entry.id) + "@" + number_text(scale_.reported(entry.best_tau)) + " -o " + name + ".png");
+        put_command(json, "labels of all objects there", "isoatlas label " + source_ + tau + " -o " + name + ".nrrd");
+        put_command(json, "picture",
+                    "isoatlas render " + source_ + " --object " + std::to_string(entry.id) + "@" +
+                        number_text(scale_.reported(entry.best_tau)) + " -o " + name + ".png");
         json.end_array().end_object();
     }
     static void put_command(JsonStream& json, const char* name, const std::string& line) {
@@ -203,6 +210,7 @@ void check(const PageOptions& options) {
     const auto refuse = [](const char* what, const char* expected) { throw Error(ErrorKind::usage, {.what = what, .expected = expected}); };
     if (options.picture_size < 32 || options.picture_size > 1024) refuse("the size of the pictures is out of range", "32 to 1024");
     if (options.frames < 1 || options.frames > 64) refuse("the number of frames is out of range", "1 to 64");
+    if (options.frames * options.picture_size > 16383) refuse("a turntable is too wide", "frames times size at most 16383");
     if (options.top < 1) refuse("the number of objects is out of range", "1 or more");
 }
 
@@ -211,8 +219,8 @@ void check(const PageOptions& options) {
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options, const Context& context) {
     check(options);
     if (page::page_template().empty()) {
-        throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages",
-                                             .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
+        throw Error(ErrorKind::unsupported,
+                    {.what = "this isoatlas was built without pages", .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
     }
     std::string json;
     PageWriter writer(atlas, options, context);

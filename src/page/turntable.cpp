@@ -1,21 +1,17 @@
 #include "page/turntable.h"
 
-#include <webp/encode.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "base/check.h"
 #include "page/base64.h"
 
 namespace isoatlas::page {
 namespace {
 
-constexpr float kQuality = 80;
+constexpr double kQuality = 80;
 
 Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {  // Rodrigues
     const double c = std::cos(angle), s = std::sin(angle);
@@ -26,18 +22,14 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {  // Rodrigues
     return result;
 }
 
-std::string webp_uri(const Image& image) {
-    std::uint8_t* bytes = nullptr;
-    const std::size_t size = WebPEncodeRGBA(image.rgba.data(), static_cast<int>(image.width), static_cast<int>(image.height),
-                                            static_cast<int>(4 * image.width), kQuality, &bytes);
-    const std::unique_ptr<std::uint8_t, void (*)(void*)> owner(bytes, WebPFree);
-    ISOATLAS_CHECK(size > 0);
-    return "data:image/webp;base64," + base64(std::as_bytes(std::span(bytes, size)));
+std::string webp_uri(Image image) {
+    Animation still;
+    still.frames.push_back(std::move(image));
+    return "data:image/webp;base64," + base64(encode_webp(still, kQuality));
 }
 
 void put_frame(const Image& frame, std::int64_t i, Image& strip) {
-    for (std::int64_t y = 0; y < frame.height; ++y)
-        std::copy_n(frame.at(0, y), 4 * frame.width, strip.at(i * frame.width, y));
+    for (std::int64_t y = 0; y < frame.height; ++y) std::copy_n(frame.at(0, y), 4 * frame.width, strip.at(i * frame.width, y));
 }
 
 }  // namespace
@@ -47,21 +39,23 @@ Turntable draw_turntable(Surface surface, const Colour& colour, const PageOption
     if (surface.triangles.empty()) return result;
     Scene scene;
     scene.objects.push_back({.surface = std::move(surface), .colour = colour});
-    const RenderOptions picture{.width = options.picture_size, .height = options.picture_size, .background = Background::transparent, .samples = 3};
+    const RenderOptions picture{
+        .width = options.picture_size, .height = options.picture_size, .background = Background::transparent, .samples = 3};
     const View best = best_view(scene, {0, 0, 1}, context);
     std::vector<Camera> cameras;
     for (std::int64_t i = 0; i < options.frames; ++i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(options.frames);
         cameras.push_back(fit_camera(scene, {turned(best.toward, best.up, angle), best.up}, picture));
     }
-    const Camera& widest = *std::max_element(cameras.begin(), cameras.end(), [](const Camera& p, const Camera& q) { return p.height < q.height; });
+    const Camera& widest =
+        *std::max_element(cameras.begin(), cameras.end(), [](const Camera& p, const Camera& q) { return p.height < q.height; });
     Image strip(options.frames * options.picture_size, options.picture_size);
     const double height = widest.height;
     for (std::int64_t i = 0; i < options.frames; ++i) {
         cameras[i].height = height;
         put_frame(render_scene(scene, cameras[i], picture, context), i, strip);
     }
-    return {webp_uri(strip), options.frames, options.picture_size};
+    return {webp_uri(std::move(strip)), options.frames, options.picture_size};
 }
 
 }  // namespace isoatlas::page

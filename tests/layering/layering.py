@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "atlas", "output", "render", "phantom", "verify"]
+STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "atlas", "output", "render", "page", "phantom", "verify"]
 MAX_LINES = 400
 
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
