@@ -130,6 +130,11 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
             ->type_name("SIZE");
         app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
         app.add_flag("--restart", arguments.restart, "Forget the finished phases of an interrupted build");
+    } else if (verb == "spectrum") {
+        app.add_option("--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
+            ->check(in_range(std::int64_t{0}, std::int64_t{100000}))
+            ->type_name("N");
+        add_output(app, arguments, ".csv .svg .json", false);
     } else if (verb == "table131") {
         add_shape(app, typed);
     } else if (verb == "convert") {

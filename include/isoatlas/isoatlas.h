@@ -30,6 +30,7 @@
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/search_table.h"
+#include "isoatlas/spectrum.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
 #include "isoatlas/volume.h"

@@ -201,6 +201,7 @@ private:
         entry.tau_low = root ? -std::numeric_limits<double>::infinity() : value_of(arrays_.tree.parent[row.event]);
         entry.tau_high = value_of(row.event);
         entry.inside = closest_around(row, rows);
+        entry.branch_top = branches_.branch[row.branch].top;
         entry.outline = row.outline;
         entry.trunk = row.branch == 0;
         return entry;

@@ -5,7 +5,7 @@ import subprocess
 
 from harness import CLI, CliTest, main
 
-VERBS = ["info", "objects", "extract", "tree", "label", "build", "convert", "table131", "dump", "phantom", "verify", "completion"]
+VERBS = ["info", "objects", "extract", "tree", "label", "build", "convert", "spectrum", "table131", "dump", "phantom", "verify", "completion"]
 
 
 class Help(CliTest):
