@@ -109,6 +109,9 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
             ->check(in_range(std::int64_t{1}, std::int64_t{1} << 40))
             ->type_name("N");
         app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
+        CLI::Option* dark =
+            app.add_flag("--dark", arguments.dark, "Dark objects instead: cavities, and what is darker than its surroundings");
+        app.add_flag("--both", arguments.both, "Bright and dark objects")->excludes(dark);
     } else if (verb == "extract") {
         add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
         app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
@@ -121,6 +124,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
     } else if (verb == "label") {
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
+        app.add_flag("--dark", arguments.dark, "With --tau: label the cavities instead, 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "build") {

@@ -22,6 +22,7 @@
 #include "isoatlas/build.h"
 #include "isoatlas/context.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/dark_objects.h"
 #include "isoatlas/dump.h"
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
