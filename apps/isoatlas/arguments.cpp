@@ -150,6 +150,9 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
             ->check(in_range(std::int64_t{1}, std::int64_t{1} << 40))
             ->type_name("N");
         app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
+        CLI::Option* dark =
+            app.add_flag("--dark", arguments.dark, "Dark objects instead: cavities, and what is darker than its surroundings");
+        app.add_flag("--both", arguments.both, "Bright and dark objects")->excludes(dark);
     } else if (verb == "extract") {
         add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
         app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
@@ -169,6 +172,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".gif .webp .png .apng .mp4", true);
     } else if (verb == "label") {
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
+        app.add_flag("--dark", arguments.dark, "With --tau: label the cavities instead, 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "build") {
@@ -179,6 +183,11 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
+    } else if (verb == "spectrum") {
+        app.add_option("--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
+            ->check(in_range(std::int64_t{0}, std::int64_t{100000}))
+            ->type_name("N");
+        add_output(app, arguments, ".csv .svg .json", false);
     } else if (verb == "table131") {
         add_shape(app, typed);
     } else if (verb == "convert") {

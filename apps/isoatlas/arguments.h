@@ -41,8 +41,9 @@ struct Arguments {
     // Choosing
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
-    bool best = false, all = false, zones = false, list = false;
-    std::int64_t top = 0;  ///< 0: not given
+    bool best = false, all = false, zones = false, list = false, dark = false, both = false;
+    std::int64_t top = 0;                 ///< 0: not given
+    std::optional<std::int64_t> samples;  ///< isovalues that are measured
     int levels = 8;
     bool full = false;
     std::uint64_t seed = 1;

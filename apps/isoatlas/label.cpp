@@ -35,6 +35,17 @@ Labels label_objects(Source& source) {
     return labels;
 }
 
+Labels label_dark(Source& source) {
+    const double tau = source.tau();
+    const Analysis analysis = source.analysis(false);
+    std::vector<std::int64_t> ids;
+    Labels labels;
+    labels.of_voxel = label_cavities(source.volume(), analysis, tau, ids, source.context());
+    labels.count = static_cast<std::int64_t>(ids.size());
+    labels.origin = {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = tau, .cavities = true};
+    return labels;
+}
+
 Labels label_zones(const Arguments& arguments, Source& source) {
     const Analysis analysis = source.analysis(true);
     if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
@@ -53,6 +64,8 @@ void check_arguments(const Arguments& arguments) {
                                        .expected = "--tau T for the objects at an isovalue, or --zones",
                                        .next = "isoatlas label --help"});
     }
+    if (arguments.dark && arguments.zones)
+        throw Error(ErrorKind::usage, {.what = "--dark and --zones contradict each other", .next = "isoatlas label --help"});
     check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
 }
 
@@ -61,25 +74,31 @@ void check_arguments(const Arguments& arguments) {
 int run_label(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Source source(arguments, terminal);
-    const Labels labels = arguments.zones ? label_zones(arguments, source) : label_objects(source);
+    const Labels labels = arguments.zones ? label_zones(arguments, source) : arguments.dark ? label_dark(source) : label_objects(source);
     {
         const WritingGuard guard(arguments.output);
         write_labels(arguments.output, source.info(), labels.of_voxel, labels.origin);
     }
+    const std::string what = arguments.zones ? "zones" : arguments.dark ? "cavities" : "objects";
     if (arguments.json) {
         Json json = document("label", source.info(), labels.origin.interpolant, labels.origin.tunnel_height);
         json["output"] = arguments.output;
-        json["labels_are"] = arguments.zones ? "zones" : "objects";
+        json["labels_are"] = what;
         json["tau"] = arguments.tau ? Json(*arguments.tau) : Json(nullptr);
         json["labels"] = labels.count;
         add_reads(json, source.reads());
         print(terminal, json);
         return 0;
     }
-    terminal.out() << arguments.output << ": " << counted(labels.count, arguments.zones ? "zone" : "object")
+    terminal.out() << arguments.output << ": "
+                   << counted(labels.count,
+                              arguments.zones  ? "zone"
+                              : arguments.dark ? "cavity"
+                                               : "object",
+                              what)
                    << (arguments.zones ? " (label = event id + 1), " : " (label 1 is the largest, 0 is background), ")
                    << interpolant_text(source.info(), labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
-    if (arguments.tau) {
+    if (arguments.tau && !arguments.dark) {
         terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),
                                   reading_options(arguments), *arguments.tau));
     }

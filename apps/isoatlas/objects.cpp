@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "dark_table.h"
 #include "document.h"
+#include "sizes.h"
 #include "source.h"
 #include "table.h"
 #include "terminal.h"
@@ -15,42 +17,6 @@ namespace isoatlas::cli {
 namespace {
 
 constexpr std::int64_t kDefaultTop = 24;
-
-/// Voxel counts, and physical sizes where they say something else.
-class Sizes {
-public:
-    Sizes(const VolumeInfo& info, double largest) : unit_(measure_unit(info, largest)), flat_(info.extent.rank == 2) {}
-
-    void add_titles(std::vector<Table::Column>& columns) const {
-        columns.push_back({"voxels"});
-        if (is_physical()) columns.push_back({std::string(flat_ ? "area" : "volume") + " [" + unit_.name + "]"});
-        columns.push_back({flat_ ? "holes" : "tunnels"});
-        if (!flat_) columns.push_back({"cavities"});
-    }
-    void add(std::vector<std::string>& row, std::int64_t voxels, double measure, std::int64_t b1, std::int64_t b2) const {
-        row.push_back(count_text(voxels));
-        if (is_physical()) row.push_back(measure_text(measure * unit_.factor));
-        row.push_back(dashed(b1));
-        if (!flat_) row.push_back(dashed(b2));
-    }
-
-private:
-    [[nodiscard]] bool is_physical() const { return unit_.name != "voxels"; }
-    static std::string dashed(std::int64_t count) { return count == 0 ? "-" : count_text(count); }
-    static std::string measure_text(double measure) {
-        return measure < 1000 ? fmt::format("{:.4g}", measure) : count_text(static_cast<std::int64_t>(std::round(measure)));
-    }
-
-    MeasureUnit unit_;
-    bool flat_;
-};
-
-template <class Objects>
-double largest_measure(const Objects& objects) {
-    double largest = 0;
-    for (const auto& object : objects) largest = std::max(largest, object.measure);
-    return largest;
-}
 
 std::string extract_command(const Arguments& arguments, std::int64_t id, const std::string& tau) {
     return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
@@ -78,13 +44,15 @@ Json entry_json(const ObjectEntry& entry, const VolumeInfo& info, const Scale& s
     return json;
 }
 
-void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table) {
+/// dark: listed too; null: not asked for.
+void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const DarkTable* dark = nullptr) {
     const VolumeInfo& info = source.info();
     const Scale scale(info);
     Json head = document("objects", info, source.interpolant(), source.tunnel_height());
     head["tau"] = nullptr;
     head["branches"] = table.branches;
     head["noise"] = table.noise * info.calibration.slope;
+    if (dark != nullptr) add_dark(head, *dark, info);
     add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
           [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], info, scale); });
@@ -127,10 +95,32 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
     terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], scale)));
 }
 
+/// Dark objects, after the bright ones when both are asked for.
+int list_dark(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
+    const Volume& volume = source.volume();
+    const Analysis analysis = source.analysis(true);
+    const DarkTable dark = rank_dark_objects(volume, analysis, options, source.context());
+    if (!arguments.both) {
+        print_dark(terminal, arguments, source, dark);
+        return 0;
+    }
+    const ObjectTable table = rank_objects(volume, analysis, options, source.context());
+    if (arguments.json) {
+        print_table_json(terminal, source, table, &dark);
+        return 0;
+    }
+    print_table_text(terminal, arguments, source, table);
+    terminal.out() << '\n';
+    print_dark(terminal, arguments, source, dark);
+    return 0;
+}
+
 int list_best(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
-    const ObjectTable table = source.objects({.top = top, .gate = !arguments.all});
+    const RankOptions options{.top = top, .gate = !arguments.all};
+    if (arguments.dark || arguments.both) return list_dark(arguments, terminal, source, options);
+    const ObjectTable table = source.objects(options);
     if (arguments.json) {
         print_table_json(terminal, source, table);
     } else {
@@ -213,6 +203,10 @@ int list_at(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 int run_objects(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.tau && (arguments.dark || arguments.both)) {
+        throw Error(ErrorKind::usage, {.what = "--tau lists the objects at an isovalue, --dark and --both the best isovalues of dark ones",
+                                       .next = "isoatlas label --dark --tau T labels the cavities at an isovalue"});
+    }
     return arguments.tau ? list_at(arguments, terminal) : list_best(arguments, terminal);
 }
 

@@ -93,6 +93,11 @@ ObjectTable Source::objects(const RankOptions& options) {
     return table;
 }
 
+Spectrum Source::spectrum(const SpectrumOptions& options) {
+    if (atlas_ && !arguments_.voxel_units) return isoatlas::spectrum(*atlas_, options, context());
+    return isoatlas::spectrum(volume(), analysis(true), options, context());
+}
+
 Analysis Source::analysis(bool with_zones) {
     if (atlas_ && !with_zones) return atlas_->analysis();
     return analyse(volume(), analysis_options(), context());

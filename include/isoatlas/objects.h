@@ -25,6 +25,7 @@ struct ObjectEntry {
     std::array<double, 3> position;  ///< voxel coordinates of the highest voxel
     double tau_low, tau_high;        ///< for isovalues in (tau_low, tau_high] the object has the tunnels and cavities of best_tau
     std::int64_t inside;             ///< position in ObjectTable::entries of the closest entry that contains this one; -1: none
+    std::int64_t branch_top;         ///< the event at which its branch begins: a maximum; -1: not known (stores of early versions)
     bool outline;                    ///< best_tau shows everything that is not background
     bool trunk;                      ///< of the object that is there at every isovalue
     std::string note;                ///< "largest", "outline", "inside 3", ...

@@ -24,6 +24,7 @@ struct LabelOrigin {
     Interpolant interpolant;
     double tunnel_height = 0;   ///< of CutOptions or AnalysisOptions: difference of stored values
     std::optional<double> tau;  ///< stored value: objects at tau; none: zones
+    bool cavities = false;      ///< cavities at tau
 };
 /// The same, and the file says the origin of its labels: as key/value pairs in .nrrd, as lines of ImageJ's description in .tif,
 /// "isoatlas objects at tau 0.5, trilinear" (seven digits) in NIfTI. `info` is that of the volume: it calibrates the values.

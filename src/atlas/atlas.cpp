@@ -201,6 +201,10 @@ QueryCost& QueryCost::operator+=(const QueryCost& other) {
     return *this;
 }
 
+const Analysis& AtlasAccess::analysis(const Atlas& atlas) {
+    return atlas.data_->trees.get([&] { return std::make_unique<Trees>(atlas.data_->store); })->analysis;
+}
+
 const LevelCensus& AtlasAccess::census(const Atlas& atlas) {
     return atlas.data_->census.get([&] { return census_of(atlas.data_->store); });
 }

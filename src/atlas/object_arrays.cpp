@@ -6,6 +6,8 @@
 namespace isoatlas {
 namespace {
 
+constexpr const char* kBranchTop = "objects/branch_top";  // not in the first stores of version 1
+
 /// Calls visit(name, type, member of ObjectEntry) for everything that is stored of an entry.
 template <class Visit>
 void for_members(Visit&& visit) {
@@ -22,6 +24,7 @@ void for_members(Visit&& visit) {
     visit("objects/cavities", "int64", &ObjectEntry::cavities);
     visit("objects/hypervolume", "float64", &ObjectEntry::hypervolume);
     visit("objects/inside", "int64", &ObjectEntry::inside);
+    visit(kBranchTop, "int64", &ObjectEntry::branch_top);
     visit("objects/outline", "uint8", &ObjectEntry::outline);
     visit("objects/trunk", "uint8", &ObjectEntry::trunk);
 }
@@ -32,6 +35,11 @@ store::PackedArray owned(const char* name, const char* type, std::vector<T> numb
     store::PackedArray array = store::packed<T>(name, type, *held);
     array.feed = [held, feed = std::move(array.feed)](const store::Put& put) { feed(put); };
     return array;
+}
+
+bool has_array(const store::Container& store, const std::string& name) {
+    const std::vector<store::StoredArray>& arrays = store.contents().arrays;
+    return std::any_of(arrays.begin(), arrays.end(), [&](const store::StoredArray& array) { return array.name == name; });
 }
 
 /// How a member lies in the file.
@@ -70,15 +78,16 @@ std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
     return arrays;
 }
 
-bool has_objects(const store::Container& store) {
-    const std::vector<store::StoredArray>& arrays = store.contents().arrays;
-    return std::any_of(arrays.begin(), arrays.end(), [](const store::StoredArray& array) { return array.name == "objects/id"; });
-}
+bool has_objects(const store::Container& store) { return has_array(store, "objects/id"); }
 
 ObjectTable objects_of(const store::Container& store) {
     ObjectTable table;
     table.entries.resize(static_cast<std::size_t>(store.contents().array("objects/id", "int64").count()));
     for_members([&]<class Member>(const char* name, const char* type, Member ObjectEntry::* member) {
+        if (std::string_view(name) == kBranchTop && !has_array(store, name)) {
+            for (ObjectEntry& entry : table.entries) entry.*member = static_cast<Member>(-1);
+            return;
+        }
         const auto numbers = store.all<Stored<Member>>(name, type);
         if (numbers.size() != table.entries.size()) contradiction(store);
         for (std::size_t i = 0; i < numbers.size(); ++i) table.entries[i].*member = static_cast<Member>(numbers[i]);

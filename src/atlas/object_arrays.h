@@ -1,7 +1,7 @@
 // The table of essential objects (isoatlas/objects.h) as arrays of a store, and back: nobody should have to analyse the volume again to
 // ask which objects are in it.
 //
-//   objects/id, event, voxels, tunnels, cavities, inside      int64, per entry, by rank
+//   objects/id, event, voxels, tunnels, cavities, inside, branch_top      int64, per entry, by rank
 //   objects/appears, merges, best_tau, measure, hypervolume, tau_low, tau_high     float64
 //   objects/outline, trunk                                     uint8
 //   objects/branches, noise                                    one number each

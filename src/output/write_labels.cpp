@@ -56,8 +56,9 @@ Meaning meaning_of(const VolumeInfo& info, const LabelOrigin& origin) {
     Meaning meaning{"isoatlas zones" + end, {{"labels_are", "zones"}}};
     if (origin.tau) {
         const double tau = info.calibration.reported(*origin.tau);
-        meaning = {"isoatlas objects at tau " + output::short_text(tau) + end,
-                   {{"labels_are", "objects"}, {"tau", output::number_text(tau)}}};
+        const std::string what = origin.cavities ? "cavities" : "objects";
+        meaning = {"isoatlas " + what + " at tau " + output::short_text(tau) + end,
+                   {{"labels_are", what}, {"tau", output::number_text(tau)}}};
     }
     for (const auto& pair : output::key_values(connectivity)) meaning.pairs.push_back(pair);
     return meaning;

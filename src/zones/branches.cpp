@@ -7,46 +7,67 @@
 namespace isoatlas {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Sums of the zones of every object, and the lowest sample.
 template <class Id>
-double value_of(const AnalysisArrays<Id>& arrays, std::size_t event) {
-    return arrays.value[arrays.tree.top[event]];
+void sum_objects(const SideTree<Id>& tree, const VolumeView& volume, Branches& result) {
+    ObjectSums& sums = result.objects;
+    sums.voxels.assign(tree.voxels.begin(), tree.voxels.end());
+    sums.sum.assign(tree.size(), 0.0);
+    result.lowest = kInfinity;
+    tree.for_heights(volume, [&](std::size_t v, double height) {
+        sums.sum[tree.zone[v]] += height;
+        result.lowest = std::min(result.lowest, height);
+    });
+    for (std::size_t e = 0; e < tree.size(); ++e) {
+        if (tree.is_root(e)) continue;
+        sums.voxels[tree.parent[e]] += sums.voxels[e];
+        sums.sum[tree.parent[e]] += sums.sum[e];
+    }
 }
 
+/// Per event: the child that goes on, -1: there is none. Children come before their parents.
 template <class Id>
-ObjectSums sum_objects(const AnalysisArrays<Id>& arrays, std::span<const double> zone_sum) {
-    ObjectSums sums{{arrays.voxels.begin(), arrays.voxels.end()}, {zone_sum.begin(), zone_sum.end()}};
-    for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
-        if (arrays.tree.is_root(e)) continue;
-        sums.voxels[arrays.tree.parent[e]] += sums.voxels[e];
-        sums.sum[arrays.tree.parent[e]] += sums.sum[e];
+BigVector<std::int64_t> continuing_children(const SideTree<Id>& tree, std::span<const double> hypervolume) {
+    BigVector<std::int64_t> next_above(tree.size(), std::int64_t{-1});
+    BigVector<double> best(tree.size(), -1.0);
+    for (std::size_t e = 0; e < tree.size(); ++e) {
+        if (tree.is_root(e)) continue;
+        const std::size_t p = tree.parent[e];
+        if (hypervolume[e] > best[p]) best[p] = hypervolume[e], next_above[p] = static_cast<std::int64_t>(e);
     }
-    return sums;
+    if (tree.trunk_leaf < 0) return next_above;
+    for (auto e = static_cast<std::size_t>(tree.trunk_leaf); !tree.is_root(e); e = tree.parent[e])
+        next_above[tree.parent[e]] = static_cast<std::int64_t>(e);
+    return next_above;
+}
+
+/// Per event: event of the highest element of its object.
+template <class Id>
+BigVector<std::int64_t> highest_events(const SideTree<Id>& tree) {
+    BigVector<std::int64_t> highest(tree.size());
+    std::iota(highest.begin(), highest.end(), std::int64_t{0});
+    for (std::size_t e = 0; e < tree.size(); ++e) {
+        if (!tree.is_root(e)) highest[tree.parent[e]] = std::min(highest[tree.parent[e]], highest[e]);
+    }
+    return highest;
 }
 
 }  // namespace
 
 template <class Id>
-Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double> zone_sum, double lowest) {
-    const auto& tree = arrays.tree;
+Branches make_branches(const SideTree<Id>& tree, const VolumeView& volume) {
     const std::size_t events = tree.size();
     Branches result;
-    result.objects = sum_objects(arrays, zone_sum);
-    const ObjectSums& sums = result.objects;
-    const auto hypervolume = [&](std::size_t e) {
-        const double base = tree.is_root(e) ? lowest : value_of(arrays, tree.parent[e]);
-        return sums.sum[e] - static_cast<double>(sums.voxels[e]) * base;
-    };
-    // The child that goes on, and the highest event of the object; children come before their parents.
-    BigVector<std::int64_t> next_above(events, std::int64_t{-1});
-    BigVector<double> best(events, -1.0);
-    result.highest.resize(events);
-    std::iota(result.highest.begin(), result.highest.end(), std::int64_t{0});
+    sum_objects(tree, volume, result);
+    BigVector<double> hypervolume(events);
     for (std::size_t e = 0; e < events; ++e) {
-        if (tree.is_root(e)) continue;
-        const std::size_t p = tree.parent[e];
-        result.highest[p] = std::min(result.highest[p], result.highest[e]);
-        if (const double h = hypervolume(e); h > best[p]) best[p] = h, next_above[p] = static_cast<std::int64_t>(e);
+        const double base = tree.is_root(e) ? result.lowest : tree.height[tree.parent[e]];
+        hypervolume[e] = result.objects.sum[e] - static_cast<double>(result.objects.voxels[e]) * base;
     }
+    result.highest = highest_events(tree);
+    const BigVector<std::int64_t> next_above = continuing_children(tree, hypervolume);
     BigVector<Branch>& branches = result.branch;
     for (std::size_t e = events; e-- > 0;) {
         const bool root = tree.is_root(e);
@@ -55,11 +76,11 @@ Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double>
         b.bottom = b.top = static_cast<std::int64_t>(e);
         while (next_above[b.top] >= 0) b.top = next_above[b.top];
         b.highest = result.highest[e];
-        b.appears = value_of(arrays, b.top);
-        b.merges = root ? -std::numeric_limits<double>::infinity() : value_of(arrays, tree.parent[e]);
-        b.hypervolume = hypervolume(e);
-        b.height = value_of(arrays, b.highest) - (root ? lowest : b.merges);
-        b.voxels = sums.voxels[e];
+        b.appears = tree.height[b.top];
+        b.merges = root ? -kInfinity : tree.height[tree.parent[e]];
+        b.hypervolume = hypervolume[e];
+        b.persistence = tree.height[b.highest] - (root ? result.lowest : b.merges);
+        b.voxels = result.objects.voxels[e];
         branches.push_back(b);
     }
     std::sort(branches.begin() + 1, branches.end(), [](const Branch& p, const Branch& q) {
@@ -69,10 +90,11 @@ Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double>
     for (std::size_t i = 0; i < branches.size(); ++i) {
         for (std::int64_t e = branches[i].bottom; e >= 0; e = next_above[e]) result.of_event[e] = static_cast<std::int64_t>(i);
     }
+    for (Branch& b : branches) b.parent = tree.is_root(b.bottom) ? -1 : result.of_event[tree.parent[b.bottom]];
     return result;
 }
 
-template Branches make_branches(const AnalysisArrays<std::uint32_t>&, std::span<const double>, double);
-template Branches make_branches(const AnalysisArrays<std::uint64_t>&, std::span<const double>, double);
+template Branches make_branches(const SideTree<std::uint32_t>&, const VolumeView&);
+template Branches make_branches(const SideTree<std::uint64_t>&, const VolumeView&);
 
 }  // namespace isoatlas

@@ -1,6 +1,6 @@
-// Branches: the criticality tree cut into objects, by hypervolume (essential.md sections 0 and 1).
+// Branches: a tree of objects cut into objects, by hypervolume (essential.md sections 0 and 1).
 //
-// Hypervolume of the object of event e at its low end tau: sum over its voxels of (value - tau). Where objects merge, the one with the
+// Hypervolume of the object of event e at its low end tau: sum over its voxels of (height - tau). Where objects merge, the one with the
 // largest hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small
 // bright peak.)
 #pragma once
@@ -8,23 +8,25 @@
 #include <cstdint>
 #include <span>
 
-#include "zones/analysis_data.h"
+#include "zones/side_tree.h"
 
 namespace isoatlas {
 
+/// Values are heights (side_tree.h).
 struct Branch {
     std::int64_t top, bottom;  ///< its highest event (a maximum) and its lowest
     std::int64_t highest;      ///< event of the highest element in the object at the low end (may lie in another branch)
-    double appears, merges;    ///< value of top; value at which it ends, -infinity for the trunk
+    std::int64_t parent;       ///< position of the branch that it ends in; -1: the trunk
+    double appears, merges;    ///< height of top; height at which it ends, -infinity for the trunk
     double hypervolume;        ///< of the object just above merges (the trunk: above the lowest sample)
-    double height;             ///< highest value of that object - merges
+    double persistence;        ///< highest height of that object - merges
     std::int64_t voxels;       ///< of that object
 };
 
 /// Over the object of each event at its low end.
 struct ObjectSums {
     BigVector<std::int64_t> voxels;
-    BigVector<double> sum;  ///< of values
+    BigVector<double> sum;  ///< of heights
 };
 
 struct Branches {
@@ -32,10 +34,11 @@ struct Branches {
     BigVector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
     BigVector<std::int64_t> highest;   ///< per event: event of the highest element of its object
     ObjectSums objects;
+    double lowest = 0;  ///< height of the lowest sample
 };
 
-/// sum: per event, sum of the values of the voxels of its zone. lowest: the smallest sample. Cost: O(events log events).
+/// Cost: one pass over the samples, in order, so that sums do not depend on threads; O(events log events).
 template <class Id>
-Branches make_branches(const AnalysisArrays<Id>& arrays, std::span<const double> sum, double lowest);
+[[nodiscard]] Branches make_branches(const SideTree<Id>& tree, const VolumeView& volume);
 
 }  // namespace isoatlas

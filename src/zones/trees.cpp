@@ -13,13 +13,6 @@
 namespace isoatlas {
 namespace {
 
-/// Per element. Empty in 2D, where contours are circles whatever happens.
-BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
-    BigVector<std::int8_t> delta(code.size());
-    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
-    return delta;
-}
-
 /// Levels, events and their measures. join: parents of the join tree.
 template <class Id>
 void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank, int threads) {
@@ -35,6 +28,12 @@ void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank,
 }
 
 }  // namespace
+
+BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
+    BigVector<std::int8_t> delta(code.size());
+    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
+    return delta;
+}
 
 template <class Id>
 BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {

@@ -19,6 +19,9 @@ void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
 template <class Id>
 [[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads);
 
+/// Per element: change of the Euler characteristic.
+[[nodiscard]] BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank);
+
 /// Voxels of the zones of events, from those of the elements.
 template <class Id>
 void add_up_voxels(AnalysisArrays<Id>& arrays);

@@ -5,7 +5,8 @@ import subprocess
 
 from harness import CLI, CliTest, main
 
-VERBS = ["info", "objects", "extract", "render", "animate", "tree", "label", "build", "convert", "table131", "dump", "phantom", "verify", "completion"]
+VERBS = ["atlas", "info", "objects", "extract", "render", "animate", "tree", "label", "build", "convert", "spectrum", "table131", "dump", "phantom",
+         "verify", "completion"]
 
 
 class Help(CliTest):

@@ -31,14 +31,18 @@ class Schemas(harness.CliTest):
         for file in ("noise.atlas", "faces.atlas", "noise.nrrd"):
             self.check("info", "info", file)
             self.check("objects", "objects", file)
+            self.check("objects", "objects", file, "--both", "--all")
+            self.check("dark-objects", "objects", file, "--dark")
             self.check("objects-at", "objects", file, "--tau", "7")
             self.check("extract", "extract", file, "--tau", "7", "-o", "x.ply")
             self.check("extract", "extract", file, "--best", "--style", "full", "--boundary", "open", "-o", "x.stl")
             self.check("label", "label", file, "--tau", "7", "-o", "x.nrrd")
+            self.check("label", "label", file, "--tau", "7", "--dark", "-o", "x.nrrd")
             self.check("label", "label", file, "--zones", "-o", "x.nrrd")
             self.check("convert", "convert", file, "-o", "x.npy")
             self.check("verify", "verify", file, "--levels", "1")
             self.check("tree-file", "tree", file, "-o", "x.csv")
+            self.check("spectrum", "spectrum", file)
             self.check("table131", "table131", file)
             for detail in ("events", "levels", "elements", "contours"):
                 self.assert_schema(self.run_json("tree", file, "--detail", detail), "tree-" + detail)

@@ -112,7 +112,7 @@ std::string text(const isoatlas::ObjectTable& table) {
     for (const auto& o : table.entries) {
         out << o.id << ' ' << o.event << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure
             << ' ' << o.tunnels << ' ' << o.cavities << ' ' << o.hypervolume << ' ' << join(o.position) << o.tau_low << ' ' << o.tau_high
-            << ' ' << o.inside << ' ' << o.note << '\n';
+            << ' ' << o.inside << ' ' << o.branch_top << ' ' << o.note << '\n';
     }
     return out.str();
 }

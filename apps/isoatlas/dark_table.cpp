@@ -1,0 +1,81 @@
+#include "dark_table.h"
+
+#include <fmt/format.h>
+
+#include "sizes.h"
+#include "source.h"
+#include "terminal.h"
+#include "values.h"
+
+namespace isoatlas::cli {
+namespace {
+
+Json entry_json(const DarkEntry& entry, const VolumeInfo& info) {
+    const Scale scale(info);
+    Json json{{"id", entry.id}};
+    json["appears"] = number(scale.reported(entry.appears));
+    json["merges"] = number(scale.reported(entry.merges));
+    json["best_tau"] = scale.reported(entry.best_tau);
+    json["object"] = entry.object;
+    json["tunnels"] = entry.tunnels;
+    json["islands"] = entry.islands;
+    json["voxels"] = entry.voxels;
+    json["measure"] = entry.measure;
+    json["hypervolume"] = entry.hypervolume * info.calibration.slope;
+    json["position"] = entry.position;
+    json["position_physical"] = to_physical(info.geometry, entry.position);
+    json["note"] = entry.note;
+    return json;
+}
+
+std::string best_tau_text(const DarkEntry& entry, const Scale& scale) {
+    return scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high);
+}
+
+void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const DarkTable& table) {
+    const Scale scale(info);
+    const Sizes sizes(info, largest_measure(table.entries));
+    std::vector<Table::Column> columns{{"dark"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
+    sizes.add_titles(columns, "islands");
+    columns.insert(columns.end(), {{"inside of"}, {"note", true}});
+    Table text(columns);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        const DarkEntry& entry = table.entries[i];
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
+                                     scale.brief(entry.merges), best_tau_text(entry, scale)};
+        sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.islands);
+        row.insert(row.end(), {fmt::format("{}", entry.object), entry.note});
+        text.add(row);
+    }
+    terminal.say(fmt::format("{} in all; {} to look at", counted(table.branches, "cavity", "cavities"),
+                             counted(static_cast<std::int64_t>(table.entries.size()), "dark object")));
+    text.print(terminal);
+    if (table.entries.empty()) {
+        terminal.say("no cavity stands out from the noise; --all lists everything");
+        return;
+    }
+    const DarkEntry& first = table.entries[0];
+    terminal.next(fmt::format("isoatlas extract {}{} --tau {} --contour {} -o dark.ply", shell_word(arguments.file),
+                              reading_options(arguments), best_tau_text(first, scale), first.id));
+}
+
+}  // namespace
+
+void add_dark(Json& json, const DarkTable& table, const VolumeInfo& info) {
+    json["dark_branches"] = table.branches;
+    Json& list = json["dark"] = Json::array();
+    for (const DarkEntry& entry : table.entries) list.push_back(entry_json(entry, info));
+}
+
+void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const DarkTable& table) {
+    const VolumeInfo& info = source.info();
+    if (!arguments.json) return print_text(terminal, arguments, info, table);
+    Json head = document("dark-objects", info, source.interpolant(), source.tunnel_height());
+    head["branches"] = table.branches;
+    head["noise"] = table.noise * info.calibration.slope;
+    add_reads(head, source.reads());
+    print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
+          [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], info); });
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,17 @@
+// The table of dark objects, as text and as JSON.
+#pragma once
+
+#include "arguments.h"
+#include "document.h"
+
+namespace isoatlas::cli {
+
+class Source;
+class Terminal;
+
+/// Members "dark_branches" and "dark": [...].
+void add_dark(Json& json, const DarkTable& table, const VolumeInfo& info);
+/// The table alone, or with --json its own document.
+void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const DarkTable& table);
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,133 @@
+#include "isoatlas/spectrum.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+
+#include "atlas/access.h"
+#include "atlas/surface_size.h"
+#include "base/parallel.h"
+#include "isoatlas/navigator.h"
+#include "isoatlas/objects.h"
+#include "mesh/extract_level.h"
+#include "zones/count_intervals.h"
+
+namespace isoatlas {
+namespace {
+
+Spectrum count(const Analysis& analysis, const ObjectTable& table) {
+    Spectrum spectrum;
+    spectrum.interpolant = analysis.interpolant();
+    spectrum.tunnel_height = analysis.tunnel_height();
+    spectrum.intervals = analysis.data().visit([&](const auto& held) {
+        return count_intervals(held.arrays, analysis.extent().rank, events_of_entries(held.arrays, table.entries));
+    });
+    for (const ObjectEntry& entry : table.entries) spectrum.advice.push_back({entry.best_tau, entry.id, entry.note});
+    return spectrum;
+}
+
+/// Middles of equal parts of the range, descending.
+std::vector<double> isovalues(double low, double high, std::int64_t count) {
+    std::vector<double> taus;
+    for (std::int64_t i = count; i-- > 0;) {
+        const double tau = low + (high - low) * ((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+        if (taus.empty() || tau != taus.back()) taus.push_back(tau);
+    }
+    return taus;
+}
+
+std::int64_t count_high(const HighBits& high, const Context& context) {
+    const Extent& extent = high.extent();
+    std::vector<std::int64_t> of_slice(static_cast<std::size_t>(extent.size[2]), 0);
+    for_each_block(context.threads, extent.size[2], [&](std::int64_t z) {
+        for (std::int64_t y = 0; y < extent.size[1]; ++y) {
+            const std::uint64_t* row = high.row(y, z);
+            for (std::int64_t w = 0; w < high.words(); ++w) of_slice[static_cast<std::size_t>(z)] += std::popcount(row[w]);
+        }
+    });
+    return std::accumulate(of_slice.begin(), of_slice.end(), std::int64_t{0});
+}
+
+SpectrumSize size_at(const Surface& surface, const Bounds& voxels, std::int64_t cells, const Context& context) {
+    const SurfaceSize size = size_of_surface(surface, context);
+    const auto facets = static_cast<std::int64_t>(surface.triangles.size() + surface.segments.size());
+    return {surface.tau, voxels, cells, facets, size.area, size.measure};
+}
+
+/// For one of the isovalues: progress is that of all together.
+Context quiet(const Context& context) {
+    Context part = context;
+    part.progress = nullptr;
+    return part;
+}
+
+ExtractOptions bare(Interpolant interpolant, double tunnel_height) {
+    ExtractOptions options;
+    options.interpolant = interpolant, options.tunnel_height = tunnel_height;
+    options.normals = options.ids = false;
+    return options;
+}
+
+/// measure(tau): SpectrumSize.
+template <class Measure>
+std::vector<SpectrumSize> measure_all(const std::vector<double>& taus, const Context& context, const Measure& measure) {
+    std::vector<SpectrumSize> sizes;
+    for (const double tau : taus) {
+        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        context.report("surfaces", 1, 2, static_cast<double>(sizes.size()) / static_cast<double>(taus.size()));
+        sizes.push_back(measure(tau));
+    }
+    return sizes;
+}
+
+/// The stored table holds no branches in stores of before.
+bool knows_branches(const ObjectTable& table) {
+    return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
+}
+
+}  // namespace
+
+Spectrum spectrum(const Volume& volume, const Analysis& analysis, const SpectrumOptions& options, const Context& context) {
+    Spectrum spectrum = count(analysis, rank_objects(volume, analysis, {.top = 0}, context));
+    const auto [low, high] = visit_samples(volume, [](auto samples) {
+        const auto [least, most] = std::ranges::minmax(samples);
+        return std::pair(static_cast<double>(least), static_cast<double>(most));
+    });
+    const std::vector<double> taus = isovalues(low, high, options.samples);
+    const ExtractOptions how = bare(analysis.interpolant(), analysis.tunnel_height());
+    Surface surface;
+    spectrum.sizes = measure_all(taus, context, [&](double tau) {
+        std::int64_t cells = 0;
+        const HighBits bits = classify(volume, tau, quiet(context));
+        extract_level({volume, tau, bits}, how, quiet(context), surface, &cells);
+        const std::int64_t voxels = count_high(bits, context);
+        return size_at(surface, {voxels, voxels}, cells, context);
+    });
+    return spectrum;
+}
+
+Spectrum spectrum(const Atlas& atlas, const SpectrumOptions& options, const Context& context) {
+    ObjectTable table = atlas.objects({.top = 0}, context);
+    if (!knows_branches(table)) {
+        const Volume volume = atlas.volume(context);
+        table = rank_objects(volume, analyse(volume, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, context),
+                             {.top = 0}, context);
+    }
+    Spectrum spectrum = count(AtlasAccess::analysis(atlas), table);
+    const auto [low, high] = atlas.range();
+    Navigator navigator(atlas, bare(atlas.interpolant(), atlas.tunnel_height()));
+    spectrum.sizes = measure_all(isovalues(low, high, options.samples), context, [&](double tau) {
+        const Surface& surface = navigator.go_to(tau, quiet(context));
+        return size_at(surface, atlas.preview(tau).voxels, navigator.cost().cells_active, context);
+    });
+    return spectrum;
+}
+
+SpectrumInterval counts_at(const Spectrum& spectrum, double tau) {
+    const auto above = std::ranges::partition_point(spectrum.intervals, [tau](const SpectrumInterval& i) { return i.low >= tau; });
+    if (above != spectrum.intervals.end() && tau <= above->high) return *above;
+    return {spectrum.intervals.empty() ? tau : spectrum.intervals.front().high, std::numeric_limits<double>::infinity(), {}, {}};
+}
+
+}  // namespace isoatlas

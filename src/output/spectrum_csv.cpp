@@ -1,0 +1,48 @@
+// The spectrum as CSV: rows of kind "interval", then rows of kind "size"; what does not exist is empty.
+#include <cmath>
+
+#include "output/byte_writer.h"
+#include "output/spectrum_formats.h"
+
+namespace isoatlas::output {
+namespace {
+
+void put_real(ByteWriter& out, double value) {
+    out.text(",");
+    if (std::isfinite(value)) out.number(value);
+}
+
+void put_counts(ByteWriter& out, const LevelCounts& counts) {
+    for (const std::int64_t count : {counts.objects, counts.contours, counts.tunnels, counts.cavities}) out.text(","), out.number(count);
+}
+
+}  // namespace
+
+void write_spectrum_csv(AtomicFile& file, const VolumeInfo& info, const Spectrum& spectrum) {
+    ByteWriter out(file);
+    out.text(
+        "kind,tau_low,tau_high,objects,contours,tunnels,cavities,essential_objects,essential_contours,essential_tunnels,"
+        "essential_cavities,voxels_least,voxels_most,cells,facets,area,measure\n");
+    for (const SpectrumInterval& interval : spectrum.intervals) {
+        out.text("interval");
+        put_real(out, info.calibration.reported(interval.low));
+        put_real(out, info.calibration.reported(interval.high));
+        put_counts(out, interval.all);
+        put_counts(out, interval.essential);
+        out.text(",,,,,,\n");
+    }
+    for (const SpectrumSize& size : spectrum.sizes) {
+        out.text("size");
+        for (int end = 0; end < 2; ++end) put_real(out, info.calibration.reported(size.tau));
+        const SpectrumInterval counts = counts_at(spectrum, size.tau);
+        put_counts(out, counts.all);
+        put_counts(out, counts.essential);
+        for (const std::int64_t count : {size.voxels.least, size.voxels.most, size.cells, size.facets}) out.text(","), out.number(count);
+        put_real(out, size.area);
+        put_real(out, size.measure);
+        out.text("\n");
+    }
+    out.finish();
+}
+
+}  // namespace isoatlas::output

@@ -1,0 +1,30 @@
+// Rows of a table of objects in the making: which branches matter, and the isovalues that show each (essential.md sections 0 to 3).
+#pragma once
+
+#include <vector>
+
+#include "isoatlas/objects.h"
+#include "zones/branches.h"
+
+namespace isoatlas {
+
+/// A branch and one isovalue on it. Values are heights (side_tree.h).
+struct BranchRow {
+    std::int64_t branch;
+    double appears, merges, tau, hypervolume;
+    bool outline;            ///< tau shows everything that is not background
+    std::int64_t event = 0;  ///< its zone contains tau
+    std::int64_t voxels = 0;
+    double measure = 0;
+};
+
+/// By rank; the trunk, which has several rows, first. noise: standard deviation. Cost: three passes over the samples.
+template <class Id>
+[[nodiscard]] std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, double noise,
+                                                 const RankOptions& options);
+
+/// Per row: position of the closest other row that contains it, -1: none. That is on the way down from its event the first of a lower tau.
+template <class Id>
+[[nodiscard]] std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::vector<BranchRow>& rows);
+
+}  // namespace isoatlas

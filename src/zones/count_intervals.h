@@ -1,0 +1,21 @@
+// How many objects, contours, tunnels and cavities there are at every isovalue, from the criticality tree alone.
+#pragma once
+
+#include <vector>
+
+#include "isoatlas/objects.h"
+#include "isoatlas/spectrum.h"
+#include "zones/analysis_data.h"
+
+namespace isoatlas {
+
+/// Per event: does its object belong to a branch of the table? Every branch counts once, however many entries it has. Throws Error{input}
+/// when the table is not of these trees. Cost: O(events of these branches).
+template <class Id>
+[[nodiscard]] std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std::vector<ObjectEntry>& entries);
+
+/// Intervals between neighbouring values of events, descending. essential: per event. Cost: O(events).
+template <class Id>
+[[nodiscard]] std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& essential);
+
+}  // namespace isoatlas

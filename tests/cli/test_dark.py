@@ -1,0 +1,50 @@
+"""Dark objects: the table, their walls, their labels."""
+import gzip
+
+import harness
+
+
+class Dark(harness.CliTest):
+    phantoms = {"figure.nrrd": ["figure-plateau"], "noise.nrrd": ["noise", "--size", "12", "--quantise", "64"], "one.npy": ["noise", "--size", "1"]}
+
+    def test_the_cavity_of_the_figure(self):
+        table = self.run_json("objects", "figure.nrrd", "--dark", "--all")
+        self.assert_schema(table, "dark-objects")
+        self.assertEqual([(o["appears"], o["merges"], o["tunnels"], o["islands"]) for o in table["objects"]], [(20, 30, 0, 0)])
+        cavity = table["objects"][0]
+        self.assertTrue(20 < cavity["best_tau"] <= 30)
+        at = self.run_json("objects", "figure.nrrd", "--tau", str(cavity["best_tau"]))
+        walls = [c["id"] for o in at["objects"] for c in o["contours"] if c["shell"] == "inner" and o["id"] == cavity["object"]]
+        self.assertEqual(walls, [cavity["id"]])
+        self.run_ok("extract", "figure.nrrd", "--tau", str(cavity["best_tau"]), "--contour", str(cavity["id"]), "-o", "wall.ply")
+        label = self.run_json("label", "figure.nrrd", "--tau", str(cavity["best_tau"]), "--dark", "-o", "cavity.nii.gz")
+        self.assertEqual((label["labels"], label["labels_are"]), (1, "cavities"))
+        self.assertEqual(gzip.decompress((self.folder / "cavity.nii.gz").read_bytes())[352:].count(1), cavity["voxels"])
+
+    def test_both(self):
+        both = self.run_json("objects", "figure.nrrd", "--both")
+        self.assert_schema(both, "objects")
+        self.assertEqual(both["objects"], self.run_json("objects", "figure.nrrd")["objects"])
+        self.assertEqual(both["dark"], self.run_json("objects", "figure.nrrd", "--dark")["objects"])
+        text = self.run_ok("objects", "figure.nrrd", "--both").stdout
+        self.assertIn("cavities", text)
+        self.assertIn("islands", text)
+
+    def test_the_same_from_a_store_and_for_any_threads(self):
+        one = self.run_json("objects", "noise.nrrd", "--dark", "--all", "--threads", "1")
+        self.assertGreater(len(one["objects"]), 5)
+        self.run_ok("build", "noise.nrrd", "-o", "noise.atlas")
+        for words in (["noise.nrrd", "--threads", "3"], ["noise.atlas"]):
+            self.assertEqual(one["objects"], self.run_json("objects", words[0], "--dark", "--all", *words[1:])["objects"])
+
+    def test_nothing_dark_and_errors(self):
+        self.assertEqual(self.run_json("objects", "one.npy", "--dark")["objects"], [])
+        self.assertIn("no cavity", self.run_ok("objects", "one.npy", "--dark").stderr)
+        self.run_error(2, "objects", "noise.nrrd", "--dark", "--both", says="--both")
+        self.run_error(2, "objects", "noise.nrrd", "--dark", "--tau", "5", says="--tau")
+        self.run_error(2, "label", "noise.nrrd", "--dark", "--zones", "-o", "x.nrrd", says="--dark")
+        self.assert_no_partial()
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,58 @@
+"""What there is at every isovalue: as table, JSON, CSV and plot."""
+import csv
+import xml.etree.ElementTree
+
+import harness
+
+
+class Spectrum(harness.CliTest):
+    phantoms = {"figure.nrrd": ["figure-plateau"], "noise.nrrd": ["noise", "--size", "12", "--quantise", "64"], "one.npy": ["noise", "--size", "1"]}
+
+    def test_counts_are_those_of_objects(self):
+        spectrum = self.run_json("spectrum", "figure.nrrd")
+        self.assert_schema(spectrum, "spectrum")
+        self.assertEqual(len(spectrum["sizes"]), 24)
+        for tau in (95, 57, 39, 25, 10):
+            at = self.run_json("objects", "figure.nrrd", "--tau", str(tau))
+            inside = [i for i in spectrum["intervals"] if (i["low"] is None or i["low"] < tau) and tau <= i["high"]]
+            self.assertEqual(len(inside), 1)
+            self.assertEqual(inside[0]["all"]["objects"], at["object_count"])
+            self.assertEqual(inside[0]["all"]["contours"], at["contour_count"])
+            self.assertEqual(inside[0]["all"]["tunnels"], sum(o["b1"] for o in at["objects"]))
+            self.assertEqual(inside[0]["all"]["cavities"], sum(o["b2"] for o in at["objects"]))
+
+    def test_the_same_from_a_store_and_for_any_threads(self):
+        one = self.run_json("spectrum", "noise.nrrd", "--threads", "1")
+        self.assertEqual(one, self.run_json("spectrum", "noise.nrrd", "--threads", "3"))
+        self.run_ok("build", "noise.nrrd", "-o", "noise.atlas")
+        store = self.run_json("spectrum", "noise.atlas")
+        for name in ("intervals", "sizes", "advice"):
+            self.assertEqual(one[name], store[name], name)
+
+    def test_files(self):
+        self.run_ok("spectrum", "noise.nrrd", "--samples", "3", "-o", "x.csv")
+        with open(self.folder / "x.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["kind"] for row in rows].count("size"), 3)
+        document = self.run_json("spectrum", "noise.nrrd", "--samples", "3", "-o", "x.json")
+        self.assertEqual(len(document["intervals"]), len(rows) - 3)
+        self.assert_schema(document, "spectrum")
+        self.run_ok("spectrum", "noise.nrrd", "-o", "x.svg")
+        root = xml.etree.ElementTree.parse(self.folder / "x.svg").getroot()
+        self.assertTrue(root.tag.endswith("svg"))
+        self.assertIn("tunnels", (self.folder / "x.svg").read_text())
+        self.assert_no_partial()
+
+    def test_text_and_edges(self):
+        text = self.run_ok("spectrum", "noise.nrrd", "--samples", "5").stdout
+        self.assertIn("essential", text)
+        self.assertIn("interpolant trilinear", text)
+        self.assert_schema(self.run_json("spectrum", "one.npy"), "spectrum")
+        self.assertEqual(self.run_json("spectrum", "one.npy", "--samples", "0")["sizes"], [])
+        self.run_ok("spectrum", "one.npy", "-o", "one.svg")
+        self.run_error(2, "spectrum", "noise.nrrd", "--samples", "-1", says="--samples")
+        self.run_error(2, "spectrum", "noise.nrrd", "-o", "x.png", says=".png")
+
+
+if __name__ == "__main__":
+    harness.main()
