@@ -9,7 +9,7 @@ if(ISOATLAS_WEB)
   endif()
   set(web ${CMAKE_CURRENT_SOURCE_DIR}/web)
   set(web_build ${CMAKE_BINARY_DIR}/web)  # the source tree stays clean
-  file(GLOB web_sources CONFIGURE_DEPENDS ${web}/src/* ${web}/*.html ${web}/*.ts ${web}/*.json)
+  file(GLOB web_sources CONFIGURE_DEPENDS ${web}/src/* ${web}/tests/* ${web}/*.html ${web}/*.ts ${web}/*.json)
   set(page_html ${web_build}/dist/atlas.html)
   add_custom_command(OUTPUT ${web_build}/installed
     COMMAND ${CMAKE_COMMAND} -E make_directory ${web_build}
@@ -19,8 +19,9 @@ if(ISOATLAS_WEB)
     DEPENDS ${web}/package.json ${web}/package-lock.json COMMENT "Installing the packages of web/" VERBATIM)
   add_custom_command(OUTPUT ${page_html}
     COMMAND ${CMAKE_COMMAND} -E copy ${web}/atlas.html ${web}/tsconfig.json ${web}/vite.config.ts ${web_build}
-    COMMAND ${CMAKE_COMMAND} -E rm -rf ${web_build}/src
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${web_build}/src ${web_build}/tests
     COMMAND ${CMAKE_COMMAND} -E copy_directory ${web}/src ${web_build}/src
+    COMMAND ${CMAKE_COMMAND} -E copy_directory ${web}/tests ${web_build}/tests
     COMMAND ${NPM} --prefix ${web_build} run --silent build
     DEPENDS ${web_build}/installed ${web_sources} COMMENT "Bundling the page" VERBATIM)
 endif()

@@ -33,6 +33,7 @@ test|python3|layering test, schema test, documentation test
 test|assimp-utils|independent reader of the surfaces we write
 test|python3-vtk9|independent reader of the surfaces and trees we write
 test|python3-numpy|arrays of python3-vtk9
+test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write
 test|python3-h5py|independent reader of stores
 test|python3-networkx|independent reader of the trees we write

@@ -28,8 +28,8 @@ export class Axis {
     const rough = range / Math.max(1, most);
     const power = 10 ** Math.floor(Math.log10(rough));
     const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? 10 * power;
-    const first = Math.ceil(this.low / step);
-    const last = Math.floor(this.high / step);
+    const first = Math.ceil(this.low / step - 1e-9);
+    const last = Math.floor(this.high / step + 1e-9);
     return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => Number(((first + i) * step).toPrecision(12)));
   }
 }

@@ -30,6 +30,7 @@ export class Detail {
     this.shown = ((i % n) + n) % n;
     this.dialog.replaceChildren(...this.content(this.shown));
     if (!this.dialog.open) this.dialog.showModal();
+    this.dialog.querySelector("h2")?.focus(); // what had it may be gone, and keys go on to work
     history.replaceState(null, "", `#object-${this.shown + 1}`);
   }
 
@@ -45,7 +46,7 @@ export class Detail {
       return button;
     };
     return [
-      html("header", {}, step(-1, "Previous object"), html("h2", { id: "detail-title" }, nameOf(page, i)), step(1, "Next object"), close),
+      html("header", {}, step(-1, "Previous object"), html("h2", { id: "detail-title", tabindex: -1 }, nameOf(page, i)), step(1, "Next object"), close),
       entry.picture ? turntable(entry.picture, `Picture of ${describe(page, i)}`) : html("p", {}, "no picture"),
       html("p", {}, this.sentence(i)),
       rangeBar(page, i),

@@ -7,7 +7,7 @@ export function value(x: number): string {
   if (x === 0) return "0";
   const size = Math.abs(x);
   if (size >= 1e6 || size < 1e-3) return x.toExponential(2).replace("e+", "e");
-  return String(Number(x.toPrecision(size >= 1000 ? Math.ceil(Math.log10(size)) + 1 : 4)));
+  return String(size >= 1000 ? Math.round(x) : Number(x.toPrecision(4)));
 }
 
 export function count(n: number): string {

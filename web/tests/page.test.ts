@@ -1,0 +1,105 @@
+// The bundled page in a browser, opened from disk. Skipped where there is no Chromium.
+import { existsSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium, type Browser, type Page as Tab } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { Page } from "../src/page";
+import { entry, page, scene } from "./sample";
+
+const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
+const bundled = fileURLToPath(new URL("../dist/atlas.html", import.meta.url));
+const pixel = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAE0lEQVR42mNk+M9Qz4AEGBmRBQAvAgQBv9W0VAAAAABJRU5ErkJggg==";
+
+describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
+  let browser: Browser;
+  beforeAll(async () => {
+    browser = await chromium.launch({ executablePath: browserFile, args: ["--no-sandbox"] });
+  });
+  afterAll(() => browser.close());
+
+  async function open(data: Page | null, hash = ""): Promise<{ tab: Tab; problems: string[] }> {
+    const json = JSON.stringify(data).replaceAll("<", "\\u003c");
+    const file = join(mkdtempSync(join(tmpdir(), "isoatlas-page-")), "a.html");
+    writeFileSync(file, readFileSync(bundled, "utf8").replace('json">null<', () => `json">${json}<`));
+    const tab = await browser.newPage({ viewport: { width: 1000, height: 900 } });
+    const problems: string[] = [];
+    tab.on("pageerror", (error) => problems.push(error.message));
+    tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));
+    tab.on("request", (request) => /^(file|data):/.test(request.url()) || problems.push(`asked for ${request.url()}`));
+    await tab.goto(`file://${file}${hash}`);
+    return { tab, problems };
+  }
+
+  it("shows a card for every object, and loads nothing from elsewhere", async () => {
+    const { tab, problems } = await open(scene);
+    expect(await tab.title()).toBe("scan – atlas");
+    expect(await tab.locator(".card").count()).toBe(4);
+    expect(await tab.locator(".overview .mark").count()).toBe(4);
+    expect(await tab.locator(".overview .branch").count()).toBe(3);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("sorts and filters", async () => {
+    const { tab } = await open(scene);
+    await tab.selectOption("select[name=order]", "size");
+    expect(await tab.locator(".card .title").allTextContents()).toEqual(["Object 1", "Object 2", "Dark object 4", "Object 3"]);
+    await tab.selectOption("select[name=side]", "dark");
+    expect(await tab.locator(".card").count()).toBe(1);
+    expect(await tab.locator(".said").textContent()).toBe("1 of 4 shown");
+    await tab.close();
+  });
+
+  it("opens an object by click, keyboard and address, and goes to its relatives", async () => {
+    const { tab } = await open(scene, "#object-3");
+    const dialog = tab.locator("dialog");
+    expect(await dialog.locator("h2").textContent()).toBe("Object 3");
+    expect(await dialog.locator("code").count()).toBe(1);
+    await dialog.getByRole("button", { name: "Object 1", exact: true }).first().click();
+    expect(await dialog.locator("h2").textContent()).toBe("Object 1");
+    expect(await tab.evaluate(() => location.hash)).toBe("#object-1");
+    await tab.keyboard.press("ArrowLeft");
+    expect(await dialog.locator("h2").textContent()).toBe("Dark object 4");
+    await tab.keyboard.press("Escape");
+    expect(await dialog.isVisible()).toBe(false);
+    await tab.locator(".overview .mark").nth(1).focus();
+    await tab.keyboard.press("Enter");
+    expect(await dialog.locator("h2").textContent()).toBe("Object 2");
+    await tab.close();
+  });
+
+  it("turns pictures by keyboard and pointer", async () => {
+    const { tab } = await open(page([entry({ picture: { image: pixel, frames: 4, width: 1, height: 1 } })]));
+    const picture = tab.locator(".card .turntable");
+    await picture.focus();
+    await tab.keyboard.press("ArrowRight");
+    expect(await picture.getAttribute("data-frame")).toBe("1");
+    const box = (await picture.boundingBox())!;
+    await tab.mouse.move(box.x + box.width * 0.9, box.y + box.height / 2);
+    expect(await picture.getAttribute("data-frame")).toBe("3");
+    await tab.close();
+  });
+
+  it("says so when there is nothing, and does not take names for markup", async () => {
+    const nothing = page([]);
+    nothing.volume.name = "</script><b>x";
+    nothing.spectrum = null;
+    const { tab, problems } = await open(nothing);
+    expect(await tab.locator("h1").textContent()).toBe("</script><b>x");
+    expect(await tab.locator(".about").textContent()).toContain("nothing to show");
+    const empty = await open(null);
+    expect(await empty.tab.locator("main").textContent()).toContain("no data");
+    expect([...problems, ...empty.problems]).toEqual([]);
+    await tab.close();
+    await empty.tab.close();
+  });
+
+  it("fits a phone", async () => {
+    const { tab } = await open(scene);
+    await tab.setViewportSize({ width: 360, height: 700 });
+    expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
+    await tab.close();
+  });
+});
