@@ -87,6 +87,7 @@ declare -A installed
 while read -r status package; do
     if [[ $status == installed ]]; then installed[${package%%:*}]=1; fi
 done < <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)
+if command -v npm >/dev/null; then installed[nodejs]=1 installed[npm]=1; fi  # Node.js from elsewhere brings its own npm
 missing=()
 for package in "${wanted[@]}"; do
     [[ -n ${installed[$package]:-} ]] || missing+=("$package")
