@@ -57,6 +57,7 @@ fi
 
 say "done"
 cat <<TEXT
+$out/demo.atlas.html   open it in a browser: a picture of every object, and the isovalues that show it
 $out/objects.json      the table as JSON
 $out/tree.json         the criticality tree: every topological change, with its zone
 $out/object_N.$extension      the surface of object N at its best isovalue (any mesh viewer opens it)

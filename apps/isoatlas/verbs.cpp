@@ -9,7 +9,7 @@ const std::vector<Verb>& verbs() {
         {"atlas",
          "VOLUME",
          "Show what is in a volume: a page with a picture of every object that matters. `isoatlas FILE` does the same.",
-         {"isoatlas scan.nii.gz", "isoatlas atlas scan.nii.gz -o scan.html --top 10", "isoatlas scan.atlas --json"},
+         {"isoatlas atlas scan.nii.gz", "isoatlas atlas scan.nii.gz -o scan.html --top 10", "isoatlas atlas scan.atlas --json"},
          run_atlas},
         {"info",
          "VOLUME",

@@ -56,8 +56,10 @@ class Help(CliTest):
         self.run_error(2, "phantom", "gyroyd", "-o", "x.nrrd", next_says="gyroid")
 
     def test_a_file_instead_of_a_verb(self):
+        """It is shown: what is said is about the file."""
         (self.folder / "some.nrrd").write_text("x")
-        self.run_error(2, "some.nrrd", next_says="isoatlas objects some.nrrd")
+        self.run_error(3, "some.nrrd", says="some.nrrd")
+        self.run_error(2, "some.nrdd", says="no verb")
 
     def test_options_before_the_verb(self):
         self.assertIn('"schema"', self.run_ok("--json", "phantom", "--list").stdout)
