@@ -31,6 +31,8 @@
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/search_table.h"
+#include "isoatlas/selection.h"
+#include "isoatlas/simplify.h"
 #include "isoatlas/spectrum.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
