@@ -38,7 +38,7 @@ public:
     Rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches)
         : volume_(volume), tree_(tree), branches_(branches) {}
 
-    [[nodiscard]] std::vector<BranchRow> choose(double noise, const RankOptions& options) const {
+    [[nodiscard]] std::vector<BranchRow> choose(const NoiseModel& noise, const RankOptions& options) const {
         std::vector<BranchRow> rows = choose_isovalues(chosen(noise, options));
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         measure(rows);
@@ -50,14 +50,14 @@ private:
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
     /// By rank; more than there may be rows are not needed.
-    [[nodiscard]] std::vector<std::int64_t> chosen(double noise, const RankOptions& options) const {
+    [[nodiscard]] std::vector<std::int64_t> chosen(const NoiseModel& noise, const RankOptions& options) const {
         std::vector<std::int64_t> kept;
         if (options.selection) {
             const bool measured = options.selection->least_measure > 0;
             const BigVector<double> measure = measured ? branch_measures(tree_, branches_, volume_) : BigVector<double>();
             kept = select_branches(branches_, measure, *options.selection);
         } else if (options.gate) {
-            kept = essential_branches(branches_, volume_.info->extent.voxels(), noise);
+            kept = essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
         } else {
             kept.resize(branches_.branch.size());
             std::iota(kept.begin(), kept.end(), std::int64_t{0});
@@ -175,7 +175,7 @@ bool contains(const SideTree<Id>& tree, std::int64_t outer, std::int64_t inner) 
 }  // namespace
 
 template <class Id>
-std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, double noise,
+std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, const NoiseModel& noise,
                                    const RankOptions& options) {
     return Rows<Id>(volume, tree, branches).choose(noise, options);
 }
@@ -193,8 +193,9 @@ std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::ve
     return around;
 }
 
-#define ISOATLAS_BRANCH_ROWS(Id)                                                                                                      \
-    template std::vector<BranchRow> branch_rows(const VolumeView&, const SideTree<Id>&, const Branches&, double, const RankOptions&); \
+#define ISOATLAS_BRANCH_ROWS(Id)                                                                                            \
+    template std::vector<BranchRow> branch_rows(const VolumeView&, const SideTree<Id>&, const Branches&, const NoiseModel&, \
+                                                const RankOptions&);                                                        \
     template std::vector<std::int64_t> closest_around(const SideTree<Id>&, const std::vector<BranchRow>&);
 ISOATLAS_BRANCH_ROWS(std::uint32_t)
 ISOATLAS_BRANCH_ROWS(std::uint64_t)

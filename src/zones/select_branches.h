@@ -5,6 +5,7 @@
 
 #include "isoatlas/selection.h"
 #include "zones/branches.h"
+#include "zones/noise.h"
 
 namespace isoatlas {
 
@@ -16,8 +17,9 @@ template <class Id>
 [[nodiscard]] std::vector<std::int64_t> select_branches(const Branches& branches, std::span<const double> measure,
                                                         const Selection& selection);
 
-/// Branches that noise does not explain and that are not tiny beside the largest; the trunk first. voxels: of the volume; noise: its
-/// standard deviation. Cost: O(branches that are large enough).
-[[nodiscard]] std::vector<std::int64_t> essential_branches(const Branches& branches, std::int64_t voxels, double noise);
+/// Branches that noise does not explain and that are not tiny beside the largest; the trunk first. The noise is that around the value where
+/// they merge. voxels: of the volume; sign: of SideTree. Cost: O(branches that are large enough).
+[[nodiscard]] std::vector<std::int64_t> essential_branches(const Branches& branches, std::int64_t voxels, const NoiseModel& noise,
+                                                           double sign);
 
 }  // namespace isoatlas

@@ -34,7 +34,7 @@ void gather(const VolumeView& volume, const AnalysisArrays<Id>& arrays, Data& da
     const SideTree<Id> tree = bright_side<Id>(arrays, data.value);
     data.branches = make_branches(tree, volume);
     data.measure = branch_measures(tree, data.branches, volume);
-    data.essential = essential_branches(data.branches, volume.info->extent.voxels(), estimate_noise(volume));
+    data.essential = essential_branches(data.branches, volume.info->extent.voxels(), fit_noise(volume), tree.sign);
     for (std::size_t i = 0; i < data.branches.branch.size(); ++i) {
         const Branch& b = data.branches.branch[i];
         const std::int64_t id = ElementCode{arrays.code[arrays.tree.top[b.highest]]}.index();
