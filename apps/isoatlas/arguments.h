@@ -42,7 +42,10 @@ struct Arguments {
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
     bool best = false, all = false, zones = false, list = false, dark = false, both = false;
-    std::int64_t top = 0;                 ///< 0: not given
+    std::int64_t top = 0;  ///< 0: not given
+    Selection selection;   ///< as typed: reported units
+    bool selects = false, persistence_in_percent = false;
+    std::string curve;                    ///< file
     std::optional<std::int64_t> samples;  ///< isovalues that are measured
     int levels = 8;
     bool full = false;

@@ -6,6 +6,7 @@
 
 #include "document.h"
 #include "interrupt.h"
+#include "simplified.h"
 #include "source.h"
 #include "terminal.h"
 #include "values.h"
@@ -46,7 +47,24 @@ Labels label_dark(Source& source) {
     return labels;
 }
 
-Labels label_zones(const Arguments& arguments, Source& source) {
+/// Zones of the simplified tree: label = node + 1.
+Labels label_simplified(Source& source, Terminal& terminal) {
+    const Volume& volume = source.volume();
+    const Analysis analysis = source.analysis(true);
+    const Simplified simplified = BranchHierarchy(volume, analysis, source.context()).simplify(source.selection());
+    Labels labels{{},
+                  static_cast<std::int64_t>(simplified.nodes.size()),
+                  {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
+    for (std::int64_t i = 0; i < volume.info.extent.voxels(); ++i) {
+        const std::int64_t node = simplified.node_of_event[static_cast<std::size_t>(analysis.zone(i))];
+        labels.of_voxel.push_back(static_cast<std::uint32_t>(node + 1));
+    }
+    terminal.say(hidden_text(simplified, volume.info.extent.voxels()));
+    return labels;
+}
+
+Labels label_zones(const Arguments& arguments, Source& source, Terminal& terminal) {
+    if (arguments.selects) return label_simplified(source, terminal);
     const Analysis analysis = source.analysis(true);
     if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
     const std::int64_t voxels = source.info().extent.voxels();
@@ -66,6 +84,8 @@ void check_arguments(const Arguments& arguments) {
     }
     if (arguments.dark && arguments.zones)
         throw Error(ErrorKind::usage, {.what = "--dark and --zones contradict each other", .next = "isoatlas label --help"});
+    if (arguments.selects && !arguments.zones)
+        throw Error(ErrorKind::usage, {.what = "a selection is for --zones", .next = "isoatlas label --help"});
     check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
 }
 
@@ -74,7 +94,9 @@ void check_arguments(const Arguments& arguments) {
 int run_label(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Source source(arguments, terminal);
-    const Labels labels = arguments.zones ? label_zones(arguments, source) : arguments.dark ? label_dark(source) : label_objects(source);
+    const Labels labels = arguments.zones  ? label_zones(arguments, source, terminal)
+                          : arguments.dark ? label_dark(source)
+                                           : label_objects(source);
     {
         const WritingGuard guard(arguments.output);
         write_labels(arguments.output, source.info(), labels.of_voxel, labels.origin);
@@ -96,7 +118,8 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
                               : arguments.dark ? "cavity"
                                                : "object",
                               what)
-                   << (arguments.zones ? " (label = event id + 1), " : " (label 1 is the largest, 0 is background), ")
+                   << (arguments.zones ? arguments.selects ? " (label = node of the simplified tree + 1), " : " (label = event id + 1), "
+                                       : " (label 1 is the largest, 0 is background), ")
                    << interpolant_text(source.info(), labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
     if (arguments.tau && !arguments.dark) {
         terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),

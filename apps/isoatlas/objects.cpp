@@ -1,11 +1,14 @@
 // isoatlas objects: the table people come for, or every object at one isovalue.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "dark_table.h"
 #include "document.h"
+#include "simplified.h"
 #include "sizes.h"
 #include "source.h"
 #include "table.h"
@@ -44,6 +47,16 @@ Json entry_json(const ObjectEntry& entry, const VolumeInfo& info, const Scale& s
     return json;
 }
 
+/// Objects, not lines.
+std::int64_t shown_objects(const ObjectTable& table) {
+    std::set<std::array<double, 4>> branches;  // no two objects have the same peak and the same size
+    for (const ObjectEntry& entry : table.entries) {
+        const auto top = static_cast<double>(entry.branch_top);
+        branches.insert({entry.appears, entry.merges, entry.hypervolume, top});
+    }
+    return static_cast<std::int64_t>(branches.size());
+}
+
 /// dark: listed too; null: not asked for.
 void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const DarkTable* dark = nullptr) {
     const VolumeInfo& info = source.info();
@@ -51,6 +64,7 @@ void print_table_json(Terminal& terminal, Source& source, const ObjectTable& tab
     Json head = document("objects", info, source.interpolant(), source.tunnel_height());
     head["tau"] = nullptr;
     head["branches"] = table.branches;
+    head["hidden"] = table.branches - shown_objects(table);
     head["noise"] = table.noise * info.calibration.slope;
     if (dark != nullptr) add_dark(head, *dark, info);
     add_reads(head, source.reads());
@@ -66,9 +80,9 @@ void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
     const VolumeInfo& info = source.info();
     const auto lines = static_cast<std::int64_t>(table.entries.size());
     const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * info.calibration.slope) : "";
-    terminal.say(fmt::format("{} in all; {} to look at, some objects at several isovalues{}; {}",
-                             counted(table.branches, "maximum", "maxima"), counted(lines, "line"), noise,
-                             interpolant_text(info, source.interpolant(), source.tunnel_height())));
+    terminal.say(fmt::format("{} in all, {} hidden; {} to look at, some objects at several isovalues{}; {}",
+                             counted(table.branches, "maximum", "maxima"), count_text(table.branches - shown_objects(table)),
+                             counted(lines, "line"), noise, interpolant_text(info, source.interpolant(), source.tunnel_height())));
 }
 
 void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, const ObjectTable& table) {
@@ -116,9 +130,20 @@ int list_dark(const Arguments& arguments, Terminal& terminal, Source& source, co
 }
 
 int list_best(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.all && arguments.selects)
+        throw Error(ErrorKind::usage, {.what = "--all and a selection contradict each other", .next = "isoatlas objects --help"});
+    if (!arguments.curve.empty()) check_output(arguments, arguments.curve, {".csv", ".svg", ".json"});
     Source source(arguments, terminal);
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
-    const RankOptions options{.top = top, .gate = !arguments.all};
+    RankOptions options{.top = top, .gate = !arguments.all};
+    if (arguments.selects) {
+        options.selection = source.selection();
+        if (arguments.top == 0) options.top = 0;
+    }
+    if (!arguments.curve.empty()) {
+        const Volume& volume = source.volume();
+        write_curves(arguments, source, volume, source.analysis(true));
+    }
     if (arguments.dark || arguments.both) return list_dark(arguments, terminal, source, options);
     const ObjectTable table = source.objects(options);
     if (arguments.json) {
@@ -203,6 +228,10 @@ int list_at(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 int run_objects(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.tau && (arguments.selects || !arguments.curve.empty())) {
+        throw Error(ErrorKind::usage, {.what = "a selection is for the table of best isovalues, not for one isovalue",
+                                       .next = "leave out --tau, or the selection"});
+    }
     if (arguments.tau && (arguments.dark || arguments.both)) {
         throw Error(ErrorKind::usage, {.what = "--tau lists the objects at an isovalue, --dark and --both the best isovalues of dark ones",
                                        .next = "isoatlas label --dark --tau T labels the cavities at an isovalue"});

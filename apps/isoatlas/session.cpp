@@ -138,22 +138,26 @@ std::string cost_text(const VolumeInfo& info, int threads) {
 }
 
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions) {
-    const std::string name = lower(fs::path(arguments.output).filename().string());
+    check_output(arguments, arguments.output, extensions);
+}
+
+void check_output(const Arguments& arguments, const std::string& output, const std::vector<std::string>& extensions) {
+    const std::string name = lower(fs::path(output).filename().string());
     const bool known = std::any_of(extensions.begin(), extensions.end(),
                                    [&](const std::string& end) { return name.size() > end.size() && ends_with(name, end); });
     if (!known) {
         const std::string extension = fs::path(name).extension().string();
         const std::string near = nearest(extension, extensions);
-        throw Error(ErrorKind::usage, {.file = arguments.output,
+        throw Error(ErrorKind::usage, {.file = output,
                                        .what = extension.empty() ? "the name has no extension" : "unknown extension " + extension,
                                        .expected = list_of(extensions),
                                        .next = near.empty() ? "the format follows the name" : "did you mean " + near + "?"});
     }
-    check_file_system(arguments.output);
+    check_file_system(output);
     std::error_code ignored;
-    if (!arguments.file.empty() && fs::equivalent(arguments.output, arguments.file, ignored)) {
+    if (!arguments.file.empty() && fs::equivalent(output, arguments.file, ignored)) {
         throw Error(ErrorKind::usage,
-                    {.file = arguments.output, .what = "the output would overwrite the input", .next = "choose another name with -o"});
+                    {.file = output, .what = "the output would overwrite the input", .next = "choose another name with -o"});
     }
 }
 

@@ -52,6 +52,8 @@ struct Cost {
 
 /// Fails early, before the long work: unknown extension, missing or unwritable folder, output equal to the input.
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions);
+/// The same of another output than that of -o.
+void check_output(const Arguments& arguments, const std::string& output, const std::vector<std::string>& extensions);
 
 /// "--dims 4x4x4 --type uint8": the reading options again, for the commands we suggest.
 [[nodiscard]] std::string reading_options(const Arguments& arguments);

@@ -93,6 +93,17 @@ ObjectTable Source::objects(const RankOptions& options) {
     return table;
 }
 
+Selection Source::selection() {
+    Selection selection = arguments_.selection;
+    const double slope = std::abs(info_.calibration.slope);
+    selection.least_hypervolume /= slope;
+    if (arguments_.persistence_in_percent)
+        selection.least_persistence *= (range().high - range().low) / 100;
+    else
+        selection.least_persistence /= slope;
+    return selection;
+}
+
 Spectrum Source::spectrum(const SpectrumOptions& options) {
     if (atlas_ && !arguments_.voxel_units) return isoatlas::spectrum(*atlas_, options, context());
     return isoatlas::spectrum(volume(), analysis(true), options, context());

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] Surface extract(double tau, ExtractOptions options);
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
+    /// The selection of the command line, in stored values.
+    [[nodiscard]] Selection selection();
     [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);
     /// The trees. with_zones: zone(voxel) will be asked.
     [[nodiscard]] Analysis analysis(bool with_zones);

@@ -7,6 +7,7 @@
 
 #include "document.h"
 #include "interrupt.h"
+#include "simplified.h"
 #include "source.h"
 #include "table.h"
 #include "terminal.h"
@@ -166,6 +167,7 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
 }  // namespace
 
 int run_tree(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.selects) return run_simplified_tree(arguments, terminal);
     if (!arguments.output.empty()) check_output(arguments, {".json", ".graphml", ".csv", ".vtu"});
     Source source(arguments, terminal);
     const Analysis analysis = source.analysis(false);

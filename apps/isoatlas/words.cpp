@@ -99,6 +99,12 @@ double parse_height(const std::string& option, const std::string& word) {
     return height;
 }
 
+std::int64_t parse_count(const std::string& option, const std::string& word) {
+    std::int64_t count = 0;
+    if (!read(word, count) || count < 1) bad_word(option, word, "a number of at least 1, or a percentage such as 5%");
+    return count;
+}
+
 std::int64_t parse_bytes(const std::string& option, const std::string& word) {
     static const std::map<std::string, double> units{{"", 1}, {"k", 0x1p10}, {"m", 0x1p20}, {"g", 0x1p30}, {"t", 0x1p40}};
     std::string unit;

@@ -21,6 +21,9 @@ namespace isoatlas::cli {
 /// A number of at least 0, with or without % behind it (then 0..100).
 [[nodiscard]] double parse_height(const std::string& option, const std::string& word);
 
+/// A positive whole number.
+[[nodiscard]] std::int64_t parse_count(const std::string& option, const std::string& word);
+
 /// "1G", "500M", "1.5 GiB": K, M, G, T are powers of 1024. At least 64 MiB.
 [[nodiscard]] std::int64_t parse_bytes(const std::string& option, const std::string& word);
 

@@ -94,8 +94,8 @@ public:
     /// then O(bricks + objects log events).
     [[nodiscard]] SurfacePreview preview(double tau) const;
 
-    /// The table of objects, as from rank_objects(). Cost: reads the table, which is stored. Without the gate, for more than 1024 entries
-    /// where there are so many, and for volumes of more than 2^24 voxels, the volume is read and analysed again.
+    /// The table of objects, as from rank_objects(). Cost: reads the table, which is stored. Without the gate, with a selection, for more
+    /// than 1024 entries where there are so many, and for volumes of more than 2^24 voxels, the volume is read and analysed again.
     [[nodiscard]] ObjectTable objects(const RankOptions& options = {}, const Context& context = {}) const;
 
     /// The trees, without zones of voxels.

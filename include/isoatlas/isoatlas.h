@@ -34,6 +34,8 @@
 #include "isoatlas/phantom.h"
 #include "isoatlas/render.h"
 #include "isoatlas/search_table.h"
+#include "isoatlas/selection.h"
+#include "isoatlas/simplify.h"
 #include "isoatlas/spectrum.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"

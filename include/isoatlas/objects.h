@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isoatlas/analysis.h"
+#include "isoatlas/selection.h"
 
 namespace isoatlas {
 
@@ -38,8 +39,9 @@ struct ObjectTable {
 };
 
 struct RankOptions {
-    std::int64_t top = 24;  ///< at most this many entries; 0: all that pass the gate
-    bool gate = true;       ///< drop what noise alone explains (essential.md section 2)
+    std::int64_t top = 24;                 ///< at most this many entries; 0: all that pass the gate
+    bool gate = true;                      ///< drop what noise alone explains (essential.md section 2)
+    std::optional<Selection> selection{};  ///< instead of the gate
 };
 
 /// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3).

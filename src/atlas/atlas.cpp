@@ -151,7 +151,7 @@ const ActiveIndex& Atlas::active_index() const {
 }
 
 ObjectTable Atlas::objects(const RankOptions& options, const Context& context) const {
-    if (options.gate && has_objects(data_->store)) {
+    if (options.gate && !options.selection && has_objects(data_->store)) {
         const ObjectTable& stored = data_->objects.get([this] { return objects_of(data_->store); });
         const auto count = static_cast<std::int64_t>(stored.entries.size());
         if (count < kStoredEntries || (options.top > 0 && options.top <= count)) return first_entries(stored, options.top);

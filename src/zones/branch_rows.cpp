@@ -4,15 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
+#include "zones/select_branches.h"
 #include "zones/stable_isovalue.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr std::size_t kBins = 256;
-constexpr std::size_t kTrunkRows = 5;    // nested zones of the trunk: skin, skull, enamel, ...
-constexpr double kRelativeSize = 0.003;  // of the largest hypervolume that is not the trunk's
+constexpr std::size_t kTrunkRows = 5;  // nested zones of the trunk: skin, skull, enamel, ...
 
 /// Counts of voxels by height along one branch. Integer samples with a small range get one bin a value, cut half way between values.
 struct BranchHistogram {
@@ -37,8 +38,8 @@ public:
     Rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches)
         : volume_(volume), tree_(tree), branches_(branches) {}
 
-    [[nodiscard]] std::vector<BranchRow> choose(double noise, const RankOptions& options) const {
-        std::vector<BranchRow> rows = choose_isovalues(essential(noise, options));
+    [[nodiscard]] std::vector<BranchRow> choose(const NoiseModel& noise, const RankOptions& options) const {
+        std::vector<BranchRow> rows = choose_isovalues(chosen(noise, options));
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         measure(rows);
         return rows;
@@ -48,20 +49,21 @@ private:
     [[nodiscard]] bool is_bright() const { return tree_.sign > 0; }
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
-    /// Branches that noise does not explain and that are not tiny beside the largest; the trunk first.
-    [[nodiscard]] std::vector<std::int64_t> essential(double noise, const RankOptions& options) const {
-        const auto n = static_cast<double>(volume_.info->extent.voxels());
-        const double least_height = 1.1 * noise * std::sqrt(2 * std::log(n)), least_hypervolume = 2 * noise * std::pow(n, 2.0 / 3);
-        const auto least_voxels = static_cast<std::int64_t>(std::clamp(n / 2000, 1.0, 27.0));
-        std::vector<std::int64_t> kept{0};
-        const BigVector<Branch>& all = branches_.branch;
-        for (std::size_t i = 1; i < all.size(); ++i) {
-            const Branch& b = all[i];
-            if (options.gate && b.hypervolume < kRelativeSize * all[1].hypervolume) break;  // sorted by hypervolume
-            const bool beyond_noise = (b.persistence > least_height && b.voxels >= least_voxels) || b.hypervolume > least_hypervolume;
-            if (!options.gate || beyond_noise) kept.push_back(static_cast<std::int64_t>(i));
-            if (options.top > 0 && static_cast<std::int64_t>(kept.size()) > options.top) break;
+    /// By rank; more than there may be rows are not needed.
+    [[nodiscard]] std::vector<std::int64_t> chosen(const NoiseModel& noise, const RankOptions& options) const {
+        std::vector<std::int64_t> kept;
+        if (options.selection) {
+            const bool measured = options.selection->least_measure > 0;
+            const BigVector<double> measure = measured ? branch_measures(tree_, branches_, volume_) : BigVector<double>();
+            kept = select_branches(branches_, measure, *options.selection);
+        } else if (options.gate) {
+            kept = essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
+        } else {
+            kept.resize(branches_.branch.size());
+            std::iota(kept.begin(), kept.end(), std::int64_t{0});
         }
+        if (options.top > 0 && static_cast<std::int64_t>(kept.size()) > options.top + 1)
+            kept.resize(static_cast<std::size_t>(options.top) + 1);
         return kept;
     }
 
@@ -173,7 +175,7 @@ bool contains(const SideTree<Id>& tree, std::int64_t outer, std::int64_t inner) 
 }  // namespace
 
 template <class Id>
-std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, double noise,
+std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, const NoiseModel& noise,
                                    const RankOptions& options) {
     return Rows<Id>(volume, tree, branches).choose(noise, options);
 }
@@ -191,8 +193,9 @@ std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::ve
     return around;
 }
 
-#define ISOATLAS_BRANCH_ROWS(Id)                                                                                                      \
-    template std::vector<BranchRow> branch_rows(const VolumeView&, const SideTree<Id>&, const Branches&, double, const RankOptions&); \
+#define ISOATLAS_BRANCH_ROWS(Id)                                                                                            \
+    template std::vector<BranchRow> branch_rows(const VolumeView&, const SideTree<Id>&, const Branches&, const NoiseModel&, \
+                                                const RankOptions&);                                                        \
     template std::vector<std::int64_t> closest_around(const SideTree<Id>&, const std::vector<BranchRow>&);
 ISOATLAS_BRANCH_ROWS(std::uint32_t)
 ISOATLAS_BRANCH_ROWS(std::uint64_t)

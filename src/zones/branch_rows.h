@@ -5,6 +5,7 @@
 
 #include "isoatlas/objects.h"
 #include "zones/branches.h"
+#include "zones/noise.h"
 
 namespace isoatlas {
 
@@ -18,10 +19,10 @@ struct BranchRow {
     double measure = 0;
 };
 
-/// By rank; the trunk, which has several rows, first. noise: standard deviation. Cost: three passes over the samples.
+/// By rank; the trunk, which has several rows, first. Cost: three passes over the samples.
 template <class Id>
-[[nodiscard]] std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, double noise,
-                                                 const RankOptions& options);
+[[nodiscard]] std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches,
+                                                 const NoiseModel& noise, const RankOptions& options);
 
 /// Per row: position of the closest other row that contains it, -1: none. That is on the way down from its event the first of a lower tau.
 template <class Id>

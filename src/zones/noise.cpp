@@ -53,8 +53,24 @@ double local_variance(std::span<const T> samples, const Extent& extent, std::int
     return squares / count;
 }
 
+/// Are so many neighbourhoods constant, away from both ends of the range, that there can be no noise?
+template <class T>
+bool is_free_of_noise(std::span<const T> samples, const Extent& extent) {
+    constexpr std::int64_t kFew = 50;
+    const auto [low, high] = std::ranges::minmax(samples);
+    std::int64_t constant = 0, all = 0;
+    for (std::int64_t i = 0; i < extent.voxels(); i += 8 * stride_for(extent.voxels()) | 1) {
+        const bool flat = local_variance(samples, extent, i) == 0;
+        if (flat && (samples[i] == low || samples[i] == high)) continue;
+        ++all;
+        constant += flat;
+    }
+    return kFew * constant > all;
+}
+
 template <class T>
 double quiet_places(std::span<const T> samples, const Extent& extent) {
+    if (is_free_of_noise(samples, extent)) return 0;
     std::vector<double> variances;
     for (std::int64_t i = 0; i < extent.voxels(); i += 8 * stride_for(extent.voxels()) | 1) {
         const double variance = local_variance(samples, extent, i);

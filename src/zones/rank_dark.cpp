@@ -46,11 +46,13 @@ public:
     /// All but the outside.
     [[nodiscard]] DarkTable table(const RankOptions& options) const {
         DarkTable table;
-        table.noise = estimate_noise(volume_);
+        const NoiseModel noise = fit_noise(volume_);
+        table.noise = noise.sigma;
         for (const Branch& b : branches_.branch) table.branches += b.parent >= 0 && b.appears > b.merges;
         RankOptions with_outside = options;
         with_outside.top = 0;
-        std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, table.noise, with_outside);
+        if (with_outside.selection && with_outside.selection->keep) ++*with_outside.selection->keep;
+        std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, noise, with_outside);
         std::erase_if(rows, [](const BranchRow& row) { return row.branch == 0; });
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         const std::vector<std::int64_t> around = closest_around(tree_, rows);

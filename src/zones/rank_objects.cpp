@@ -25,9 +25,10 @@ public:
 
     [[nodiscard]] ObjectTable table(const RankOptions& options) const {
         ObjectTable table;
-        table.noise = estimate_noise(volume_);
+        const NoiseModel noise = fit_noise(volume_);
+        table.noise = noise.sigma;
         for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges;
-        const std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, table.noise, options);
+        const std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, rows);
         for (std::size_t i = 0; i < rows.size(); ++i) table.entries.push_back(entry(rows[i], around[i]));
         return first_entries(std::move(table), 0);

@@ -33,6 +33,8 @@ class Schemas(harness.CliTest):
             self.check("objects", "objects", file)
             self.check("objects", "objects", file, "--both", "--all")
             self.check("dark-objects", "objects", file, "--dark")
+            self.check("objects", "objects", file, "--keep", "3")
+            self.check("simplified-tree", "tree", file, "--top", "50%")
             self.check("objects-at", "objects", file, "--tau", "7")
             self.check("extract", "extract", file, "--tau", "7", "-o", "x.ply")
             self.check("extract", "extract", file, "--best", "--style", "full", "--boundary", "open", "-o", "x.stl")

@@ -1,0 +1,18 @@
+// The simplified tree, as text and as JSON, and what a selection hides.
+#pragma once
+
+#include "arguments.h"
+
+namespace isoatlas::cli {
+
+class Source;
+class Terminal;
+
+/// isoatlas tree with a selection.
+int run_simplified_tree(const Arguments& arguments, Terminal& terminal);
+/// Writes arguments.curve.
+void write_curves(const Arguments& arguments, Source& source, const Volume& volume, const Analysis& analysis);
+/// "3 of 1,204 objects are shown; the others hold 2 % of the voxels"
+[[nodiscard]] std::string hidden_text(const Simplified& simplified, std::int64_t voxels);
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,91 @@
+// Simplification as a view: the full hierarchy of objects is made once, what is shown of it may change at any moment.
+//
+// Every object of the volume is a branch: it appears at a maximum and ends where it merges with one of larger hypervolume. A selection
+// keeps some branches. In the simplified tree the others are bypassed (dissertation, section 13.2 and figure 13.2): their zones join that
+// of the object they merge into. Nothing of the tree, the volume or a surface changes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isoatlas/analysis.h"
+#include "isoatlas/selection.h"
+
+namespace isoatlas {
+
+/// Stored values.
+struct BranchInfo {
+    std::int64_t id;         ///< index of the highest voxel of the object just before it merges
+    std::int64_t top;        ///< the event at which it begins, a maximum
+    std::int64_t parent;     ///< the branch that it ends in; -1: the trunk
+    double appears, merges;  ///< on its own for tau in (merges, appears]; merges = -infinity: the trunk
+    double persistence;      ///< highest value - merges (the trunk: - lowest sample)
+    double hypervolume;      ///< sum of (value - merges); the rank
+    std::int64_t voxels;     ///< just before it merges
+    double measure;          ///< physical volume of these
+};
+
+/// A node of the simplified tree: what happens to a kept object that is not bypassed. Its zone is the interval below it.
+struct SimplifiedNode {
+    std::int64_t event;          ///< of the full tree
+    std::int64_t branch;         ///< kept branch that it lies on
+    std::int64_t parent;         ///< next node going down; -1: the root, the last one
+    bool is_maximum;             ///< the branch begins; else other kept branches end here
+    double tau_low, tau_high;    ///< isovalues of its zone: (tau_low, tau_high]; tau_low of the root is -infinity
+    std::int64_t voxels;         ///< of its zone, those of bypassed zones included
+    std::int64_t object_voxels;  ///< just above tau_low: its voxels and those of the nodes above it
+};
+
+struct Simplified {
+    std::vector<std::int64_t> kept;           ///< branches, by rank
+    std::vector<SimplifiedNode> nodes;        ///< descending events: children before their parents
+    std::vector<std::int64_t> node_of_event;  ///< per event of the full tree: the node whose zone its zone has joined
+    std::int64_t hidden = 0;                  ///< branches that are not kept
+    std::int64_t hidden_voxels = 0;           ///< voxels that lie in them
+    double hidden_hypervolume = 0;            ///< of the largest of them
+};
+
+/// How many objects there are for every threshold of a size.
+struct SelectionCurve {
+    std::string size;                ///< "hypervolume", "persistence", "voxels"
+    std::vector<double> threshold;   ///< descending; all objects have at least the last one
+    std::vector<std::int64_t> kept;  ///< objects of at least that size
+    double automatic_threshold = 0;  ///< the least size of an object that the gate of rank_objects() keeps
+    std::int64_t automatic_kept = 0;
+};
+
+class BranchHierarchy {
+public:
+    /// analysis: of this volume, with zones; it must live as long as this. Throws Error{usage}. Cost: as rank_objects().
+    BranchHierarchy(const Volume& volume, const Analysis& analysis, const Context& context = {});
+    BranchHierarchy(BranchHierarchy&&) noexcept;
+    BranchHierarchy& operator=(BranchHierarchy&&) noexcept;
+    ~BranchHierarchy();
+
+    /// All, by rank; the first is the trunk.
+    [[nodiscard]] std::span<const BranchInfo> branches() const;
+    /// What a selection keeps, by rank. Cost: O(branches).
+    [[nodiscard]] std::vector<std::int64_t> kept(const Selection& selection) const;
+    /// What noise does not explain and is not tiny: the automatic choice, by rank.
+    [[nodiscard]] const std::vector<std::int64_t>& essential() const;
+    /// Cost: O(events).
+    [[nodiscard]] Simplified simplify(const Selection& selection) const;
+    /// The same for any kept branches: with a branch its parent must be among them, the trunk always.
+    [[nodiscard]] Simplified simplify(std::vector<std::int64_t> kept) const;
+    /// Of hypervolume, persistence and voxels. Cost: O(branches log branches).
+    [[nodiscard]] std::vector<SelectionCurve> curves() const;
+
+    struct Data;
+
+private:
+    std::unique_ptr<Data> data_;
+};
+
+/// The format follows the name: .csv, .svg (plots), .json (docs/schema/curves). Written to a temporary name and renamed. Throws Error:
+/// usage (unknown extension), resource.
+void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves);
+
+}  // namespace isoatlas

@@ -1,0 +1,25 @@
+// Which branches are kept: by a selection, or by what noise explains (essential.md section 2).
+#pragma once
+
+#include <vector>
+
+#include "isoatlas/selection.h"
+#include "zones/branches.h"
+#include "zones/noise.h"
+
+namespace isoatlas {
+
+/// Physical volume of the object of every branch just before it merges. Cost: O(branches); on rectilinear grids one pass over the samples.
+template <class Id>
+[[nodiscard]] BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& branches, const VolumeView& volume);
+
+/// Positions by rank, the trunk first. measure: of branch_measures(); empty when the selection does not ask for it. Cost: O(branches).
+[[nodiscard]] std::vector<std::int64_t> select_branches(const Branches& branches, std::span<const double> measure,
+                                                        const Selection& selection);
+
+/// Branches that noise does not explain and that are not tiny beside the largest; the trunk first. The noise is that around the value where
+/// they merge. voxels: of the volume; sign: of SideTree. Cost: O(branches that are large enough).
+[[nodiscard]] std::vector<std::int64_t> essential_branches(const Branches& branches, std::int64_t voxels, const NoiseModel& noise,
+                                                           double sign);
+
+}  // namespace isoatlas

@@ -1,0 +1,272 @@
+// The simplified tree is what is left when small objects are taken away one after the other, as the dissertation's figure 13.2 does it.
+#include "isoatlas/simplify.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "isoatlas/objects.h"
+#include "isoatlas/phantom.h"
+#include "oracle/difference.h"
+#include "oracle/mesh_checks.h"
+
+namespace oracle {
+namespace {
+
+using isoatlas::Analysis;
+using isoatlas::BranchHierarchy;
+using isoatlas::BranchInfo;
+using isoatlas::Selection;
+using isoatlas::Simplified;
+using isoatlas::SimplifiedNode;
+using isoatlas::Volume;
+
+/// A path of events from a leaf down to where it was pruned, and the sizes of the object at its low end.
+struct Arm {
+    std::vector<Index> events;  ///< from above
+    Index ends_in = -1;         ///< event; -1: the trunk
+    double hypervolume = 0, persistence = 0;
+    Index voxels = 0;
+};
+
+/// The object of an event at its low end: every voxel in its zone or in one above it.
+Arm sizes_of(const Analysis& analysis, const Grid& grid, Index event, double base) {
+    Arm arm;
+    double sum = 0, highest = -kInfinity;
+    for (Index v = 0; v < grid.voxels(); ++v) {
+        Index e = analysis.zone(v);
+        while (e >= 0 && e != event) e = analysis.event(e).parent;
+        if (e != event) continue;
+        ++arm.voxels;
+        sum += grid.value[v], highest = std::max(highest, grid.value[v]);
+    }
+    arm.hypervolume = sum - static_cast<double>(arm.voxels) * base;
+    arm.persistence = highest - base;
+    return arm;
+}
+
+/// Takes the smallest arm away until one is left; arms in the order in which they went.
+std::vector<Arm> prune(const Analysis& analysis, const Grid& grid) {
+    std::vector<std::set<Index>> children(static_cast<std::size_t>(analysis.event_count()));
+    for (Index e = 0; e < analysis.event_count(); ++e) {
+        if (analysis.event(e).parent >= 0) children[analysis.event(e).parent].insert(e);
+    }
+    std::vector<Index> leaves;
+    for (Index e = 0; e < analysis.event_count(); ++e) {
+        if (children[e].empty()) leaves.push_back(e);
+    }
+    const double lowest = *std::min_element(grid.value.begin(), grid.value.end());
+    std::vector<Arm> pruned;
+    while (!leaves.empty()) {
+        Arm smallest;
+        Index leaf_of_smallest = -1;
+        for (const Index leaf : leaves) {
+            std::vector<Index> events{leaf};
+            Index below = analysis.event(leaf).parent;
+            while (below >= 0 && children[below].size() == 1) events.push_back(below), below = analysis.event(below).parent;
+            Arm arm = sizes_of(analysis, grid, events.back(), below < 0 ? lowest : analysis.event(below).value);
+            arm.events = events, arm.ends_in = below;
+            const auto key = [](const Arm& a) { return std::pair(a.hypervolume, -a.events.back()); };  // equal: the lower event goes first
+            if (leaf_of_smallest < 0 || key(arm) < key(smallest)) smallest = arm, leaf_of_smallest = leaf;
+        }
+        if (smallest.ends_in >= 0) children[smallest.ends_in].erase(smallest.events.back());
+        leaves.erase(std::find(leaves.begin(), leaves.end(), leaf_of_smallest));
+        pruned.push_back(smallest);
+    }
+    return pruned;
+}
+
+bool is_kept(const Arm& arm, const Selection& selection) {
+    return arm.ends_in < 0 || (arm.hypervolume >= selection.least_hypervolume && arm.persistence >= selection.least_persistence &&
+                               static_cast<double>(arm.voxels) >= selection.least_voxels);
+}
+
+/// The event of the node whose zone the zone of an event joins.
+Index joined(const std::vector<Arm>& arms, const Selection& selection, const std::set<Index>& nodes, Index event) {
+    for (;;) {
+        const Arm* of = nullptr;
+        for (const Arm& arm : arms) {
+            if (std::count(arm.events.begin(), arm.events.end(), event) > 0) of = &arm;
+        }
+        if (!is_kept(*of, selection)) {
+            event = of->ends_in;
+            continue;
+        }
+        auto at = std::find(of->events.begin(), of->events.end(), event);
+        while (nodes.count(*at) == 0) --at;  // the top of a kept arm is a node
+        return *at;
+    }
+}
+
+/// Whole numbers, so that sums are exact; also the values of face points may differ in the last digit otherwise.
+Grid arbitrary_whole_grid(Index longest, Index most) {
+    Grid grid = *arbitrary_grid(longest, most);
+    for (double& v : grid.value) v = std::floor(v);
+    return grid;
+}
+
+RC_GTEST_PROP(Simplification, IsPruningOneByOne, ()) {
+    const Grid grid = arbitrary_whole_grid(5, 80);
+    const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
+    const Volume volume = to_volume(grid);
+    const Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant});
+    const BranchHierarchy hierarchy(volume, analysis);
+    const std::vector<Arm> arms = prune(analysis, grid);
+    RC_ASSERT(arms.size() == hierarchy.branches().size());
+    Selection selection;
+    const BranchInfo& some = hierarchy.branches()[*rc::gen::inRange<std::size_t>(0, arms.size())];
+    const int kind = *rc::gen::inRange(0, 4);
+    if (kind == 0) selection.least_hypervolume = some.hypervolume;
+    if (kind == 1) selection.least_persistence = some.persistence;
+    if (kind == 2) selection.least_voxels = static_cast<double>(some.voxels);
+    const Simplified simplified = hierarchy.simplify(selection);
+
+    std::set<Index> nodes, tops;
+    for (const Arm& arm : arms) {
+        if (!is_kept(arm, selection)) continue;
+        tops.insert(arm.events.front());
+        nodes.insert(arm.events.front());
+        if (arm.ends_in >= 0) nodes.insert(arm.ends_in);
+    }
+    RC_ASSERT(simplified.kept.size() == tops.size());
+    RC_ASSERT(simplified.hidden == static_cast<Index>(arms.size() - tops.size()));
+    for (const std::int64_t i : simplified.kept) RC_ASSERT(tops.count(hierarchy.branches()[i].top) == 1);
+    RC_ASSERT(simplified.nodes.size() == nodes.size());
+    std::map<Index, Index> voxels;
+    for (Index e = 0; e < analysis.event_count(); ++e) {
+        const Index node = simplified.nodes[simplified.node_of_event[e]].event;
+        RC_ASSERT(node == joined(arms, selection, nodes, e));
+        voxels[node] += analysis.event(e).zone.voxels;
+    }
+    Index total = 0;
+    for (const SimplifiedNode& node : simplified.nodes) {
+        RC_ASSERT(nodes.count(node.event) == 1);
+        RC_ASSERT(node.is_maximum == (tops.count(node.event) == 1));
+        RC_ASSERT(node.tau_low < node.tau_high);
+        RC_ASSERT(node.voxels == voxels[node.event]);
+        total += node.voxels;
+    }
+    RC_ASSERT(total == grid.voxels());
+    RC_ASSERT(simplified.nodes.back().parent == -1);
+    RC_ASSERT(simplified.nodes.back().object_voxels == grid.voxels());
+}
+
+// A node's parent is the first kept event on the way down, and its object is what the full tree says just above that.
+RC_GTEST_PROP(Simplification, KeepsObjectsAsTheyAre, ()) {
+    const Grid grid = *arbitrary_grid(7, 200);
+    const Volume volume = to_volume(grid);
+    const Analysis analysis = isoatlas::analyse(volume);
+    const BranchHierarchy hierarchy(volume, analysis);
+    const auto count = static_cast<Index>(hierarchy.branches().size());
+    const Index keep = *rc::gen::inRange<Index>(0, count + 2);
+    const Simplified simplified = hierarchy.simplify(Selection{.keep = keep});
+    RC_ASSERT(static_cast<Index>(simplified.kept.size()) <= std::max<Index>(1, keep));
+    for (const SimplifiedNode& node : simplified.nodes) {
+        Index below = node.event, last = node.event;
+        do {
+            last = below;
+            below = analysis.event(below).parent;
+        } while (below >= 0 &&
+                 std::none_of(simplified.nodes.begin(), simplified.nodes.end(), [&](const auto& n) { return n.event == below; }));
+        RC_ASSERT((below < 0) == (node.parent < 0));
+        if (below >= 0) RC_ASSERT(simplified.nodes[node.parent].event == below);
+        RC_ASSERT(node.tau_high == analysis.event(node.event).value);
+        RC_ASSERT(node.tau_low == (below < 0 ? -kInfinity : analysis.event(below).value));
+        RC_ASSERT(node.object_voxels == analysis.event(last).object_voxels);
+    }
+    const Simplified all = hierarchy.simplify(Selection{});
+    RC_ASSERT(static_cast<Index>(all.kept.size()) == count);
+    RC_ASSERT(all.hidden == 0);
+    RC_ASSERT(all.hidden_voxels == 0);
+}
+
+RC_GTEST_PROP(Simplification, CurvesCountWhatIsKept, ()) {
+    const Grid grid = arbitrary_whole_grid(7, 200);
+    const Volume volume = to_volume(grid);
+    const Analysis analysis = isoatlas::analyse(volume);
+    const BranchHierarchy hierarchy(volume, analysis);
+    for (const isoatlas::SelectionCurve& curve : hierarchy.curves()) {
+        RC_ASSERT(std::is_sorted(curve.threshold.rbegin(), curve.threshold.rend()));
+        RC_ASSERT(curve.kept.back() == static_cast<Index>(hierarchy.branches().size()));
+        RC_ASSERT(curve.automatic_kept == static_cast<Index>(hierarchy.essential().size()));
+        const auto i = *rc::gen::inRange<std::size_t>(0, curve.threshold.size());
+        Selection selection;
+        if (curve.size == "hypervolume") selection.least_hypervolume = curve.threshold[i];
+        if (curve.size == "persistence") selection.least_persistence = curve.threshold[i];
+        if (curve.size == "voxels") selection.least_voxels = curve.threshold[i];
+        RC_ASSERT(static_cast<Index>(hierarchy.kept(selection).size()) == curve.kept[i]);
+    }
+}
+
+// The table with a selection lists the branches that the selection keeps.
+RC_GTEST_PROP(Simplification, IsWhatTheTableOfObjectsLists, ()) {
+    const Grid grid = *arbitrary_grid(7, 200);
+    Volume volume = to_volume(grid);
+    volume.info.geometry = arbitrary_geometry(grid);
+    const Analysis analysis = isoatlas::analyse(volume);
+    const BranchHierarchy hierarchy(volume, analysis);
+    const BranchInfo& some = hierarchy.branches()[*rc::gen::inRange<std::size_t>(0, hierarchy.branches().size())];
+    Selection selection;
+    if (*rc::gen::arbitrary<bool>()) selection.least_measure = some.measure;
+    if (*rc::gen::arbitrary<bool>()) selection.top_percent = *rc::gen::inRange(0, 101);
+    std::set<Index> listed, kept;
+    for (const auto& entry : isoatlas::rank_objects(volume, analysis, {.top = 0, .selection = selection}).entries)
+        listed.insert(entry.branch_top);
+    for (const std::int64_t i : hierarchy.kept(selection)) kept.insert(hierarchy.branches()[i].top);
+    RC_ASSERT(listed == kept);
+    for (const std::int64_t i : hierarchy.kept(selection)) RC_ASSERT(i == 0 || hierarchy.branches()[i].measure >= selection.least_measure);
+}
+
+/// Voxels of the object of a branch just before it merges.
+std::set<Index> voxels_of(const Analysis& analysis, const BranchInfo& branch) {
+    Index bottom = branch.top;
+    while (analysis.event(bottom).parent >= 0 && analysis.event(analysis.event(bottom).parent).value > branch.merges)
+        bottom = analysis.event(bottom).parent;
+    std::vector<bool> inside(static_cast<std::size_t>(analysis.event_count()), false);
+    for (Index e = analysis.event_count(); e-- > 0;) {
+        const Index parent = analysis.event(e).parent;
+        inside[e] = e == bottom || (parent >= 0 && inside[parent]);
+    }
+    std::set<Index> voxels;
+    for (Index v = 0; v < analysis.extent().voxels(); ++v) {
+        if (inside[analysis.zone(v)]) voxels.insert(v);
+    }
+    return voxels;
+}
+
+double overlap(const std::set<Index>& p, const std::set<Index>& q) {
+    Index both = 0;
+    for (const Index v : p) both += static_cast<Index>(q.count(v));
+    return static_cast<double>(both) / static_cast<double>(static_cast<Index>(p.size() + q.size()) - both);
+}
+
+// Objects far from the threshold are the same with and without 1 % noise.
+TEST(Simplification, ChangesOnlyNearTheThresholdUnderNoise) {
+    const Volume clean = isoatlas::make_phantom("random-field", {.size = 32, .seed = 3});
+    const Volume noisy = isoatlas::make_phantom("random-field", {.size = 32, .seed = 3, .noise = 0.01});
+    const Analysis clean_trees = isoatlas::analyse(clean), noisy_trees = isoatlas::analyse(noisy);
+    const BranchHierarchy a(clean, clean_trees), b(noisy, noisy_trees);
+    const double threshold = a.branches()[8].hypervolume;
+    const auto found_in = [](const Analysis& trees, const BranchHierarchy& from, double least, const Analysis& other_trees,
+                             const BranchHierarchy& other, double other_least) {
+        int objects = 0;
+        for (const std::int64_t i : from.kept({.least_hypervolume = least})) {
+            if (i == 0) continue;
+            const std::set<Index> voxels = voxels_of(trees, from.branches()[i]);
+            double best = 0;
+            for (const std::int64_t k : other.kept({.least_hypervolume = other_least}))
+                best = std::max(best, overlap(voxels, voxels_of(other_trees, other.branches()[k])));
+            EXPECT_GT(best, 0.5) << from.branches()[i].id;
+            ++objects;
+        }
+        return objects;
+    };
+    EXPECT_GE(found_in(clean_trees, a, 1.5 * threshold, noisy_trees, b, threshold), 3);
+    EXPECT_GE(found_in(noisy_trees, b, 1.5 * threshold, clean_trees, a, threshold), 3);
+    EXPECT_GT(b.branches().size(), a.branches().size());
+}
+
+}  // namespace
+}  // namespace oracle
