@@ -239,19 +239,6 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-/// "--dims 4 5 6" is the same as "--dims 4x5x6": joined here, because CLI11 would take a following file name for a number.
-std::vector<std::string> join_numbers(const std::vector<std::string>& words) {
-    std::vector<std::string> joined;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        joined.push_back(words[i]);
-        if (words[i] != "--dims" && words[i] != "--spacing" && words[i] != "--origin") continue;
-        std::string numbers;
-        while (i + 1 < words.size() && is_number(words[i + 1])) numbers += (numbers.empty() ? "" : ",") + words[++i];
-        if (!numbers.empty()) joined.push_back(numbers);
-    }
-    return joined;
-}
-
 void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     const auto given = [&](const char* name) {
         const CLI::Option* option = app.get_option_no_throw(name);

@@ -143,4 +143,16 @@ void bad_choice(const std::string& option, const std::string& word, const std::v
                                    .next = near.empty() ? "choose one of them" : "did you mean " + near + "?"});
 }
 
+std::vector<std::string> join_numbers(const std::vector<std::string>& words) {
+    std::vector<std::string> joined;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        joined.push_back(words[i]);
+        if (words[i] != "--dims" && words[i] != "--spacing" && words[i] != "--origin") continue;
+        std::string numbers;
+        while (i + 1 < words.size() && is_number(words[i + 1])) numbers += (numbers.empty() ? "" : ",") + words[++i];
+        if (!numbers.empty()) joined.push_back(numbers);
+    }
+    return joined;
+}
+
 }  // namespace isoatlas::cli

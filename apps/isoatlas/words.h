@@ -48,4 +48,7 @@ template <class T>
     bad_choice(option, word, known);
 }
 
+/// "--dims 4 5 6" is the same as "--dims 4x5x6": joined here, because CLI11 would take a following file name for a number.
+[[nodiscard]] std::vector<std::string> join_numbers(const std::vector<std::string>& words);
+
 }  // namespace isoatlas::cli
