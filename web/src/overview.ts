@@ -9,7 +9,7 @@ import type { Page } from "./page";
 const laneHeight = 22;
 const head = 90;
 
-/** Objects that merge into one lie below it: a walk over the tree. Entries of one branch share a lane. */
+/** Objects that merge into one lie below it: a walk over the tree. The trunk has one lane, whatever isovalues show of it. */
 export function lanesOf(page: Page): number[] {
   const lane = page.objects.map(() => -1);
   let next = 0;
@@ -18,8 +18,7 @@ export function lanesOf(page: Page): number[] {
     if (!entry || (lane[i] ?? 0) >= 0) return;
     const mine = next++;
     page.objects.forEach((other, k) => {
-      if (other.side === entry.side && other.appears === entry.appears && other.merges === entry.merges && (other.id === entry.id || k === i))
-        lane[k] = mine;
+      if (k === i || (entry.trunk && other.trunk && other.side === entry.side)) lane[k] = mine;
     });
     page.objects.forEach((other, k) => {
       if (other.into >= 0 && lane[other.into] === mine) place(k);

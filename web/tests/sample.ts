@@ -27,7 +27,7 @@ export function page(objects: Entry[]): Page {
 /** A trunk seen at two isovalues, and two branches; the second merges into the first. */
 export const scene = page([
   entry({ id: 7, trunk: true, tunnels: 2, voxels: 5000, measure: 10000, note: "largest" }),
-  entry({ id: 7, trunk: true, best: 80, low: 70, high: 85, voxels: 300, inside: 0 }),
+  entry({ id: 6, trunk: true, best: 80, low: 70, high: 85, voxels: 300, inside: 0 }),
   entry({ id: 8, appears: 95, merges: 30, into: 0, best: 70, voxels: 40, inside: 0 }),
   entry({ id: 9, appears: 85, merges: 60, into: 2, best: 75, voxels: 90, side: "dark", cavities: 1 }),
 ]);
