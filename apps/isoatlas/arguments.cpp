@@ -179,6 +179,10 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
+    } else if (verb == "handles") {
+        app.add_option("--top", typed.selection.top, "At most N tunnels (24)")->type_name("N");
+        app.add_option("--persistence", typed.selection.persistence, "Only tunnels that are open so long, or for P percent of the range")
+            ->type_name("H|P%");
     } else if (verb == "spectrum") {
         app.add_option("--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
             ->check(in_range(std::int64_t{0}, std::int64_t{100000}))

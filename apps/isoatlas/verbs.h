@@ -23,6 +23,7 @@ int run_build(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);
 int run_phantom(const Arguments& arguments, Terminal& terminal);
+int run_handles(const Arguments& arguments, Terminal& terminal);
 int run_spectrum(const Arguments& arguments, Terminal& terminal);
 int run_table131(const Arguments& arguments, Terminal& terminal);
 int run_dump(const Arguments& arguments, Terminal& terminal);

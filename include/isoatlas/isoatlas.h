@@ -27,6 +27,7 @@
 #include "isoatlas/dump.h"
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
+#include "isoatlas/handles.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"

@@ -44,6 +44,7 @@ class Schemas(harness.CliTest):
             self.check("convert", "convert", file, "-o", "x.npy")
             self.check("verify", "verify", file, "--levels", "1")
             self.check("tree-file", "tree", file, "-o", "x.csv")
+            self.check("handles", "handles", file)
             self.check("spectrum", "spectrum", file)
             self.check("table131", "table131", file)
             for detail in ("events", "levels", "elements", "contours"):

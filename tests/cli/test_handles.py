@@ -1,0 +1,30 @@
+"""The tunnels of a volume and the isovalues between which they are open."""
+import harness
+
+
+class Handles(harness.CliTest):
+    phantoms = {"figure.nrrd": ["figure-plateau"], "noise.nrrd": ["noise", "--size", "12"], "flat.npy": ["noise", "--size", "1"]}
+
+    def test_the_figure(self):
+        document = self.run_json("handles", "figure.nrrd")
+        self.assert_schema(document, "handles")
+        self.assertEqual(document["pairs"], "approximate")
+        self.assertEqual([(h["opens"], h["closes"]) for h in document["handles"]], [(38, 30), (58, 56), (48, 46)])
+        text = self.run_ok("handles", "figure.nrrd")
+        self.assertIn("approximate", text.stderr)
+        self.assertIn("58", text.stdout)
+
+    def test_choices_stores_and_edges(self):
+        self.assertEqual(len(self.run_json("handles", "noise.nrrd", "--top", "5")["handles"]), 5)
+        long = self.run_json("handles", "noise.nrrd", "--persistence", "50%", "--top", "100000")
+        self.assertEqual(long["tunnels"], len(long["handles"]))
+        self.assertTrue(all(h["opens"] - h["closes"] >= 0.4 for h in long["handles"]))
+        self.run_ok("build", "noise.nrrd", "-o", "noise.atlas")
+        self.assertEqual(self.run_json("handles", "noise.atlas")["handles"], self.run_json("handles", "noise.nrrd")["handles"])
+        self.assertEqual(self.run_json("handles", "flat.npy")["handles"], [])
+        self.run_error(2, "handles", "noise.nrrd", "--persistence", "x", says="--persistence")
+        self.run_error(2, "handles", "noise.nrrd", "--top", "5%", says="--top")
+
+
+if __name__ == "__main__":
+    harness.main()
