@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include "options.h"
-#include "selection_words.h"
 #include "suggest.h"
 #include "verbs.h"
 #include "words.h"
@@ -102,37 +101,10 @@ void add_shape(CLI::App& app, Typed& typed) {
     app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
 }
 
-/// Which objects are to be seen.
-void add_selection(CLI::App& app, Typed& typed, bool top) {
-    const char* group = "Selecting";
-    app.add_option("--keep", typed.selection.keep, "Keep the first N objects by hypervolume")
-        ->check(in_range(std::int64_t{1}, std::int64_t{1} << 40))
-        ->type_name("N")
-        ->group(group);
-    if (top) app.add_option("--top", typed.selection.top, "Keep the first P percent of all objects")->type_name("P%")->group(group);
-    app.add_option("--min-voxels", typed.selection.min_voxels, "Keep objects of at least so many voxels just before they merge")
-        ->check(in_range(0.0, 1e18))
-        ->type_name("N")
-        ->group(group);
-    app.add_option("--min-volume", typed.selection.min_volume, "The same in the file's unit (2D: area)")
-        ->check(in_range(0.0, 1e300))
-        ->type_name("V")
-        ->group(group);
-    app.add_option("--persistence", typed.selection.persistence,
-                   "Keep objects that rise so far above the value at which they merge, or P percent of the range")
-        ->type_name("H|P%")
-        ->group(group);
-    app.add_option("--min-hypervolume", typed.selection.min_hypervolume,
-                   "Keep objects of at least this sum of (value - value at which they merge)")
-        ->check(in_range(0.0, 1e300))
-        ->type_name("H")
-        ->group(group);
-}
-
 void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed& typed) {
     if (verb == "tree") {
         app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
-        add_selection(app, typed, true);
+        add_selection(app, typed.selection, true);
         add_output(app, arguments, ".json .graphml .csv .vtu", false);
     } else if (verb == "info") {
         add_tau(app, typed, "What the surface at this isovalue is and costs, before it is read (of a store)");
@@ -141,7 +113,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--top", typed.selection.top,
                        "At most N lines (without --tau: 24); with a percent sign: keep the first P percent of all objects")
             ->type_name("N|P%");
-        add_selection(app, typed, false);
+        add_selection(app, typed.selection, false);
         app.add_option("--curve", arguments.curve, "Write how many objects there are for every threshold (.csv .svg .json)")
             ->type_name("FILE");
         app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
@@ -169,7 +141,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
         app.add_flag("--dark", arguments.dark, "With --tau: label the cavities instead, 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
-        add_selection(app, typed, true);
+        add_selection(app, typed.selection, true);
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
     } else if (verb == "build") {
         add_output(app, arguments, ".atlas", true);

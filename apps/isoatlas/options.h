@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "arguments.h"
+#include "selection_words.h"
 
 namespace isoatlas::cli {
 
@@ -15,5 +16,8 @@ CLI::Validator in_range(T low, T high) {
 
 void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words);
 void add_animation(CLI::App& app, Arguments& arguments);
+
+/// Which objects are to be seen. top: also --top P%, where --top has no other meaning.
+void add_selection(CLI::App& app, TypedSelection& typed, bool top);
 
 }  // namespace isoatlas::cli
