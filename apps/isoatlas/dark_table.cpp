@@ -1,5 +1,7 @@
 #include "dark_table.h"
 
+#include "entry_json.h"
+
 #include <fmt/format.h>
 
 #include "sizes.h"
@@ -13,18 +15,11 @@ namespace {
 Json entry_json(const DarkEntry& entry, const VolumeInfo& info) {
     const Scale scale(info);
     Json json{{"id", entry.id}};
-    json["appears"] = number(scale.reported(entry.appears));
-    json["merges"] = number(scale.reported(entry.merges));
-    json["best_tau"] = scale.reported(entry.best_tau);
+    add_isovalues(json, entry, scale);
     json["object"] = entry.object;
     json["tunnels"] = entry.tunnels;
     json["islands"] = entry.islands;
-    json["voxels"] = entry.voxels;
-    json["measure"] = entry.measure;
-    json["hypervolume"] = entry.hypervolume * info.calibration.slope;
-    json["position"] = entry.position;
-    json["position_physical"] = to_physical(info.geometry, entry.position);
-    json["note"] = entry.note;
+    add_size_and_place(json, entry, info);
     return json;
 }
 

@@ -8,6 +8,7 @@
 
 #include "dark_table.h"
 #include "document.h"
+#include "entry_json.h"
 #include "simplified.h"
 #include "sizes.h"
 #include "source.h"
@@ -30,20 +31,13 @@ std::string extract_command(const Arguments& arguments, std::int64_t id, const s
 
 Json entry_json(const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
     Json json{{"id", entry.id}, {"event", entry.event}};
-    json["appears"] = number(scale.reported(entry.appears));
-    json["merges"] = number(scale.reported(entry.merges));
-    json["best_tau"] = scale.reported(entry.best_tau);
+    add_isovalues(json, entry, scale);
     json["chi"] = 1 - entry.tunnels + entry.cavities;
     json["b1"] = entry.tunnels;
     json["b2"] = entry.cavities;
     json["tunnels"] = entry.tunnels;
     json["cavities"] = entry.cavities;
-    json["voxels"] = entry.voxels;
-    json["measure"] = entry.measure;
-    json["hypervolume"] = entry.hypervolume * info.calibration.slope;
-    json["position"] = entry.position;
-    json["position_physical"] = to_physical(info.geometry, entry.position);
-    json["note"] = entry.note;
+    add_size_and_place(json, entry, info);
     return json;
 }
 

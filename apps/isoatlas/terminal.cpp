@@ -99,12 +99,4 @@ std::string Terminal::bold(const std::string& text) const {
     return style_.no_color || !colours_wanted(STDOUT_FILENO) ? text : "\033[1m" + text + "\033[0m";
 }
 
-std::string shell_word(const std::string& word) {
-    constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 }  // namespace isoatlas::cli

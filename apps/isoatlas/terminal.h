@@ -45,7 +45,4 @@ private:
     Style style_;
 };
 
-/// Word as the shell needs it: quoted when it has special characters.
-[[nodiscard]] std::string shell_word(const std::string& word);
-
 }  // namespace isoatlas::cli

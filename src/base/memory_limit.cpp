@@ -235,6 +235,21 @@ Scratch& scratch() {
     return *scratch;
 }
 
+/// Copies all bytes between memory and the place of an array in the file; call(file, bytes, size, offset) copies some.
+template <class Byte, class Call>
+void transfer(const void* array, std::span<Byte> bytes, const Call& call) {
+    const bool found = scratch().locate(array, [&](int file, off_t offset) {
+        while (!bytes.empty()) {
+            const ssize_t count = call(file, bytes.data(), bytes.size(), offset);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) scratch().failed(count < 0 ? errno : EIO);
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+            offset += count;
+        }
+    });
+    ISOATLAS_CHECK(found);
+}
+
 /// The limit of a control group, or of its parents; nothing when there is none.
 std::int64_t control_group_limit() {
     std::ifstream own("/proc/self/cgroup");
@@ -297,29 +312,11 @@ bool is_scratch(const void* memory) {
 }
 
 void read_scratch(const void* from, std::span<std::byte> to) {
-    const bool found = scratch().locate(from, [&](int file, off_t offset) {
-        while (!to.empty()) {
-            const ssize_t count = ::pread(file, to.data(), to.size(), offset);
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) scratch().failed(count < 0 ? errno : EIO);
-            to = to.subspan(static_cast<std::size_t>(count));
-            offset += count;
-        }
-    });
-    ISOATLAS_CHECK(found);
+    transfer(from, to, [](int file, std::byte* part, std::size_t size, off_t offset) { return ::pread(file, part, size, offset); });
 }
 
 void write_scratch(void* to, std::span<const std::byte> from) {
-    const bool found = scratch().locate(to, [&](int file, off_t offset) {
-        while (!from.empty()) {
-            const ssize_t count = ::pwrite(file, from.data(), from.size(), offset);
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) scratch().failed(count < 0 ? errno : EIO);
-            from = from.subspan(static_cast<std::size_t>(count));
-            offset += count;
-        }
-    });
-    ISOATLAS_CHECK(found);
+    transfer(to, from, [](int file, const std::byte* part, std::size_t size, off_t offset) { return ::pwrite(file, part, size, offset); });
 }
 
 std::int64_t memory_limit() noexcept { return scratch().limit(); }

@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
-#include "io/text.h"
 #include "isoatlas/error.h"
 #include "output/byte_writer.h"
 #include "output/connectivity.h"
+#include "output/file_extension.h"
 #include "output/generator.h"
 #include "output/plot.h"
 #include "output/simplified_formats.h"
@@ -97,14 +96,8 @@ void write_curves_svg(AtomicFile& file, const VolumeInfo& info, const std::vecto
 namespace isoatlas {
 
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
-    const std::string extension = io::lower(std::filesystem::path(path).extension().string());
-    if (extension != ".json" && extension != ".csv" && extension != ".svg") {
-        throw Error(ErrorKind::usage, {.file = path,
-                                       .what = extension.empty() ? "the name has no extension, so the format of the curves is unknown"
-                                                                 : "unknown format of curves \"" + extension + "\"",
-                                       .expected = ".csv, .svg or .json",
-                                       .next = "give the file one of these extensions"});
-    }
+    const std::string extension =
+        output::known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
     AtomicFile file(path);
     if (extension == ".json") return output::write_curves_json(file, info, curves);
     if (extension == ".csv") return output::write_curves_csv(file, info, curves);

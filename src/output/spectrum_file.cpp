@@ -1,10 +1,9 @@
 // write_spectrum: the extension chooses the format.
-#include <filesystem>
 #include <ostream>
 
-#include "io/text.h"
 #include "isoatlas/error.h"
 #include "output/connectivity.h"
+#include "output/file_extension.h"
 #include "output/generator.h"
 #include "output/spectrum_formats.h"
 #include "output/volume_json.h"
@@ -68,14 +67,8 @@ void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const 
 namespace isoatlas {
 
 void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum) {
-    const std::string extension = io::lower(std::filesystem::path(path).extension().string());
-    if (extension != ".json" && extension != ".csv" && extension != ".svg") {
-        throw Error(ErrorKind::usage, {.file = path,
-                                       .what = extension.empty() ? "the name has no extension, so the format of the spectrum is unknown"
-                                                                 : "unknown format of a spectrum \"" + extension + "\"",
-                                       .expected = ".csv, .svg or .json",
-                                       .next = "give the file one of these extensions"});
-    }
+    const std::string extension = output::known_extension(path, {".json", ".csv", ".svg"},
+                                                          {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
     AtomicFile file(path);
     if (extension == ".csv") {
         output::write_spectrum_csv(file, info, spectrum);

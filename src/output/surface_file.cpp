@@ -1,10 +1,8 @@
 // write_surface and read_mesh: the extension chooses the format.
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 #include "io/file_access.h"
 #include "isoatlas/surface.h"
+#include "output/file_extension.h"
 #include "output/mesh_formats.h"
 
 namespace isoatlas {
@@ -27,16 +25,11 @@ constexpr MeshFormat kFormats[] = {{".ply", output::write_ply, output::parse_ply
                                    {".glb", output::write_glb, output::parse_glb, false}};
 
 const MeshFormat& format_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string extension = output::lower_extension(path);
     for (const MeshFormat& format : kFormats) {
         if (extension == format.extension) return format;
     }
-    throw Error(ErrorKind::usage, {.file = path,
-                                   .what = extension.empty() ? "the name has no extension, so the mesh format is unknown"
-                                                             : "unknown mesh format \"" + extension + "\"",
-                                   .expected = ".ply, .stl, .obj, .vtp or .glb",
-                                   .next = "give the file one of these extensions"});
+    output::refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // write_tree and write_tree_json: the extension chooses the format.
-#include <filesystem>
 #include <ostream>
 
-#include "io/text.h"
 #include "output/byte_writer.h"
+#include "output/file_extension.h"
 #include "output/tree_formats.h"
 
 namespace isoatlas {
@@ -69,7 +68,7 @@ std::string list_text(std::span<const std::int64_t> numbers) {
 }  // namespace output
 
 void write_tree(const std::string& path, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
-    const std::string extension = io::lower(std::filesystem::path(path).extension().string());
+    const std::string extension = output::lower_extension(path);
     const output::TreeView tree(volume, analysis, options);
     output::check_detail(path, extension, options.detail);
     if (extension == ".json") {
@@ -86,11 +85,7 @@ void write_tree(const std::string& path, const Volume& volume, const Analysis& a
         AtomicFile file(path);
         output::write_tree_vtu(file, tree);
     } else {
-        throw Error(ErrorKind::usage, {.file = path,
-                                       .what = extension.empty() ? "the name has no extension, so the format of the tree is unknown"
-                                                                 : "unknown format of a tree \"" + extension + "\"",
-                                       .expected = ".json, .graphml, .csv or .vtu",
-                                       .next = "give the file one of these extensions"});
+        output::refuse_extension(path, {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
     }
 }
 

@@ -2,12 +2,12 @@
 #include "isoatlas/page.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "isoatlas/shell_word.h"
+#include "output/byte_writer.h"
 #include "output/json_stream.h"
 #include "page/relations.h"
 #include "page/template.h"
@@ -47,27 +47,11 @@ std::string web_colour(const Colour& colour) {
     return text;
 }
 
-/// For a shell.
-std::string quoted(const std::string& word) {
-    const bool plain =
-        !word.empty() &&
-        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+@%") == std::string::npos;
-    if (plain) return word;
-    std::string text = "'";
-    for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return text + "'";
-}
-
-std::string number_text(double number) {
-    std::array<char, 40> digits;
-    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
-}
-
 class PageWriter {
 public:
     PageWriter(const Atlas& atlas, const PageOptions& options, const Context& context)
         : atlas_(atlas), options_(options), context_(context), scale_(atlas.info().calibration) {
-        source_ = quoted(options.source.empty() ? atlas.info().path : options.source);
+        source_ = shell_word(options.source.empty() ? atlas.info().path : options.source);
         table_ = atlas.objects({.top = options.top}, context);
         into_ = page::merge_targets(table_, atlas.analysis());
         for (std::size_t i = 0; i < table_.entries.size(); ++i) pictures_.push_back(draw(i));
@@ -171,13 +155,14 @@ private:
             json.key("width").value(pictures_[i].side).key("height").value(pictures_[i].side).end_object();
         }
         json.line().key("commands").begin_array();
-        const std::string object = " --object " + std::to_string(entry.id), tau = " --tau " + number_text(scale_.reported(entry.best_tau));
+        const std::string object = " --object " + std::to_string(entry.id),
+                          tau = " --tau " + output::number_text(scale_.reported(entry.best_tau));
         const std::string name = "object-" + std::to_string(i + 1);
         put_command(json, "surface", "isoatlas extract " + source_ + object + tau + " -o " + name + ".ply");
         put_command(json, "labels of all objects there", "isoatlas label " + source_ + tau + " -o " + name + ".nrrd");
         put_command(json, "picture",
                     "isoatlas render " + source_ + " --object " + std::to_string(entry.id) + "@" +
-                        number_text(scale_.reported(entry.best_tau)) + " -o " + name + ".png");
+                        output::number_text(scale_.reported(entry.best_tau)) + " -o " + name + ".png");
         json.end_array().end_object();
     }
     static void put_command(JsonStream& json, const char* name, const std::string& line) {

@@ -1,8 +1,6 @@
 #include "page/turntable.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -12,15 +10,6 @@ namespace isoatlas::page {
 namespace {
 
 constexpr double kQuality = 80;
-
-Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {  // Rodrigues
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double along = (v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2]) * (1 - c);
-    const Vec3 across{axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]};
-    Vec3 result{};
-    for (int a = 0; a < 3; ++a) result[a] = v[a] * c + across[a] * s + axis[a] * along;
-    return result;
-}
 
 std::string webp_uri(Image image) {
     Animation still;
@@ -44,8 +33,8 @@ Turntable draw_turntable(Surface surface, const Colour& colour, const PageOption
     const View best = best_view(scene, {0, 0, 1}, context);
     std::vector<Camera> cameras;
     for (std::int64_t i = 0; i < options.frames; ++i) {
-        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(options.frames);
-        cameras.push_back(fit_camera(scene, {turned(best.toward, best.up, angle), best.up}, picture));
+        const double degrees = 360 * static_cast<double>(i) / static_cast<double>(options.frames);
+        cameras.push_back(fit_camera(scene, turned(best, best.up, degrees), picture));
     }
     const Camera& widest =
         *std::max_element(cameras.begin(), cameras.end(), [](const Camera& p, const Camera& q) { return p.height < q.height; });

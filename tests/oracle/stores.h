@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/build.h"
@@ -23,6 +25,20 @@ protected:
 public:
     std::string path_;
 };
+
+/// Calls ask(asker, context of one thread) in four threads at once.
+template <class Ask>
+void ask_at_once(const Ask& ask) {
+    std::vector<std::thread> askers;
+    for (int asker = 0; asker < 4; ++asker) {
+        askers.emplace_back([&ask, asker] {
+            isoatlas::Context context;
+            context.threads = 1;
+            ask(asker, context);
+        });
+    }
+    for (std::thread& asker : askers) asker.join();
+}
 
 inline bool same(const isoatlas::Surface& p, const isoatlas::Surface& q) {
     return p.points == q.points && p.normals == q.normals && p.triangles == q.triangles && p.segments == q.segments &&

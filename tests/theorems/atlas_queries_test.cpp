@@ -159,23 +159,17 @@ TEST_F(Stores, KeepToTheirBudget) {
         const Atlas atlas(path_, {.cache_bytes = budget});
         EXPECT_EQ(atlas.present_bytes(), 0);
         std::atomic<int> wrong = 0;
-        std::vector<std::thread> askers;
-        for (int asker = 0; asker < 4; ++asker) {
-            askers.emplace_back([&, asker] {
-                isoatlas::Context context;
-                context.threads = 1;
-                for (int i = 0; i < 6; ++i) {
-                    const int which = (i * 5 + asker) % 6;
-                    const auto& surface = expected[static_cast<std::size_t>(which)];
-                    wrong += same(atlas.extract(10 * which + 3, {}, context), surface) ? 0 : 1;
-                    isoatlas::ExtractOptions one;
-                    one.objects = {surface.object.at(surface.object.size() / 2)};
-                    wrong += atlas.extract(10 * which + 3, one, context).points.empty() ? 1 : 0;
-                    if (i % 3 == 0) atlas.clear_cache();
-                }
-            });
-        }
-        for (std::thread& asker : askers) asker.join();
+        ask_at_once([&](int asker, const isoatlas::Context& context) {
+            for (int i = 0; i < 6; ++i) {
+                const int which = (i * 5 + asker) % 6;
+                const auto& surface = expected[static_cast<std::size_t>(which)];
+                wrong += same(atlas.extract(10 * which + 3, {}, context), surface) ? 0 : 1;
+                isoatlas::ExtractOptions one;
+                one.objects = {surface.object.at(surface.object.size() / 2)};
+                wrong += atlas.extract(10 * which + 3, one, context).points.empty() ? 1 : 0;
+                if (i % 3 == 0) atlas.clear_cache();
+            }
+        });
         EXPECT_EQ(wrong, 0);
         EXPECT_LE(atlas.present_bytes(), budget);
     }

@@ -1,0 +1,11 @@
+// Words of a command line that is to be copied into a shell.
+#pragma once
+
+#include <string>
+
+namespace isoatlas {
+
+/// A word as a POSIX shell takes it: in single quotes where it holds more than letters, digits and the characters of common file names.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
+}  // namespace isoatlas
