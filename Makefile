@@ -34,7 +34,7 @@ lint: ## clang-tidy over src and apps
 	@cmake --preset dev >/dev/null
 	@scripts/lint.sh
 
-bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges; writes build/bench/*.json and docs/performance.md
+bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster; writes build/bench/*.json and docs/performance.md
 	@scripts/bench.sh
 
 table131: build ## the dissertation's table 13.1 beside ours; writes docs/performance.md

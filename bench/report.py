@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
-    report.py FOLDER [PAGE]   FOLDER holds engine.json and, if measured, extract.json and store.json; PAGE defaults to docs/performance.md
+    report.py FOLDER [PAGE]   FOLDER holds engine.json and, if measured, extract.json, store.json, render.json; PAGE: docs/performance.md
 """
 import json
 import platform
@@ -83,7 +83,7 @@ def growth_table(engine):
 
 
 def generic_table(records):
-    """A list of flat records, as bench/extract and bench/store write it: the keys are the columns."""
+    """A list of flat records, as the other benchmarks write it: the keys are the columns."""
     header = list(records[0])
     rows = [[f"{r[key]:.4g}" if isinstance(r.get(key), float) else r.get(key, "") for key in header] for r in records]
     return table([name.replace("_", " ") for name in header], rows)
@@ -112,6 +112,8 @@ def main():
         store = json.loads((folder / "store.json").read_text())
         for part in ("builds", "surfaces", "objects"):
             page = replace(page, f"store-{part}", generic_table(store[part]))
+    if (folder / "render.json").exists():
+        page = replace(page, "render", generic_table(json.loads((folder / "render.json").read_text())["pictures"]))
     path.write_text(page)
     print(f"report: {path} is up to date")
 

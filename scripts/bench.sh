@@ -12,4 +12,8 @@ if [[ -d $data ]]; then options+=(--data "$data"); fi
 "$out/bin/bench_engine" "${options[@]}"
 /usr/bin/python3 bench/extract/compare_vtk.py "$out/bin/bench_extract" --cache "$out/volumes" --json "$out/extract.json"
 /usr/bin/python3 bench/store/compare_vtk.py "$out/bin/bench_store" --cache "$out/volumes" --json "$out/store.json"
+if [[ -d $data ]]; then
+    /usr/bin/python3 bench/render/compare_vtk.py "$out/bin/bench_render" "$data"/{bonsai/bonsai,engine/engine,headsq/headsq,heptane/heptane}.nrrd \
+        --cache "$out/volumes" --json "$out/render.json"
+fi
 /usr/bin/python3 bench/report.py "$out"

@@ -41,6 +41,8 @@ test|clang-format-19|format check
 test|clang-tidy-19|lint
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK
+bench|xvfb|a display for VTK's ray caster, the yardstick of volume rendering
+bench|xauth|lets VTK at that display
 fuzz|clang-19|compiler with libFuzzer
 fuzz|libclang-rt-19-dev|runtime of libFuzzer and the sanitizers
 TABLE

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -76,6 +77,7 @@ struct TransferBump {
 struct SceneVolume {
     const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
     std::vector<TransferBump> bumps{};
+    std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; left out: looked for
     bool shadows = false;  ///< light of the key light is scattered once: matter and opaque surfaces keep it from what lies behind them
 };
 

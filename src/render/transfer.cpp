@@ -10,8 +10,6 @@ namespace render {
 
 namespace {
 
-constexpr std::int64_t kPlaces = 4096;
-
 /// A trapezoid over the values.
 struct Part {
     double low, rise, fall, high;
@@ -42,26 +40,23 @@ Transfer::Transfer(std::span<const TransferBump> bumps, double length_unit, std:
         }
         visible_.push_back({bump.low, bump.high});
     }
+    next_visible_.assign(kPlaces + 1, static_cast<double>(kPlaces));
+    for (std::int64_t i = kPlaces - 1; i >= 0; --i)
+        next_visible_[i] = sums_[i + 1][0] != sums_[i][0] ? static_cast<double>(i) : next_visible_[i + 1];
 }
 
-Transfer::Sums Transfer::sums_to(double place) const {
-    const double p = std::clamp(place, 0.0, static_cast<double>(kPlaces));
-    const auto i = std::min(static_cast<std::int64_t>(p), kPlaces - 1);
-    const double f = p - static_cast<double>(i);
-    Sums sums;
-    for (int c = 0; c < 4; ++c) sums[c] = sums_[i][c] + f * (sums_[i + 1][c] - sums_[i][c]);
-    return sums;
-}
-
-Matter Transfer::mean(double a, double b) const {
+Matter Transfer::mean_between(double low, double high) const {
     // Closer together than a place, the sums would be lost in rounding: then over half a place to both sides.
-    double low = (std::min(a, b) - low_) * places_per_value_, high = (std::max(a, b) - low_) * places_per_value_;
-    if (high - low < 1e-3) low -= 0.5, high += 0.5;
-    const double first = std::clamp(low, 0.0, static_cast<double>(kPlaces)), last = std::clamp(high, 0.0, static_cast<double>(kPlaces));
-    if (!(last > first)) return {};
-    const Sums from = sums_to(first), to = sums_to(last);
-    const double part = places_per_value_ / (last - first);
-    return {part * (to[0] - from[0]), {part * (to[1] - from[1]), part * (to[2] - from[2]), part * (to[3] - from[3])}};
+    if (high - low < 1e-3) {
+        low = std::max(0.0, low - 0.5);
+        high = std::min(high + 0.5, static_cast<double>(kPlaces));
+    }
+    const auto i = std::min(static_cast<std::int64_t>(low), kPlaces - 1), j = std::min(static_cast<std::int64_t>(high), kPlaces - 1);
+    const double f = low - static_cast<double>(i), g = high - static_cast<double>(j), part = places_per_value_ / (high - low);
+    const Sums &from = sums_[i], &from_next = sums_[i + 1], &to = sums_[j], &to_next = sums_[j + 1];
+    Sums mean;
+    for (int c = 0; c < 4; ++c) mean[c] = part * ((to[c] + g * (to_next[c] - to[c])) - (from[c] + f * (from_next[c] - from[c])));
+    return {mean[0], {mean[1], mean[2], mean[3]}};
 }
 
 bool Transfer::visible(double low, double high) const {

@@ -1,7 +1,9 @@
 // A transfer function with its integrals: what a piece of a ray between two values sends out and swallows on average.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,18 +24,28 @@ public:
     /// samples.
     Transfer(std::span<const TransferBump> bumps, double length_unit, std::array<double, 2> range);
 
-    /// Mean over the values between a and b, as where a value changes linearly from a to b (Engel, Kraus, Ertl, 2001, without the
-    /// attenuation inside of the piece). Exact to 1/4096 of the range.
-    [[nodiscard]] Matter mean(double a, double b) const;
+    /// Where a value stands in the table: values outside of the range at its ends.
+    [[nodiscard]] double place(double value) const {
+        return std::clamp((value - low_) * places_per_value_, 0.0, static_cast<double>(kPlaces));
+    }
+    /// Mean between the places of two values, as where a value changes linearly from one to the other (Engel, Kraus, Ertl, 2001, without
+    /// the attenuation inside of the piece). Exact to 1/4096 of the range.
+    [[nodiscard]] Matter mean(double a, double b) const {
+        const double low = std::min(a, b), high = std::max(a, b);
+        if (high <= next_visible_[static_cast<std::int64_t>(low)]) return {};
+        return mean_between(low, high);
+    }
     /// Is there anything between two values, low <= high?
     [[nodiscard]] bool visible(double low, double high) const;
 
 private:
+    static constexpr std::int64_t kPlaces = 4096;
     using Sums = std::array<double, 4>;  ///< extinction, glow
-    [[nodiscard]] Sums sums_to(double place) const;
+    [[nodiscard]] Matter mean_between(double low, double high) const;
 
     double low_, places_per_value_;
-    std::vector<Sums> sums_;  ///< integrals over the values from the lowest one to each of evenly spaced ones
+    std::vector<double> next_visible_;  ///< of every place: the first one at or after it that something lies between it and the next
+    std::vector<Sums> sums_;            ///< integrals over the values from the lowest one to each of evenly spaced ones
     struct Range {
         double low, high;
     };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "isoatlas/render.h"
 #include "unit/render/shapes.h"
@@ -113,6 +114,35 @@ TEST(Medium, LeapsOverNothingThatIsVisible) {
         const Camera camera{
             .target = {static_cast<double>(at), static_cast<double>(at), 10}, .view = {.toward = {0, 0, 1}, .up = {0, 1, 0}}, .height = 3};
         EXPECT_GT(render_scene(scene, camera, flat(17, 1)).at(8, 8)[3], 250) << at;
+    }
+}
+
+/// A few bright and a few dim samples in the dark.
+Volume sparse_volume(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::int64_t n) { return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n)); };
+    Geometry geometry;
+    geometry.spacing = {1, 1.5, 0.75};
+    Volume volume = make_volume({.rank = 3, .size = {1 + below(70), 1 + below(40), 1 + below(40)}}, ValueType::u8, geometry);
+    for (std::int64_t n = 1 + below(5); n > 0; --n)
+        volume.samples<std::uint8_t>()[below(volume.info.extent.voxels())] = static_cast<std::uint8_t>(40 + below(216));
+    return volume;
+}
+
+TEST(Medium, LeapingChangesNoPixel) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        const Volume volume = sparse_volume(seed);
+        Scene scene;
+        scene.volume = {.volume = &volume,
+                        .bumps = {{.low = 10, .high = 60, .colour = {1, 0.5, 0}, .density = 2, .ramp = 0.1},
+                                  {.low = 100, .high = 110, .colour = {0, 0.5, 1}, .density = 5, .ramp = 0}}};
+        if (seed % 3 == 0) scene.removed = {{.normal = {1, 1, 0}, .offset = 4}};
+        const RenderOptions options{.width = 40, .height = 40, .background = Background::dark};
+        const Camera camera = fit_camera(scene, view_from(static_cast<double>(37 * seed % 360), static_cast<double>(seed % 90)), options);
+        const Image leapt = render_scene(scene, camera, options);
+        // What is everywhere cannot be leapt over, even where it is too thin to be seen.
+        scene.volume.bumps.push_back({.low = -1, .high = 256, .colour = {1, 1, 1}, .density = 0, .ramp = 0});
+        EXPECT_TRUE(render_scene(scene, camera, options) == leapt) << seed;
     }
 }
 

@@ -1,0 +1,161 @@
+// bench_render: where does the time of a picture go?
+//
+//   bench_render VOLUME [--surface] [--size N] [--samples N] [--threads N] [--repeats N] [--flat] [--raw FILE] [--picture FILE]
+//
+// A volume as matter with the opacity that its tree proposes, or (--surface) its first object, seen from 30 degrees to the right and 20
+// above. Prints JSON: seconds of every phase and repeat, what was drawn and how. --raw writes the samples, --picture the RGBA bytes.
+// compare_vtk.py runs this beside VTK's ray caster.
+#include <isoatlas/isoatlas.h>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+    std::string file, raw, picture;
+    bool surface = false;
+    int repeats = 3;
+    isoatlas::RenderOptions options{.width = 512, .height = 512, .background = isoatlas::Background::transparent, .samples = 1};
+    isoatlas::Context context;
+};
+
+Arguments parse(int argc, char** argv) {
+    if (argc < 2) throw std::runtime_error("usage: bench_render VOLUME [options]");
+    Arguments arguments;
+    arguments.file = argv[1];
+    for (int i = 2; i < argc; ++i) {
+        const std::string word = argv[i];
+        const auto next = [&]() -> std::string {
+            if (++i == argc) throw std::runtime_error(word + " needs a value");
+            return argv[i];
+        };
+        if (word == "--surface")
+            arguments.surface = true;
+        else if (word == "--flat")
+            arguments.options.shading = false;
+        else if (word == "--size")
+            arguments.options.width = arguments.options.height = std::stoll(next());
+        else if (word == "--samples")
+            arguments.options.samples = std::stoi(next());
+        else if (word == "--threads")
+            arguments.context.threads = std::stoi(next());
+        else if (word == "--repeats")
+            arguments.repeats = std::stoi(next());
+        else if (word == "--raw")
+            arguments.raw = next();
+        else if (word == "--picture")
+            arguments.picture = next();
+        else
+            throw std::runtime_error("unknown option " + word);
+    }
+    return arguments;
+}
+
+void write(const std::string& path, const void* bytes, std::size_t size) {
+    if (path.empty()) return;
+    std::ofstream out(path, std::ios::binary);
+    out.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+    if (!out) throw std::runtime_error("cannot write " + path);
+}
+
+/// Seconds on the clock by name, in the order in which they come.
+class Phases {
+public:
+    void begin(const std::string& name) {
+        end();
+        name_ = name, start_ = std::chrono::steady_clock::now(), processor_start_ = std::clock();
+    }
+    void end() {
+        if (name_.empty()) return;
+        seconds_[name_].push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+        processor_[name_].push_back(static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC);
+        name_.clear();
+    }
+    [[nodiscard]] const ordered_json& seconds() const { return seconds_; }
+    /// Of all threads together: what it costs while others use the machine too.
+    [[nodiscard]] const ordered_json& processor_seconds() const { return processor_; }
+
+private:
+    std::string name_;
+    std::chrono::steady_clock::time_point start_;
+    std::clock_t processor_start_ = 0;
+    ordered_json seconds_ = ordered_json::object(), processor_ = ordered_json::object();
+};
+
+std::array<double, 2> range_of(const isoatlas::Volume& volume) {
+    return isoatlas::visit_samples(volume, [](auto samples) {
+        const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+        return std::array<double, 2>{static_cast<double>(*low), static_cast<double>(*high)};
+    });
+}
+
+void measure(Arguments arguments) {
+    Phases phases;
+    phases.begin("load");
+    const isoatlas::Volume volume = isoatlas::load_volume(arguments.file, {}, {}, arguments.context);
+    phases.begin("analyse");
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, arguments.context);
+    const isoatlas::ObjectTable table = rank_objects(volume, analysis, {.top = 5}, arguments.context);
+    phases.end();
+    write(arguments.raw, volume.bytes.data(), volume.bytes.size());
+    isoatlas::Scene scene;
+    if (arguments.surface) {
+        phases.begin("extract");
+        if (table.entries.empty()) throw std::runtime_error("no object");
+        isoatlas::ExtractOptions options;
+        options.ids = false;
+        isoatlas::Surface surface = isoatlas::extract(volume, table.entries[0].best_tau, options, arguments.context);
+        scene.objects.push_back({.surface = std::move(surface), .colour = isoatlas::palette(0)});
+        phases.end();
+    } else {
+        const std::array<double, 2> range = range_of(volume);
+        scene.volume = {.volume = &volume, .bumps = propose_transfer(table, volume.info, range), .range = range};
+    }
+    const isoatlas::View view = isoatlas::view_from(30, 20);
+    const isoatlas::Camera camera = fit_camera(scene, view, arguments.options);
+    isoatlas::Image image;
+    for (int i = 0; i < arguments.repeats; ++i) {
+        arguments.context.progress = [&](const isoatlas::Progress& progress) {
+            if (progress.fraction == 0) phases.begin(progress.phase == "draw" ? "draw" : "prepare");
+        };
+        image = render_scene(scene, camera, arguments.options, arguments.context);
+        phases.end();
+    }
+    write(arguments.picture, image.rgba.data(), image.rgba.size());
+    ordered_json bumps = ordered_json::array();
+    for (const isoatlas::TransferBump& bump : scene.volume.bumps) {
+        bumps.push_back({{"low", bump.low},
+                         {"high", bump.high},
+                         {"ramp", bump.ramp},
+                         {"density", bump.density},
+                         {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
+    }
+    const isoatlas::VolumeInfo& info = volume.info;
+    const ordered_json result{{"seconds", phases.seconds()},
+                              {"processor_seconds", phases.processor_seconds()},
+                              {"size", info.extent.size},
+                              {"type", name_of(info.type)},
+                              {"spacing", info.geometry.spacing},
+                              {"origin", info.geometry.origin},
+                              {"direction", info.geometry.direction},
+                              {"triangles", arguments.surface ? scene.objects[0].surface.triangles.size() : 0},
+                              {"bumps", bumps},
+                              {"camera", {{"target", camera.target}, {"toward", view.toward}, {"up", view.up}, {"height", camera.height}}}};
+    std::puts(result.dump().c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try { measure(parse(argc, argv)); } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_render: %s\n", error.what());
+    return 1;
+}

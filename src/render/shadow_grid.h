@@ -1,0 +1,29 @@
+// How much of the key light reaches matter: measured on a coarse grid, interpolated between.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "isoatlas/volume.h"
+
+namespace isoatlas::render {
+
+class ShadowGrid {
+public:
+    /// Light everywhere.
+    ShadowGrid() = default;
+    /// light_at: of a position in samples, 0 to 1; called from many threads.
+    ShadowGrid(const Extent& extent, const std::function<double(const Vec3&)>& light_at, int threads);
+
+    [[nodiscard]] bool empty() const { return light_.empty(); }
+    /// At a position in samples.
+    [[nodiscard]] double light(const Vec3& voxel) const;
+
+private:
+    std::array<std::int64_t, 3> count_{};
+    std::vector<float> light_;
+};
+
+}  // namespace isoatlas::render
