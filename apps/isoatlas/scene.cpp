@@ -104,26 +104,51 @@ std::int64_t slice_side(const VolumeInfo& info, int axis, std::int64_t width, st
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(pixels * std::max(across, down)), 16, 16384);
 }
 
-void add_slices(const Arguments& arguments, Source& source, Scene& scene) {
+/// The transfer function of --volume.
+std::vector<TransferBump> matter_of(const Arguments& arguments, Source& source, std::size_t first_colour) {
+    if (!arguments.picture.volume) return {};
+    const ValueRange range = source.range();
+    const ObjectTable table = source.objects({.top = 5});
+    std::vector<TransferBump> bumps =
+        propose_transfer(table, source.info(), {range.low, range.high}, static_cast<std::int64_t>(first_colour));
+    const Scale scale(source.info());
+    for (TransferBump& bump : bumps) bump.name = "matter above " + scale.brief(bump.tau);
+    return bumps;
+}
+
+SampleBox box_of_slice(const Extent& extent, const ShownSlice& slice) {
+    SampleBox box{{0, 0, 0}, extent.size};
+    box.begin[static_cast<std::size_t>(slice.axis)] = slice.index;
+    box.end[static_cast<std::size_t>(slice.axis)] = slice.index + 1;
+    return box;
+}
+
+void add_slices(const Arguments& arguments, Source& source, const Volume& volume, Scene& scene) {
     const PictureArguments& picture = arguments.picture;
+    const ValueRange range = source.range();
     for (const ShownSlice& shown : picture.slices) {
-        SliceOptions options{.axis = shown.axis, .index = shown.index, .side = std::max(picture.width, picture.height)};
-        if (picture.flat) options.side = slice_side(source.info(), shown.axis, picture.width, picture.height);
+        SliceOptions options{.axis = shown.axis, .index = shown.index, .black = range.low, .white = range.high};
+        options.side =
+            picture.flat ? slice_side(source.info(), shown.axis, picture.width, picture.height) : std::max(picture.width, picture.height);
         for (const SceneObject& object : scene.objects) options.contours.push_back({object.surface.tau, object.colour});
-        scene.slices.push_back(slice_picture(source.volume(), options, source.context()));
+        scene.slices.push_back(slice_picture(volume, options, source.context()));
     }
 }
 
-void add_volume(const Arguments& arguments, Source& source, Scene& scene) {
-    if (!arguments.picture.volume) return;
+/// Slices and matter: what needs samples.
+void add_samples(const Arguments& arguments, Source& source, Scene& scene) {
+    const PictureArguments& picture = arguments.picture;
+    if (picture.slices.empty() && !picture.volume) return;
+    std::vector<TransferBump> bumps = matter_of(arguments, source, scene.objects.size());
+    SamplesWanted wanted;
+    for (const TransferBump& bump : bumps) wanted.values.push_back({bump.low, bump.high});
+    for (const ShownSlice& slice : picture.slices) wanted.boxes.push_back(box_of_slice(source.info().extent, slice));
+    const Volume& volume = source.volume(wanted);
+    add_slices(arguments, source, volume, scene);
+    if (!picture.volume) return;
     const ValueRange range = source.range();
-    const ObjectTable table = source.objects({.top = 5});
     scene.volume = {
-        .volume = &source.volume(),
-        .bumps = propose_transfer(table, source.info(), {range.low, range.high}, static_cast<std::int64_t>(scene.objects.size())),
-        .shadows = arguments.picture.shadows};
-    const Scale scale(source.info());
-    for (TransferBump& bump : scene.volume.bumps) bump.name = "matter above " + scale.brief(bump.tau);
+        .volume = &volume, .bumps = std::move(bumps), .range = std::array<double, 2>{range.low, range.high}, .shadows = picture.shadows};
 }
 
 }  // namespace
@@ -162,8 +187,7 @@ Scene scene_of(const Arguments& arguments, Source& source) {
         scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
     }
     choose_opacities(picture, scene.objects);
-    add_slices(arguments, source, scene);
-    add_volume(arguments, source, scene);
+    add_samples(arguments, source, scene);
     return scene;
 }
 

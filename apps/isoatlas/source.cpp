@@ -131,6 +131,13 @@ const Volume& Source::volume() {
     return *volume_;
 }
 
+const Volume& Source::volume(const SamplesWanted& wanted) {
+    if (volume_ || arguments_.box || arguments_.gaussian) return volume();
+    part_ = atlas_->volume(wanted, context(), &cost_);
+    part_->info = info_;
+    return *part_;
+}
+
 std::optional<QueryCost> Source::reads() const { return atlas_ ? std::optional(cost_) : std::nullopt; }
 
 }  // namespace isoatlas::cli

@@ -43,6 +43,8 @@ public:
     [[nodiscard]] Analysis analysis(bool with_zones);
     /// All samples.
     [[nodiscard]] const Volume& volume();
+    /// A volume with at least these samples; of a store no others are read. Valid until the next call.
+    [[nodiscard]] const Volume& volume(const SamplesWanted& wanted);
 
     /// What has been read of a store, for the JSON documents; nothing for a volume file.
     [[nodiscard]] std::optional<QueryCost> reads() const;
@@ -51,7 +53,7 @@ private:
     const Arguments& arguments_;
     Session session_;
     std::optional<Atlas> atlas_;
-    std::optional<Volume> volume_;
+    std::optional<Volume> volume_, part_;
     std::optional<ValueRange> range_;
     QueryCost cost_;
     VolumeInfo info_;

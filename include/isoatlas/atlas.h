@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
@@ -50,6 +52,14 @@ struct SurfacePreview {
     Bounds points;                  ///< of the compact, closed surface, without articulation points (about one for 1000 points)
     Bounds triangles;               ///< of the same (2D: segments)
     Bounds bricks, bytes, extents;  ///< to be read by a first query; fewer when bricks are present
+};
+
+/// Which samples a picture needs.
+struct SamplesWanted {
+    static constexpr std::int64_t kAround = 7;  ///< samples
+    std::vector<std::array<double, 2>>
+        values{};                    ///< the corners of cells with a value in one of these ranges, and samples up to kAround away
+    std::vector<SampleBox> boxes{};  ///< all in these; what sticks out of the volume is left out
 };
 
 /// Does a file begin like a store? False for files that cannot be read.
@@ -102,6 +112,10 @@ public:
     [[nodiscard]] Analysis analysis() const;
     /// All samples. Cost: reads all bricks.
     [[nodiscard]] Volume volume(const Context& context = {}) const;
+    /// The same with the samples that are wanted; the others are the lowest one of their brick, so that no cell but the wanted ones has a
+    /// value in the ranges. Cost: memory for all samples; reads bricks with such samples and those around them, found by their lowest and
+    /// highest samples.
+    [[nodiscard]] Volume volume(const SamplesWanted& wanted, const Context& context = {}, QueryCost* cost = nullptr) const;
 
     /// Of all queries so far.
     [[nodiscard]] AtlasReads reads() const;

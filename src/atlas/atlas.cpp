@@ -11,6 +11,7 @@
 #include "base/lazy.h"
 #include "critical/bodies.h"
 #include "mesh/extract_level.h"
+#include "query/bricks_in_view.h"
 #include "query/cut_level.h"
 #include "query/stored_samples.h"
 #include "store/checksum.h"
@@ -168,6 +169,18 @@ Volume Atlas::volume(const Context& context) const {
     store::IoCounters counters;
     data_->samples->read_all(volume.bytes, context, counters);
     data_->count(counters);
+    return volume;
+}
+
+Volume Atlas::volume(const SamplesWanted& wanted, const Context& context, QueryCost* cost) const {
+    Volume volume = make_volume(info().extent, info().type, info().geometry);
+    volume.info = info();
+    StoredSamples& samples = *data_->samples;
+    LevelQuery spent;
+    const std::vector<std::uint8_t> bricks = bricks_in_view(samples.grid(), wanted, [&](std::int64_t b) { return samples.range(b); });
+    samples.read_some(bricks, volume.bytes, context, spent);
+    spent.visited = spent.samples;
+    data_->count(spent, 0, cost);
     return volume;
 }
 

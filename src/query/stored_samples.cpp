@@ -105,6 +105,10 @@ public:
         return {static_cast<double>(low), static_cast<double>(high)};
     }
 
+    [[nodiscard]] std::array<double, 2> range(std::int64_t brick) const override {
+        return {static_cast<double>(bricks_.low(brick)), static_cast<double>(bricks_.high(brick))};
+    }
+
     [[nodiscard]] double sample(std::int64_t voxel, IoCounters& counters) override {
         LevelQuery query;  // ends after the lock
         const std::lock_guard lock(mutex_);
@@ -116,6 +120,18 @@ public:
 
     void read_all(std::span<std::byte> out, const Context& context, IoCounters& counters) override {
         counters += bricks_.read_all(std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), context.threads);
+    }
+
+    void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
+        T* whole = reinterpret_cast<T*>(out.data());
+        std::vector<std::int64_t> wanted;
+        for (std::int64_t b = 0; b < grid_.count(); ++b) {
+            if (bricks[b] != 0) wanted.push_back(b);
+        }
+        for_bricks(grid_, context.threads, [&](std::int64_t b) {
+            if (bricks[b] == 0) fill_with(bricks_.low(b), grid_.box(b), whole);
+        });
+        counters += bricks_.read_into(whole, std::move(wanted), context.threads);
     }
 
     void check(const Context& context) const override { bricks_.check(context.threads); }
@@ -248,6 +264,13 @@ private:
             if (bricks.classes[b] != BrickClass::high)
                 bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
         });
+    }
+
+    void fill_with(T value, const Box& box, T* whole) const {
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y)
+                std::fill_n(whole + grid_.extent.index(box.begin[0], y, z), box.size(0), value);
+        }
     }
 
     void copy_brick(std::int64_t brick, const BrickPart& part, T* to) {

@@ -72,10 +72,15 @@ public:
     [[nodiscard]] virtual const store::BrickGrid& grid() const = 0;
     /// Lowest and highest sample; reads nothing.
     [[nodiscard]] virtual std::array<double, 2> range() const = 0;
+    /// The same of a brick.
+    [[nodiscard]] virtual std::array<double, 2> range(std::int64_t brick) const = 0;
     /// Any sample; reads its brick when it is not present.
     [[nodiscard]] virtual double sample(std::int64_t voxel, store::IoCounters& counters) = 0;
     /// All samples, x fastest.
     virtual void read_all(std::span<std::byte> samples, const Context& context, store::IoCounters& counters) = 0;
+    /// Those of the flagged bricks; all others are the lowest one of their brick.
+    virtual void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
+                           store::IoCounters& counters) = 0;
     /// Reads all bricks; throws Error{input} where what is said about one is not so.
     virtual void check(const Context& context) const = 0;
     /// Forgets the samples that are present, but for those that queries hold.

@@ -84,6 +84,17 @@ class Pictures(CliTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertEqual(pictures[0], pictures[2])
 
+    def test_a_store_reads_what_is_seen(self):
+        self.run_ok("build", "shells.nrrd", "-o", "shells.atlas")
+        for wanted in (["--volume"], ["--volume", "--shadows", "--slice", "x=3"], ["--slice", "z=20", "--tau", "0.5"], ["--slice", "y=31", "--flat"]):
+            seen = []
+            for name in ("shells.nrrd", "shells.atlas"):
+                document = self.run_json("render", name, *wanted, *self.small, "--view", "30,20", "-o", "s.png")
+                self.assert_schema(document, "render")
+                seen.append((self.folder / "s.png").read_bytes())
+            self.assertEqual(*seen)
+        self.assertLess(document["reads"]["cells_loaded"], 32 ** 3 / 3)
+
     def test_animations(self):
         for name, begin in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.apng", b"\x89PNG"), ("a.webp", b"RIFF")):
             document = self.run_json("animate", "figure.nrrd", "--from", "90", "--to", "10", "--steps", "4", *self.small, "-o", name)
