@@ -37,11 +37,35 @@ ShownObject shown_object(const std::string& word) {
     return object;
 }
 
-Colour colour_of(const std::string& word) {
+std::optional<Colour> colour_in(const std::string& word) {
     const std::optional<std::uint32_t> bits =
         word.size() == 7 && word[0] == '#' ? number_in<std::uint32_t>(word.substr(1), 16) : std::nullopt;
-    if (!bits) bad("--colour", word, "red, green and blue in hexadecimal: #56B4E9");
-    return {(*bits >> 16 & 255) / 255.0, (*bits >> 8 & 255) / 255.0, (*bits & 255) / 255.0};
+    if (!bits) return std::nullopt;
+    return Colour{(*bits >> 16 & 255) / 255.0, (*bits >> 8 & 255) / 255.0, (*bits & 255) / 255.0};
+}
+
+Colour colour_of(const std::string& word) {
+    const std::optional<Colour> colour = colour_in(word);
+    if (!colour) bad("--colour", word, "red, green and blue in hexadecimal: #56B4E9");
+    return *colour;
+}
+
+ShownMaterial shown_material(const std::string& word) {
+    std::vector<std::string> parts{""};
+    for (const char c : word) {
+        if (c == ':')
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    const char* expected =
+        "name, mean, standard deviation above 0, colour and, if not 0.1, opacity of a voxel below 1: fat:80:12:#E0C040:0.1";
+    if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) bad("--material", word, expected);
+    const std::optional<double> mean = number_in<double>(parts[1]), sigma = number_in<double>(parts[2]);
+    const std::optional<Colour> colour = colour_in(parts[3]);
+    const std::optional<double> opacity = parts.size() == 5 ? number_in<double>(parts[4]) : 0.1;
+    if (!mean || !sigma || !(*sigma > 0) || !colour || !opacity || !(*opacity >= 0 && *opacity < 1)) bad("--material", word, expected);
+    return {.name = parts[0], .mean = *mean, .sigma = *sigma, .colour = *colour, .opacity = *opacity};
 }
 
 /// "x>12.5": what is cut away.
@@ -120,6 +144,8 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     for (const std::string& word : words.objects) picture.objects.push_back(shown_object(word));
     for (const std::string& word : words.colours) picture.colours.push_back(colour_of(word));
     for (const std::string& word : words.slices) picture.slices.push_back(shown_slice(word));
+    for (const std::string& word : words.materials) picture.materials.push_back(shown_material(word));
+    picture.volume = picture.volume || !picture.materials.empty();
     if (picture.flat && picture.slices.empty())
         throw Error(ErrorKind::usage, {.what = "--flat needs a slice", .next = "add --slice z=N, with N from 0"});
     convert_cut(words.cut, picture);

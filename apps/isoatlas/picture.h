@@ -12,7 +12,7 @@ namespace isoatlas::cli {
 /// As typed.
 struct PictureWords {
     std::vector<double> taus, opacities;
-    std::vector<std::string> objects, colours, slices;
+    std::vector<std::string> objects, colours, slices, materials;
     std::string cut, view = "auto", up = "z", size = "768x768", background = "light";
 };
 
@@ -26,6 +26,14 @@ struct ShownObject {
 struct ShownSlice {
     int axis = 2;
     std::int64_t index = 0;
+};
+
+/// --material fat:80:12:#E0C040:0.1
+struct ShownMaterial {
+    std::string name;
+    double mean = 0, sigma = 0;  ///< calibrated
+    Colour colour{};
+    double opacity = 0;  ///< of a voxel
 };
 
 enum class CutShape : std::uint8_t { none, octant, half, planes };
@@ -49,6 +57,7 @@ struct PictureArguments {
     Background background = Background::light;
     int samples = 0;  ///< 0: not given
     std::vector<ShownSlice> slices;
+    std::vector<ShownMaterial> materials;
     AnimationArguments animation;
     bool perspective = false, plain = false;
     bool volume = false, shadows = false, flat = false;

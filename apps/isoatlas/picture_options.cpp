@@ -15,6 +15,8 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--slice", words.slices, "Also slices, in grey with the contours of the isovalues: x, y or z = number of samples", "z=40");
     app.add_flag("--flat", arguments.picture.flat, "The (first) slice alone, as a plain picture");
     app.add_flag("--volume", arguments.picture.volume, "Also the volume as glowing matter, one colour for each object of the table");
+    add("--material", words.materials,
+        "Matter of known materials instead: name, mean, standard deviation, colour, opacity of a voxel (0.1)", "NAME:M:S:C[:P]");
     app.add_flag("--shadows", arguments.picture.shadows, "Matter throws shadows (with --volume)");
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
     add("--up", words.up, "What is upwards: x, y, z, -x, -y or -z", "AXIS");

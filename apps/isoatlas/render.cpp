@@ -36,6 +36,15 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
                          {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
     }
     json["transfer"] = std::move(bumps);
+    Json materials = Json::array();
+    for (const ShownMaterial& material : arguments.picture.materials) {
+        materials.push_back({{"name", material.name},
+                             {"mean", material.mean},
+                             {"sigma", material.sigma},
+                             {"opacity", material.opacity},
+                             {"colour", {material.colour.red, material.colour.green, material.colour.blue}}});
+    }
+    json["materials"] = std::move(materials);
     json["camera"] = nullptr;
     if (!arguments.picture.flat)
         json["camera"] = {{"projection", camera.projection == Projection::orthographic ? "orthographic" : "perspective"},

@@ -104,16 +104,35 @@ std::int64_t slice_side(const VolumeInfo& info, int axis, std::int64_t width, st
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(pixels * std::max(across, down)), 16, 16384);
 }
 
-/// The transfer function of --volume.
-std::vector<TransferBump> matter_of(const Arguments& arguments, Source& source, std::size_t first_colour) {
-    if (!arguments.picture.volume) return {};
+std::vector<Material> materials_of(const PictureArguments& picture, const VolumeInfo& info) {
+    const Scale scale(info);
+    const double voxel = *std::min_element(info.geometry.spacing.begin(), info.geometry.spacing.end());
+    std::vector<Material> materials;
+    for (const ShownMaterial& shown : picture.materials) {
+        materials.push_back({.name = shown.name,
+                             .mean = scale.stored(shown.mean),
+                             .sigma = shown.sigma / std::abs(info.calibration.slope),
+                             .colour = shown.colour,
+                             .density = -std::log1p(-shown.opacity) / voxel});
+    }
+    return materials;
+}
+
+/// What --volume and --material ask for, without the samples.
+SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t first_colour) {
+    const PictureArguments& picture = arguments.picture;
+    if (!picture.volume) return {};
     const ValueRange range = source.range();
+    SceneVolume matter{.range = std::array<double, 2>{range.low, range.high}, .shadows = picture.shadows};
+    if (!picture.materials.empty()) {
+        matter.curves = material_transfer(materials_of(picture, source.info()), *matter.range);
+        return matter;
+    }
     const ObjectTable table = source.objects({.top = 5});
-    std::vector<TransferBump> bumps =
-        propose_transfer(table, source.info(), {range.low, range.high}, static_cast<std::int64_t>(first_colour));
+    matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
     const Scale scale(source.info());
-    for (TransferBump& bump : bumps) bump.name = "matter above " + scale.brief(bump.tau);
-    return bumps;
+    for (TransferBump& bump : matter.bumps) bump.name = "matter above " + scale.brief(bump.tau);
+    return matter;
 }
 
 SampleBox box_of_slice(const Extent& extent, const ShownSlice& slice) {
@@ -139,16 +158,14 @@ void add_slices(const Arguments& arguments, Source& source, const Volume& volume
 void add_samples(const Arguments& arguments, Source& source, Scene& scene) {
     const PictureArguments& picture = arguments.picture;
     if (picture.slices.empty() && !picture.volume) return;
-    std::vector<TransferBump> bumps = matter_of(arguments, source, scene.objects.size());
-    SamplesWanted wanted;
-    for (const TransferBump& bump : bumps) wanted.values.push_back({bump.low, bump.high});
+    SceneVolume matter = matter_of(arguments, source, scene.objects.size());
+    SamplesWanted wanted{.values = visible_values(matter)};
     for (const ShownSlice& slice : picture.slices) wanted.boxes.push_back(box_of_slice(source.info().extent, slice));
     const Volume& volume = source.volume(wanted);
     add_slices(arguments, source, volume, scene);
     if (!picture.volume) return;
-    const ValueRange range = source.range();
-    scene.volume = {
-        .volume = &volume, .bumps = std::move(bumps), .range = std::array<double, 2>{range.low, range.high}, .shadows = picture.shadows};
+    matter.volume = &volume;
+    scene.volume = std::move(matter);
 }
 
 }  // namespace

@@ -73,10 +73,20 @@ struct TransferBump {
     std::string name{};  ///< for the legend; empty: not in it
 };
 
-/// A volume drawn as glowing matter: emission and absorption, composited front to back together with surfaces and slices.
+/// The same with an extinction that is linear between points: {stored value, extinction per unit of length}, values not falling. Two points
+/// at one value: it jumps. Nothing before the first and behind the last point.
+struct TransferCurve {
+    std::vector<std::array<double, 2>> points{};
+    Colour colour{};
+    std::string name{};  ///< for the legend; empty: not in it
+};
+
+/// A volume drawn as glowing matter: emission and absorption, composited front to back together with surfaces and slices. Bumps and curves
+/// add up.
 struct SceneVolume {
     const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
     std::vector<TransferBump> bumps{};
+    std::vector<TransferCurve> curves{};
     std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; left out: looked for
     bool shadows = false;  ///< light of the key light is scattered once: matter and opaque surfaces keep it from what lies behind them
 };
@@ -176,6 +186,22 @@ struct SliceOptions {
 /// lowest and highest sample.
 [[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
                                                          std::int64_t first_colour = 0);
+
+/// Between which values something may be seen, in no order; they may overlap. volume.range must be given.
+[[nodiscard]] std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume);
+
+/// What a place may be made of. Its stored values have a normal distribution.
+struct Material {
+    std::string name;
+    double mean = 0, sigma = 1;  ///< stored values; sigma > 0
+    Colour colour{};
+    double density = 0;  ///< extinction per unit of length where there is nothing else; 0: it is not seen
+};
+/// Which part of a place of some value is which material, sum 1: P_i / (P_1 + ... + P_n), P_i the probability of the value in material i
+/// (Drebin, Carpenter, Hanrahan: Volume rendering, 1988). Throws Error{usage} for a sigma that is not positive.
+[[nodiscard]] std::vector<double> material_percentages(std::span<const Material> materials, double value);
+/// Each material where and as dense as its percentages say. range: lowest and highest sample. Throws as material_percentages.
+[[nodiscard]] std::vector<TransferCurve> material_transfer(std::span<const Material> materials, std::array<double, 2> range);
 
 /// A picture with nothing in it but its caption.
 [[nodiscard]] Image blank_picture(const RenderOptions& options);

@@ -56,7 +56,7 @@ Medium::Medium(const Scene& scene, const Frame& frame, const Lights* lights, con
     : volume_(scene.volume.volume),
       lights_(lights),
       frame_(frame),
-      transfer_(scene.volume.bumps, frame.radius, scene.volume.range.value_or(blocks.whole())),
+      transfer_(scene.volume, frame.radius, scene.volume.range.value_or(blocks.whole())),
       blocks_(blocks, transfer_, threads),
       to_voxel_(physical_to_voxel(volume_->info.geometry)) {
     const Vec3& spacing = volume_->info.geometry.spacing;

@@ -59,6 +59,7 @@ void draw_legend(const Scene& scene, const Style& style, Image& image) {
     };
     for (const SceneObject& object : scene.objects) entry(object.name, object.colour);
     for (const TransferBump& bump : scene.volume.bumps) entry(bump.name, bump.colour);
+    for (const TransferCurve& curve : scene.volume.curves) entry(curve.name, curve.colour);
 }
 
 void draw_caption(const std::vector<std::string>& lines, const Style& style, Image& image) {

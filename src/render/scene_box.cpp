@@ -8,11 +8,11 @@ namespace {
 
 /// Sample positions of what is shown.
 template <class T>
-SceneBox shown_samples(std::span<const T> samples, const Extent& extent, const std::vector<TransferBump>& bumps) {
+SceneBox shown_samples(std::span<const T> samples, const Extent& extent, const std::vector<std::array<double, 2>>& values) {
     SceneBox box;
     const auto shown = [&](T sample) {
         const auto value = static_cast<double>(sample);
-        return std::any_of(bumps.begin(), bumps.end(), [&](const TransferBump& b) { return value >= b.low && value <= b.high; });
+        return std::any_of(values.begin(), values.end(), [&](const auto& range) { return value >= range[0] && value <= range[1]; });
     };
     for (std::int64_t z = 0; z < extent.size[2]; ++z) {
         for (std::int64_t y = 0; y < extent.size[1]; ++y) {
@@ -56,7 +56,8 @@ std::vector<Vec3> corners_of(const SceneVolume& volume) {
 std::vector<Vec3> shown_corners_of(const SceneVolume& volume) {
     if (volume.volume == nullptr) return {};
     const VolumeInfo& info = volume.volume->info;
-    const SceneBox box = visit_samples(*volume.volume, [&](auto samples) { return shown_samples(samples, info.extent, volume.bumps); });
+    const SceneBox box =
+        visit_samples(*volume.volume, [&](auto samples) { return shown_samples(samples, info.extent, visible_values(volume)); });
     return box.empty() ? corners_of(volume) : physical_corners(box, info);
 }
 

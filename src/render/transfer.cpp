@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "render/colours.h"
 
@@ -11,45 +12,61 @@ namespace render {
 namespace {
 
 /// A trapezoid over the values.
-struct Part {
-    double low, rise, fall, high;
-    /// From -infinity to a value, of a top of 1.
-    [[nodiscard]] double integral(double value) const {
-        const double v = std::clamp(value, low, high), up = std::min(v, rise) - low;
-        double sum = rise > low ? up * up / (2 * (rise - low)) : 0;
-        if (v > rise) sum += std::min(v, fall) - rise;
-        if (v > fall && high > fall) sum += ((high - fall) * (high - fall) - (high - v) * (high - v)) / (2 * (high - fall));
-        return sum;
+TransferCurve curve_of(const TransferBump& bump) {
+    const double ramp = std::clamp(bump.ramp, 0.0, 0.5) * (bump.high - bump.low);
+    return {.points = {{bump.low, 0}, {bump.low + ramp, bump.density}, {bump.high - ramp, bump.density}, {bump.high, 0}},
+            .colour = bump.colour,
+            .name = bump.name};
+}
+
+/// Integrals of a curve over the values from its first point on, asked for with rising values.
+class Integral {
+public:
+    explicit Integral(const TransferCurve& curve) : points_(curve.points) {}
+    double to(double value) {
+        while (next_ < points_.size() && points_[next_][0] <= value) {
+            if (next_ > 0) sum_ += (points_[next_][0] - points_[next_ - 1][0]) * (points_[next_][1] + points_[next_ - 1][1]) / 2;
+            ++next_;
+        }
+        if (next_ == 0 || next_ == points_.size()) return sum_;
+        const auto& [v, d] = points_[next_ - 1];
+        const auto& [v_next, d_next] = points_[next_];
+        return sum_ + (value - v) * (d + (d_next - d) * (value - v) / (v_next - v) / 2);
     }
+
+private:
+    std::span<const std::array<double, 2>> points_;
+    std::size_t next_ = 0;
+    double sum_ = 0;
 };
 
 }  // namespace
 
-Transfer::Transfer(std::span<const TransferBump> bumps, double length_unit, std::array<double, 2> range)
+Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<double, 2> range)
     : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
-    for (const TransferBump& bump : bumps) {
-        const double ramp = std::clamp(bump.ramp, 0.0, 0.5) * (bump.high - bump.low);
-        const Part part{bump.low, bump.low + ramp, bump.high - ramp, bump.high};
-        const double density = bump.density * length_unit;
-        const Vec3 colour = linear(bump.colour);
-        const double first = part.integral(low_);
-        for (std::int64_t i = 0; i <= kPlaces; ++i) {
-            const double integral = density * (part.integral(low_ + static_cast<double>(i) / places_per_value_) - first);
-            sums_[i][0] += integral;
-            for (int c = 0; c < 3; ++c) sums_[i][c + 1] += integral * colour[c];
-        }
-        visible_.push_back({bump.low, bump.high});
-    }
+    for (const TransferBump& bump : volume.bumps) add(curve_of(bump), length_unit);
+    for (const TransferCurve& curve : volume.curves) add(curve, length_unit);
     next_visible_.assign(kPlaces + 1, static_cast<double>(kPlaces));
     for (std::int64_t i = kPlaces - 1; i >= 0; --i)
         next_visible_[i] = sums_[i + 1][0] != sums_[i][0] ? static_cast<double>(i) : next_visible_[i + 1];
 }
 
+void Transfer::add(const TransferCurve& curve, double length_unit) {
+    const Vec3 colour = linear(curve.colour);
+    Integral integral(curve);
+    const double first = integral.to(low_);
+    for (std::int64_t i = 0; i <= kPlaces; ++i) {
+        const double sum = length_unit * (integral.to(low_ + static_cast<double>(i) / places_per_value_) - first);
+        sums_[i][0] += sum;
+        for (int c = 0; c < 3; ++c) sums_[i][c + 1] += sum * colour[c];
+    }
+}
+
 Matter Transfer::mean_between(double low, double high) const {
-    // Closer together than a place, the sums would be lost in rounding: then over half a place to both sides.
+    // Closer together than a place, the sums would be lost in rounding: then over some to both sides.
     if (high - low < 1e-3) {
-        low = std::max(0.0, low - 0.5);
-        high = std::min(high + 0.5, static_cast<double>(kPlaces));
+        low = std::max(0.0, low - kWidening);
+        high = std::min(high + kWidening, static_cast<double>(kPlaces));
     }
     const auto i = std::min(static_cast<std::int64_t>(low), kPlaces - 1), j = std::min(static_cast<std::int64_t>(high), kPlaces - 1);
     const double f = low - static_cast<double>(i), g = high - static_cast<double>(j), part = places_per_value_ / (high - low);
@@ -57,10 +74,6 @@ Matter Transfer::mean_between(double low, double high) const {
     Sums mean;
     for (int c = 0; c < 4; ++c) mean[c] = part * ((to[c] + g * (to_next[c] - to[c])) - (from[c] + f * (from_next[c] - from[c])));
     return {mean[0], {mean[1], mean[2], mean[3]}};
-}
-
-bool Transfer::visible(double low, double high) const {
-    return std::any_of(visible_.begin(), visible_.end(), [&](const Range& range) { return high > range.low && low < range.high; });
 }
 
 }  // namespace render
@@ -90,6 +103,26 @@ std::vector<Best> best_isovalues(const ObjectTable& table, const VolumeInfo& inf
 }
 
 }  // namespace
+
+std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
+    std::vector<std::array<double, 2>> values;
+    // What stands in one place of a table with something visible is visible.
+    const double place = volume.range ? ((*volume.range)[1] - (*volume.range)[0]) / render::Transfer::kPlaces : 0;
+    for (const TransferBump& bump : volume.bumps) values.push_back({bump.low, bump.high});
+    for (const TransferCurve& curve : volume.curves) {
+        for (std::size_t i = 1; i < curve.points.size(); ++i) {
+            const auto& [low, before] = curve.points[i - 1];
+            const auto& [high, behind] = curve.points[i];
+            if (before <= 0 && behind <= 0) continue;
+            if (!values.empty() && values.back()[1] == low)
+                values.back()[1] = high;
+            else
+                values.push_back({low, high});
+        }
+    }
+    for (auto& [low, high] : values) low -= 2 * place, high += 2 * place;
+    return values;
+}
 
 std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
                                            std::int64_t first_colour) {

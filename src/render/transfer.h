@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "isoatlas/render.h"
@@ -20,9 +19,8 @@ struct Matter {
 
 class Transfer {
 public:
-    /// bumps: stored values. length_unit: how many units of the caller's length are one unit of the bumps' densities. range: of the
-    /// samples.
-    Transfer(std::span<const TransferBump> bumps, double length_unit, std::array<double, 2> range);
+    /// length_unit: what the densities of bumps and curves are multiplied with. range: of the samples.
+    Transfer(const SceneVolume& volume, double length_unit, std::array<double, 2> range);
 
     /// Where a value stands in the table: values outside of the range at its ends.
     [[nodiscard]] double place(double value) const {
@@ -32,24 +30,24 @@ public:
     /// the attenuation inside of the piece). Exact to 1/4096 of the range.
     [[nodiscard]] Matter mean(double a, double b) const {
         const double low = std::min(a, b), high = std::max(a, b);
-        if (high <= next_visible_[static_cast<std::int64_t>(low)]) return {};
+        if (high < next_visible_[static_cast<std::int64_t>(low)]) return {};
         return mean_between(low, high);
     }
-    /// Is there anything between two values, low <= high?
-    [[nodiscard]] bool visible(double low, double high) const;
+    /// Is any mean between values from low to high more than nothing?
+    [[nodiscard]] bool visible(double low, double high) const {
+        return next_visible_[static_cast<std::int64_t>(std::max(0.0, place(low) - kWidening))] <= place(high) + kWidening;
+    }
+    static constexpr std::int64_t kPlaces = 4096;
 
 private:
-    static constexpr std::int64_t kPlaces = 4096;
-    using Sums = std::array<double, 4>;  ///< extinction, glow
+    static constexpr double kWidening = 0.5;  ///< places, of means between values too close to each other
+    using Sums = std::array<double, 4>;       ///< extinction, glow
+    void add(const TransferCurve& curve, double length_unit);
     [[nodiscard]] Matter mean_between(double low, double high) const;
 
     double low_, places_per_value_;
     std::vector<double> next_visible_;  ///< of every place: the first one at or after it that something lies between it and the next
     std::vector<Sums> sums_;            ///< integrals over the values from the lowest one to each of evenly spaced ones
-    struct Range {
-        double low, high;
-    };
-    std::vector<Range> visible_;
 };
 
 }  // namespace isoatlas::render

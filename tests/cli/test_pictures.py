@@ -75,6 +75,18 @@ class Pictures(CliTest):
         self.assertIsNone(flat["camera"])
         self.assertEqual((flat["width"], flat["height"]), (48, 48))
 
+    def test_materials(self):
+        air, flesh = "air:0:8:#000000:0", "flesh:60:10:#FF0000:0.2"
+        document = self.run_json("render", "figure.nrrd", "--material", air, "--material", flesh, "--material", "bone:90:5:#0000FF", *self.small, "-o", "m.png")
+        self.assert_schema(document, "render")
+        self.assertEqual([thing["name"] for thing in document["materials"]], ["air", "flesh", "bone"])
+        self.assertEqual([thing["opacity"] for thing in document["materials"]], [0, 0.2, 0.1])
+        self.assertEqual((document["transfer"], document["objects"]), ([], []))
+        self.assertNotEqual(self.picture("figure.nrrd", "--material", air, "--material", flesh),
+                            self.picture("figure.nrrd", "--material", air, "--material", "flesh:60:20:#FF0000:0.2"))
+        for wrong in ("flesh", "flesh:60:0:#FF0000", "flesh:60:1:red", "flesh:60:1:#FF0000:1", ":60:1:#FF0000", "flesh:x:1:#FF0000"):
+            self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--material", wrong, says="--material")
+
     def test_a_store_gives_the_same_picture_with_any_threads(self):
         self.run_ok("build", "figure.nrrd", "-o", "figure.atlas")
         pictures = []

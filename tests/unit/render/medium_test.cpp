@@ -140,8 +140,8 @@ TEST(Medium, LeapingChangesNoPixel) {
         const RenderOptions options{.width = 40, .height = 40, .background = Background::dark};
         const Camera camera = fit_camera(scene, view_from(static_cast<double>(37 * seed % 360), static_cast<double>(seed % 90)), options);
         const Image leapt = render_scene(scene, camera, options);
-        // What is everywhere cannot be leapt over, even where it is too thin to be seen.
-        scene.volume.bumps.push_back({.low = -1, .high = 256, .colour = {1, 1, 1}, .density = 0, .ramp = 0});
+        // What is everywhere cannot be leapt over, even when it is too thin to be seen.
+        scene.volume.bumps.push_back({.low = -1, .high = 256, .colour = {1, 1, 1}, .density = 1e-12, .ramp = 0});
         EXPECT_TRUE(render_scene(scene, camera, options) == leapt) << seed;
     }
 }
