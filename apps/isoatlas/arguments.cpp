@@ -152,6 +152,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
     } else if (verb == "handles") {
+        app.add_flag("--exact", arguments.exact, "Which tunnel closes where, truly: persistent homology (slower)");
+        app.add_option("--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
         app.add_option("--top", typed.selection.top, "At most N tunnels (24)")->type_name("N");
         app.add_option("--persistence", typed.selection.persistence, "Only tunnels that are open so long, or for P percent of the range")
             ->type_name("H|P%");

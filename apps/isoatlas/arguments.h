@@ -41,6 +41,7 @@ struct Arguments {
     // Choosing
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
+    bool exact = false;  ///< handles: exact pairs
     bool best = false, all = false, zones = false, list = false, dark = false, both = false;
     std::int64_t top = 0;  ///< 0: not given
     Selection selection;   ///< as typed: reported units

@@ -29,9 +29,19 @@ std::string extract_command(const Arguments& arguments, std::int64_t id, const s
 
 // The table: objects at their own best isovalues.
 
-Json entry_json(const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
+Json isovalue_json(const RecommendedIsovalue& isovalue, const Scale& scale) {
+    Json json{{"tau", scale.reported(isovalue.tau)}, {"reason", name_of(isovalue.reason)}, {"prominence", number(isovalue.prominence)}};
+    if (isovalue.reason == IsovalueReason::inner) json["cavity"] = isovalue.cavity;
+    return json;
+}
+
+Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
     Json json{{"id", entry.id}, {"event", entry.event}};
     add_isovalues(json, entry, scale);
+    const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
+    json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
+    Json& isovalues = json["isovalues"] = Json::array();
+    for (const RecommendedIsovalue& isovalue : isovalues_of(table, entry.branch_top)) isovalues.push_back(isovalue_json(isovalue, scale));
     json["chi"] = 1 - entry.tunnels + entry.cavities;
     json["b1"] = entry.tunnels;
     json["b2"] = entry.cavities;
@@ -63,7 +73,7 @@ void print_table_json(Terminal& terminal, Source& source, const ObjectTable& tab
     if (dark != nullptr) add_dark(head, *dark, info);
     add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
-          [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], info, scale); });
+          [&](std::int64_t i) { return entry_json(table, table.entries[static_cast<std::size_t>(i)], info, scale); });
 }
 
 std::string best_tau_text(const ObjectEntry& entry, const Scale& scale) {
@@ -79,23 +89,39 @@ void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
                              counted(lines, "line"), noise, interpolant_text(info, source.interpolant(), source.tunnel_height())));
 }
 
+/// Isovalues that no line of the table has.
+void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Scale& scale) {
+    std::set<std::pair<std::int64_t, double>> told;
+    for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top, entry.best_tau);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        std::string others;
+        for (const RecommendedIsovalue& isovalue : isovalues_of(table, table.entries[i].branch_top)) {
+            if (!told.emplace(isovalue.branch_top, isovalue.tau).second) continue;
+            others += fmt::format("{} {} ({})", others.empty() ? "" : ",", scale.brief(isovalue.tau), name_of(isovalue.reason));
+        }
+        if (!others.empty()) terminal.say(fmt::format("{} also at{}", i + 1, others));
+    }
+}
+
 void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, const ObjectTable& table) {
     const Scale scale(source.info());
     const Sizes sizes(source.info(), largest_measure(table.entries));
     std::vector<Table::Column> columns{{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
     sizes.add_titles(columns);
-    columns.push_back({"note", true});
+    columns.insert(columns.end(), {{"why there", true}, {"note", true}});
     Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
         std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
                                      scale.brief(entry.merges), best_tau_text(entry, scale)};
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
-        row.push_back(entry.note);
+        const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
+        row.insert(row.end(), {best ? name_of(best->reason) : "", entry.note});
         text.add(row);
     }
     tell_table(terminal, source, table);
     text.print(terminal);
+    tell_other_isovalues(terminal, table, scale);
     if (table.entries.empty()) {
         terminal.say("nothing rises above the noise; --all lists everything");
         return;

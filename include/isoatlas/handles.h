@@ -1,9 +1,11 @@
 // Handles: from which isovalue to which does a tunnel live?
 //
 // Going down, an element that joins a contour with itself opens a tunnel, one that fills a hole closes one. Both are exact, and so is how
-// many tunnels each contour has at every isovalue. Which of the open tunnels is closed is not told by the trees: here the one that was
-// opened last, along the contour and all that it merges into. So the number of handles and the sum of their persistence are exact,
-// *individual pairs are approximate* (exact ones need the homology of the volume: essential.md section 4).
+// many tunnels each contour has at every isovalue. Which of the open tunnels is closed is not told by the trees:
+//   pair_handles           says the one that was opened last, along the contour and all that it merges into. So the number of handles and
+//                          the sum of their persistence are exact, *individual pairs are approximate*.
+//   pair_handles_exactly   asks the samples: the pairs are the persistence pairs of the first homology of the Highs (essential.md section
+//   4).
 #pragma once
 
 #include <array>
@@ -18,12 +20,33 @@ namespace isoatlas {
 struct Handle {
     double opens, closes;
     std::array<double, 3> opened_at, closed_at;
-    std::int64_t event;  ///< at which it opens, of the object whose tunnel it is then
+    std::int64_t event;    ///< at which it opens, of the object whose tunnel it is then
+    bool is_open = false;  ///< of one object alone: it is still open where the object merges, which is what `closes` says then
     [[nodiscard]] double persistence() const { return opens - closes; }
 };
 
 /// By descending persistence, then ascending element that opens it; those of at least that persistence, which is above 0. 2D: none, holes
 /// are contours there. Cost: O(elements log^2 elements).
 [[nodiscard]] std::vector<Handle> pair_handles(const Analysis& analysis, double least_persistence = 0);
+
+struct ExactHandles {
+    double least_persistence = 0;
+    /// Only the object of this event at the low end of its zone: all that happens in it down to there. -1: the whole volume.
+    std::int64_t event = -1;
+    /// Refuse more tunnels than that: their number is known from the trees at once, the time is not.
+    std::int64_t most = 1'000'000;
+};
+
+/// The same handles, each with the isovalue at which it truly closes. Persistence of H1 mod 2 over the critical elements that the join
+/// tree (objects that merge) and the split tree (cavities that part) have not paired. analysis: of this volume. Order: as pair_handles().
+/// Throws Error: usage (another volume, no such event, more than `most` tunnels), cancelled. Cost: a gradient disk traced for every tunnel
+/// that closes, then the reduction of a sparse matrix; no useful bound is known, docs/decisions/0018 has measured ones. The same for any
+/// number of threads.
+[[nodiscard]] std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& analysis, const ExactHandles& options = {},
+                                                       const Context& context = {});
+
+/// The largest object whose highest voxel is that one: the event just before it merges with a higher object, the root for the highest
+/// voxel of all; -1: the voxel is not the highest of any object. Cost: O(elements + events).
+[[nodiscard]] std::int64_t event_of_highest(const Analysis& analysis, std::int64_t voxel);
 
 }  // namespace isoatlas

@@ -32,10 +32,35 @@ struct ObjectEntry {
     std::string note;                ///< "largest", "outline", "inside 3", ...
 };
 
+/// Why an isovalue shows an object well (essential.md section 3). V(tau) is the object's volume.
+enum class IsovalueReason : std::uint8_t {
+    steady,   ///< -d ln V / d tau is locally least there: the boundary is steep, the body compact
+    outline,  ///< the same at the low end of its range, or the lowest of several that holds 15 % of the volume: all but background
+    outer,    ///< steady when its outer boundary is counted alone: skin without the air passages below it
+    inner,    ///< steady for one of its cavities: the wall of a dark object
+    merge,    ///< nothing stands out: just above the value at which it merges
+    middle,   ///< nothing stands out: the middle of the range of the object that is there at every isovalue
+};
+[[nodiscard]] const char* name_of(IsovalueReason reason);  ///< "steady", "outline", ...
+[[nodiscard]] const char* text_of(IsovalueReason reason);  ///< in plain words, for a reader who knows no topology
+
+/// One isovalue of one object, and why. The lines of the table are some of these.
+struct RecommendedIsovalue {
+    std::int64_t branch_top;  ///< of the object: ObjectEntry::branch_top
+    double tau;               ///< stored value
+    double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: nothing stands out
+    IsovalueReason reason;
+    std::int64_t cavity = -1;  ///< inner: the cavity (DarkEntry::id at tau, the id of the contour around it); else -1
+    friend bool operator==(const RecommendedIsovalue&, const RecommendedIsovalue&) = default;
+};
+
 struct ObjectTable {
     std::vector<ObjectEntry> entries;  ///< by rank
-    std::int64_t branches = 0;         ///< how many objects there are in all (maxima events)
-    double noise = 0;                  ///< estimated standard deviation of the noise, stored units
+    /// Of all objects of the table, by their rank; of each by descending prominence, outlines last, but those of lines first. Empty: a
+    /// store of an early version.
+    std::vector<RecommendedIsovalue> isovalues{};
+    std::int64_t branches = 0;  ///< how many objects there are in all (maxima events)
+    double noise = 0;           ///< estimated standard deviation of the noise, stored units
 };
 
 struct RankOptions {
@@ -47,6 +72,11 @@ struct RankOptions {
 /// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3).
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
+
+/// Those of one object, given by ObjectEntry::branch_top.
+[[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(const ObjectTable& table, std::int64_t branch_top);
+/// That of the line's own isovalue; nothing when it is not known.
+[[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.
 [[nodiscard]] ObjectTable first_entries(ObjectTable table, std::int64_t top);

@@ -29,6 +29,16 @@ void for_members(Visit&& visit) {
     visit("objects/trunk", "uint8", &ObjectEntry::trunk);
 }
 
+/// The same for RecommendedIsovalue.
+template <class Visit>
+void for_isovalue_members(Visit&& visit) {
+    visit("isovalues/branch_top", "int64", &RecommendedIsovalue::branch_top);
+    visit("isovalues/tau", "float64", &RecommendedIsovalue::tau);
+    visit("isovalues/prominence", "float64", &RecommendedIsovalue::prominence);
+    visit("isovalues/reason", "uint8", &RecommendedIsovalue::reason);
+    visit("isovalues/cavity", "int64", &RecommendedIsovalue::cavity);
+}
+
 template <class T>
 store::PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
     const auto held = std::make_shared<std::vector<T>>(std::move(numbers));
@@ -44,7 +54,17 @@ bool has_array(const store::Container& store, const std::string& name) {
 
 /// How a member lies in the file.
 template <class Member>
-using Stored = std::conditional_t<std::is_same_v<Member, bool>, std::uint8_t, Member>;
+using Stored = std::conditional_t<std::is_same_v<Member, bool> || std::is_enum_v<Member>, std::uint8_t, Member>;
+
+/// for_each: for_members or for_isovalue_members.
+template <class Line>
+void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vector<store::PackedArray>& arrays) {
+    for_each([&]<class Member>(const char* name, const char* type, Member Line::* member) {
+        std::vector<Stored<Member>> numbers;
+        for (const Line& line : lines) numbers.push_back(static_cast<Stored<Member>>(line.*member));
+        arrays.push_back(owned(name, type, std::move(numbers)));
+    });
+}
 
 [[noreturn]] void contradiction(const store::Container& store) {
     throw Error(ErrorKind::input, {.file = store.path(),
@@ -53,8 +73,25 @@ using Stored = std::conditional_t<std::is_same_v<Member, bool>, std::uint8_t, Me
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
+/// Not in the first stores of version 1.
+std::vector<RecommendedIsovalue> isovalues_of(const store::Container& store) {
+    if (!has_array(store, "isovalues/tau")) return {};
+    std::vector<RecommendedIsovalue> isovalues(static_cast<std::size_t>(store.contents().array("isovalues/tau", "float64").count()));
+    for_isovalue_members([&]<class Member>(const char* name, const char* type, Member RecommendedIsovalue::* member) {
+        const auto numbers = store.all<Stored<Member>>(name, type);
+        if (numbers.size() != isovalues.size()) contradiction(store);
+        for (std::size_t i = 0; i < numbers.size(); ++i) isovalues[i].*member = static_cast<Member>(numbers[i]);
+    });
+    return isovalues;
+}
+
 void check(const ObjectTable& table, const store::Container& store) {
     const std::int64_t voxels = store.contents().volume.extent.voxels();
+    for (const RecommendedIsovalue& isovalue : table.isovalues) {
+        const bool is_cavity = isovalue.reason == IsovalueReason::inner;
+        if (isovalue.reason > IsovalueReason::middle || is_cavity != (isovalue.cavity >= 0) || isovalue.cavity >= voxels)
+            contradiction(store);
+    }
     for (const ObjectEntry& entry : table.entries) {
         if (entry.id < 0 || entry.id >= voxels || entry.inside < -1) contradiction(store);
         // What contains an entry has a lower isovalue: the way from one to the next ends.
@@ -68,11 +105,8 @@ void check(const ObjectTable& table, const store::Container& store) {
 
 std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
     std::vector<store::PackedArray> arrays;
-    for_members([&]<class Member>(const char* name, const char* type, Member ObjectEntry::* member) {
-        std::vector<Stored<Member>> numbers;
-        for (const ObjectEntry& entry : table.entries) numbers.push_back(static_cast<Stored<Member>>(entry.*member));
-        arrays.push_back(owned(name, type, std::move(numbers)));
-    });
+    add_arrays([](const auto& visit) { for_members(visit); }, table.entries, arrays);
+    add_arrays([](const auto& visit) { for_isovalue_members(visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("objects/branches", "int64", {table.branches}));
     arrays.push_back(owned<double>("objects/noise", "float64", {table.noise}));
     return arrays;
@@ -96,6 +130,7 @@ ObjectTable objects_of(const store::Container& store) {
     const auto noise = store.all<double>("objects/noise", "float64");
     if (branches.size() != 1 || noise.size() != 1) contradiction(store);
     table.branches = branches[0], table.noise = noise[0];
+    table.isovalues = isovalues_of(store);
     check(table, store);
     const Extent& extent = store.contents().volume.extent;
     for (ObjectEntry& entry : table.entries) {

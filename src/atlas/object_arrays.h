@@ -5,6 +5,7 @@
 //   objects/appears, merges, best_tau, measure, hypervolume, tau_low, tau_high     float64
 //   objects/outline, trunk                                     uint8
 //   objects/branches, noise                                    one number each
+//   isovalues/branch_top, cavity, tau, prominence, reason      int64, int64, float64, float64, uint8, per recommended isovalue
 #pragma once
 
 #include <functional>

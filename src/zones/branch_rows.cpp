@@ -13,7 +13,10 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kBins = 256;
+constexpr double kLargePart = 0.15;    // of the volume: what ends so large is what is not background
 constexpr std::size_t kTrunkRows = 5;  // nested zones of the trunk: skin, skull, enamel, ...
+
+constexpr IsovalueReason kOutline = IsovalueReason::outline;
 
 /// Counts of voxels by height along one branch. Integer samples with a small range get one bin a value, cut half way between values.
 struct BranchHistogram {
@@ -38,11 +41,14 @@ public:
     Rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches)
         : volume_(volume), tree_(tree), branches_(branches) {}
 
-    [[nodiscard]] std::vector<BranchRow> choose(const NoiseModel& noise, const RankOptions& options) const {
-        std::vector<BranchRow> rows = choose_isovalues(chosen(noise, options));
+    [[nodiscard]] BranchRows choose(const NoiseModel& noise, const RankOptions& options) const {
+        BranchRows result = choose_isovalues(chosen(noise, options));
+        std::vector<BranchRow>& rows = result.rows;
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
+        const std::int64_t last = rows.empty() ? -1 : rows.back().branch;
+        std::erase_if(result.isovalues, [last](const BranchIsovalue& isovalue) { return isovalue.branch > last; });
         measure(rows);
-        return rows;
+        return result;
     }
 
 private:
@@ -89,19 +95,50 @@ private:
         return result;
     }
 
-    [[nodiscard]] std::vector<BranchRow> choose_isovalues(const std::vector<std::int64_t>& kept) const {
+    [[nodiscard]] BranchRows choose_isovalues(const std::vector<std::int64_t>& kept) const {
         const std::vector<BranchHistogram> histogram = histograms(kept);
-        std::vector<BranchRow> rows;
+        BranchRows result;
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
-            std::vector<StableIsovalue> peaks = stable_isovalues(histogram[k].added, histogram[k].low, histogram[k].high);
-            std::stable_partition(peaks.begin(), peaks.end(), [](const StableIsovalue& peak) { return !peak.outline; });
-            if (peaks.empty()) peaks.push_back({just_above(b, histogram[k]), 0, false});
-            peaks.resize(std::min<std::size_t>(peaks.size(), k == 0 ? kTrunkRows : 1));
-            for (const StableIsovalue& peak : peaks)
-                rows.push_back({kept[k], b.appears, b.merges, alive(peak.tau, b), b.hypervolume, peak.outline});
+            std::vector<BranchIsovalue> own = isovalues(kept[k], histogram[k]);
+            const std::size_t rows = rows_of(kept[k], own);
+            for (std::size_t i = 0; i < rows; ++i)
+                result.rows.push_back({kept[k], b.appears, b.merges, own[i].tau, b.hypervolume, own[i].reason == kOutline});
+            result.isovalues.insert(result.isovalues.end(), own.begin(), own.end());
         }
-        return rows;
+        return result;
+    }
+
+    /// Essential.md section 3: at the low end of the range, or the lowest one when it is most of what there is; unless there is nothing
+    /// else.
+    [[nodiscard]] bool is_outline(const StableIsovalue& peak, const std::vector<StableIsovalue>& peaks) const {
+        const bool is_large = peak.volume > kLargePart * static_cast<double>(volume_.info->extent.voxels());
+        if (peaks.size() == 1) return peak.at_low_end && is_large;
+        return peak.at_low_end || (is_large && peak.tau == std::ranges::min(peaks, {}, &StableIsovalue::tau).tau);
+    }
+
+    /// How many of its isovalues get a row, the outline among them.
+    static std::size_t rows_of(std::int64_t branch, std::vector<BranchIsovalue>& own) {
+        if (branch > 0) return 1;
+        if (own.size() > kTrunkRows && own.back().reason == kOutline) std::rotate(own.begin() + kTrunkRows - 1, own.end() - 1, own.end());
+        return std::min(own.size(), kTrunkRows);
+    }
+
+    /// At least one.
+    [[nodiscard]] std::vector<BranchIsovalue> isovalues(std::int64_t branch, const BranchHistogram& histogram) const {
+        const Branch& b = branches_.branch[branch];
+        std::vector<StableIsovalue> peaks = stable_isovalues(histogram.added, histogram.low, histogram.high);
+        const std::int64_t least = least_voxels(volume_.info->extent.voxels());  // of a few voxels the gaps between their values are seen
+        std::erase_if(peaks, [least](const StableIsovalue& peak) { return peak.volume < static_cast<double>(least); });
+        std::vector<BranchIsovalue> own;
+        for (const StableIsovalue& peak : peaks)
+            own.push_back({branch, alive(peak.tau, b), peak.prominence, is_outline(peak, peaks) ? kOutline : IsovalueReason::steady});
+        std::ranges::stable_partition(own, [](const BranchIsovalue& isovalue) { return isovalue.reason != kOutline; });
+        if (own.empty()) {
+            const bool is_trunk = b.merges < lowest();
+            own.push_back({branch, alive(just_above(b, histogram), b), 0, is_trunk ? IsovalueReason::middle : IsovalueReason::merge});
+        }
+        return own;
     }
 
     /// The closest isovalue at which the branch is there. A sample is High when its value is at least tau, Low when it is below: a bright
@@ -175,8 +212,8 @@ bool contains(const SideTree<Id>& tree, std::int64_t outer, std::int64_t inner) 
 }  // namespace
 
 template <class Id>
-std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, const NoiseModel& noise,
-                                   const RankOptions& options) {
+BranchRows branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, const NoiseModel& noise,
+                       const RankOptions& options) {
     return Rows<Id>(volume, tree, branches).choose(noise, options);
 }
 
@@ -193,9 +230,8 @@ std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::ve
     return around;
 }
 
-#define ISOATLAS_BRANCH_ROWS(Id)                                                                                            \
-    template std::vector<BranchRow> branch_rows(const VolumeView&, const SideTree<Id>&, const Branches&, const NoiseModel&, \
-                                                const RankOptions&);                                                        \
+#define ISOATLAS_BRANCH_ROWS(Id)                                                                                                     \
+    template BranchRows branch_rows(const VolumeView&, const SideTree<Id>&, const Branches&, const NoiseModel&, const RankOptions&); \
     template std::vector<std::int64_t> closest_around(const SideTree<Id>&, const std::vector<BranchRow>&);
 ISOATLAS_BRANCH_ROWS(std::uint32_t)
 ISOATLAS_BRANCH_ROWS(std::uint64_t)

@@ -19,10 +19,23 @@ struct BranchRow {
     double measure = 0;
 };
 
-/// By rank; the trunk, which has several rows, first. Cost: three passes over the samples.
+/// An isovalue of a branch that has a row. tau: a height.
+struct BranchIsovalue {
+    std::int64_t branch;
+    double tau, prominence;
+    IsovalueReason reason;
+};
+
+struct BranchRows {
+    std::vector<BranchRow> rows;  ///< by rank; the trunk, which has several rows, first
+    /// Of the branches that have rows, by rank; of each by descending prominence, outlines last; first those that have rows.
+    std::vector<BranchIsovalue> isovalues;
+};
+
+/// Cost: three passes over the samples.
 template <class Id>
-[[nodiscard]] std::vector<BranchRow> branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches,
-                                                 const NoiseModel& noise, const RankOptions& options);
+[[nodiscard]] BranchRows branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches, const NoiseModel& noise,
+                                     const RankOptions& options);
 
 /// Per row: position of the closest other row that contains it, -1: none. That is on the way down from its event the first of a lower tau.
 template <class Id>

@@ -1,7 +1,48 @@
-// The head of a table of objects, and the notes that its entries have there.
+// The head of a table of objects, the notes that its entries have there, and why their isovalues were chosen.
+#include <algorithm>
+#include <set>
+
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
+
+const char* name_of(IsovalueReason reason) {
+    switch (reason) {
+        case IsovalueReason::steady: return "steady";
+        case IsovalueReason::outline: return "outline";
+        case IsovalueReason::outer: return "outer";
+        case IsovalueReason::inner: return "inner";
+        case IsovalueReason::merge: return "merge";
+        case IsovalueReason::middle: return "middle";
+    }
+    return "";
+}
+
+const char* text_of(IsovalueReason reason) {
+    switch (reason) {
+        case IsovalueReason::steady: return "its size hardly depends on the isovalue here: its boundary is sharp";
+        case IsovalueReason::outline: return "everything that is not background";
+        case IsovalueReason::outer: return "its outer boundary alone is sharpest here";
+        case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
+        case IsovalueReason::merge: return "as large as it gets before it merges; no isovalue stands out";
+        case IsovalueReason::middle: return "the middle of its range; no isovalue stands out";
+    }
+    return "";
+}
+
+std::vector<RecommendedIsovalue> isovalues_of(const ObjectTable& table, std::int64_t branch_top) {
+    std::vector<RecommendedIsovalue> own;
+    std::ranges::copy_if(table.isovalues, std::back_inserter(own),
+                         [&](const RecommendedIsovalue& isovalue) { return isovalue.branch_top == branch_top; });
+    return own;
+}
+
+std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry) {
+    const auto own = std::ranges::find_if(table.isovalues, [&](const RecommendedIsovalue& isovalue) {
+        return isovalue.branch_top == entry.branch_top && isovalue.tau == entry.best_tau;
+    });
+    return own == table.isovalues.end() ? std::nullopt : std::optional(*own);
+}
 
 // What contains an entry lies in each other: when the closest one is gone, the one around it is the closest.
 ObjectTable first_entries(ObjectTable table, std::int64_t top) {
@@ -16,6 +57,9 @@ ObjectTable first_entries(ObjectTable table, std::int64_t top) {
                                          : "";
     }
     entries.resize(static_cast<std::size_t>(count));
+    std::set<std::int64_t> tops;
+    for (const ObjectEntry& entry : entries) tops.insert(entry.branch_top);
+    std::erase_if(table.isovalues, [&](const RecommendedIsovalue& isovalue) { return !tops.contains(isovalue.branch_top); });
     return table;
 }
 

@@ -2,17 +2,11 @@
 #include <queue>
 
 #include "base/check.h"
-#include "field/order.h"
 #include "isoatlas/handles.h"
-#include "zones/analysis_data.h"
+#include "zones/handle_pairs.h"
 
 namespace isoatlas {
 namespace {
-
-template <class Id>
-struct Pair {
-    Id opens, closes;  ///< elements
-};
 
 /// Walks down the contour tree with the open tunnels of every contour. Elements descend: the largest number was opened last.
 template <class Id>
@@ -26,7 +20,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<Pair<Id>> pairs() && {
+    [[nodiscard]] std::vector<HandlePair> pairs() && {
         open_.resize(tree_.nodes());
         for (std::size_t element = 0; element + 1 < tree_.nodes(); ++element) pass(element);
         return std::move(pairs_);
@@ -51,7 +45,7 @@ private:
         for (; change > 0; --change) open.push(static_cast<Id>(element));
         for (; change < 0; ++change) {
             ISOATLAS_CHECK(!open.empty());
-            pairs_.push_back({open.top(), static_cast<Id>(element)});
+            pairs_.push_back({static_cast<std::int64_t>(open.top()), static_cast<std::int64_t>(element)});
             open.pop();
         }
         leave(element, open);
@@ -73,32 +67,16 @@ private:
     const ContourTree<Id>& tree_;
     std::vector<std::vector<Id>> in_, out_;  // per node: arcs that end, begin there
     std::vector<Open> open_;                 // per arc
-    std::vector<Pair<Id>> pairs_;
+    std::vector<HandlePair> pairs_;
 };
-
-template <class Id>
-std::vector<Handle> handles_of(const AnalysisArrays<Id>& arrays, const Extent& extent, double least) {
-    std::vector<Pair<Id>> pairs = HandlePairs<Id>(arrays.contours).pairs();
-    const auto persistence = [&](const Pair<Id>& pair) { return arrays.value[pair.opens] - arrays.value[pair.closes]; };
-    std::erase_if(pairs, [&](const Pair<Id>& pair) { return !(persistence(pair) > 0 && persistence(pair) >= least); });
-    std::ranges::sort(pairs, [&](const Pair<Id>& p, const Pair<Id>& q) {
-        return persistence(p) != persistence(q) ? persistence(p) > persistence(q) : p.opens < q.opens;
-    });
-    std::vector<Handle> handles;
-    for (const Pair<Id>& pair : pairs) {
-        handles.push_back({arrays.value[pair.opens], arrays.value[pair.closes],
-                           element_position(ElementCode{arrays.code[pair.opens]}, extent),
-                           element_position(ElementCode{arrays.code[pair.closes]}, extent),
-                           static_cast<std::int64_t>(arrays.tree.event_of_element[pair.opens])});
-    }
-    return handles;
-}
 
 }  // namespace
 
 std::vector<Handle> pair_handles(const Analysis& analysis, double least_persistence) {
     if (analysis.extent().rank == 2) return {};
-    return analysis.data().visit([&](const auto& held) { return handles_of(held.arrays, analysis.extent(), least_persistence); });
+    return analysis.data().visit([&](const auto& held) {
+        return handles_of(held.arrays, analysis.extent(), HandlePairs(held.arrays.contours).pairs(), least_persistence);
+    });
 }
 
 }  // namespace isoatlas

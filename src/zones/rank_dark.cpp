@@ -52,7 +52,7 @@ public:
         RankOptions with_outside = options;
         with_outside.top = 0;
         if (with_outside.selection && with_outside.selection->keep) ++*with_outside.selection->keep;
-        std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, noise, with_outside);
+        std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, noise, with_outside).rows;
         std::erase_if(rows, [](const BranchRow& row) { return row.branch == 0; });
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         const std::vector<std::int64_t> around = closest_around(tree_, rows);

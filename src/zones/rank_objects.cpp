@@ -28,8 +28,10 @@ public:
         const NoiseModel noise = fit_noise(volume_);
         table.noise = noise.sigma;
         for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges;
-        const std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, noise, options);
+        const auto [rows, isovalues] = branch_rows(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, rows);
+        for (const BranchIsovalue& own : isovalues)
+            table.isovalues.push_back({branches_.branch[own.branch].top, own.tau, own.prominence, own.reason});
         for (std::size_t i = 0; i < rows.size(); ++i) table.entries.push_back(entry(rows[i], around[i]));
         return first_entries(std::move(table), 0);
     }

@@ -17,6 +17,9 @@ template <class Id>
 [[nodiscard]] std::vector<std::int64_t> select_branches(const Branches& branches, std::span<const double> measure,
                                                         const Selection& selection);
 
+/// How many voxels say something of a shape, in a volume of so many.
+[[nodiscard]] std::int64_t least_voxels(std::int64_t voxels);
+
 /// Branches that noise does not explain and that are not tiny beside the largest; the trunk first. The noise is that around the value where
 /// they merge. voxels: of the volume; sign: of SideTree. Cost: O(branches that are large enough).
 [[nodiscard]] std::vector<std::int64_t> essential_branches(const Branches& branches, std::int64_t voxels, const NoiseModel& noise,

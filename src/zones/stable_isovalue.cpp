@@ -37,15 +37,23 @@ double prominence(const std::vector<double>& s, std::size_t i) {
     return s[i] - std::max(valley(-1), valley(1));
 }
 
+/// Do the voxels that join around a peak, less than after its valley, tell the two apart? Counts vary as their square roots.
+bool is_significant(double stability, double prominence, double volume) {
+    if (!std::isfinite(prominence)) return true;
+    constexpr double kWindow = 7.1;  // bins that the smoothing takes together
+    const double peak = std::exp(-stability) * volume * kWindow, valley = peak * std::exp(prominence);
+    return valley - peak >= 3 * std::sqrt(valley + peak);
+}
+
 }  // namespace
 
 std::vector<StableIsovalue> stable_isovalues(std::span<const double> added, double low, double high) {
     const std::size_t bins = added.size();
     std::vector<double> log_volume(bins);
-    double volume = 0;
+    std::vector<double> volume(added.begin(), added.end());
     for (std::size_t i = bins; i-- > 0;) {
-        volume += added[i];
-        log_volume[i] = std::log(std::max(volume, 0.5));
+        if (i + 1 < bins) volume[i] += volume[i + 1];
+        log_volume[i] = std::log(std::max(volume[i], 0.5));
     }
     log_volume = smooth(log_volume);
     std::vector<double> stability;  // -ln q between neighbouring bins
@@ -59,7 +67,8 @@ std::vector<StableIsovalue> stable_isovalues(std::span<const double> added, doub
         const double height = prominence(stability, i);
         if (height < std::log(1.5)) continue;
         const double edge = static_cast<double>(i + last) / 2 + 1;
-        peaks.push_back({low + edge * width, height, edge <= 3});
+        const double there = volume[static_cast<std::size_t>(edge)];
+        if (is_significant(stability[i], height, there)) peaks.push_back({low + edge * width, height, there, edge <= 3});
     }
     std::stable_sort(peaks.begin(), peaks.end(), [](const auto& p, const auto& q) { return p.prominence > q.prominence; });
     return peaks;

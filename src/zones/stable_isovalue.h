@@ -1,7 +1,8 @@
 // At which isovalues does an object look like itself? Where its volume changes least (essential.md section 3).
 //
 // q(tau) = -d ln V / d tau for the volume V(tau) of the object. A minimum of q is a steep boundary of a compact body (by the coarea formula
-// q is area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5.
+// q is area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5 and the
+// voxels that join there are fewer by more than chance.
 #pragma once
 
 #include <span>
@@ -12,7 +13,8 @@ namespace isoatlas {
 struct StableIsovalue {
     double tau;
     double prominence;  ///< of -ln q; infinity for the highest peak
-    bool outline;       ///< within two bins of the low end of the range: "everything that is not background"
+    double volume;      ///< V there
+    bool at_low_end;    ///< within two bins of the low end of the range
 };
 
 /// added[i]: voxels that join the object in bin i of (low, high], bins of equal width from low to high; V(tau at the low edge of bin i) =

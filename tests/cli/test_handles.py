@@ -25,6 +25,29 @@ class Handles(harness.CliTest):
         self.run_error(2, "handles", "noise.nrrd", "--persistence", "x", says="--persistence")
         self.run_error(2, "handles", "noise.nrrd", "--top", "5%", says="--top")
 
+    def test_exact_pairs(self):
+        document = self.run_json("handles", "figure.nrrd", "--exact")
+        self.assert_schema(document, "handles")
+        self.assertEqual(document["pairs"], "exact")
+        self.assertEqual([(h["opens"], h["closes"]) for h in document["handles"]], [(38, 30), (58, 56), (48, 46)])
+        self.assertIn("exact", self.run_ok("handles", "figure.nrrd", "--exact").stderr)
+        quick, exact = (self.run_json("handles", "noise.nrrd", "--top", "100000", *more)["handles"] for more in ([], ["--exact"]))
+        self.assertNotEqual(quick, exact)
+        total = [sum(h["opens"] - h["closes"] for h in handles) for handles in (quick, exact)]
+        self.assertAlmostEqual(total[0], total[1])
+        self.run_ok("build", "noise.nrrd", "-o", "exact.atlas")
+        self.assertEqual(self.run_json("handles", "exact.atlas", "--exact", "--top", "100000")["handles"], exact)
+        self.assertEqual(self.run_json("handles", "flat.npy", "--exact")["handles"], [])
+
+    def test_exact_pairs_of_one_object(self):
+        ids = {o["appears"]: o["id"] for o in self.run_json("objects", "figure.nrrd", "--all")["objects"]}
+        document = self.run_json("handles", "figure.nrrd", "--exact", "--object", ids[80])
+        self.assert_schema(document, "handles")
+        self.assertEqual([(h["opens"], h["closes"]) for h in document["handles"]], [(48, 46)])
+        self.run_error(6, "handles", "figure.nrrd", "--exact", "--object", "0", says="isoatlas objects")
+        self.run_error(2, "handles", "figure.nrrd", "--object", "0", says="--exact")
+        self.run_error(2, "handles", "figure.nrrd", "--exact", "--object", "0", "--object", "1", says="once")
+
 
 if __name__ == "__main__":
     harness.main()

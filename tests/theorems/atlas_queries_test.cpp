@@ -113,7 +113,10 @@ std::string text(const isoatlas::ObjectTable& table) {
         out << o.id << ' ' << o.event << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure
             << ' ' << o.tunnels << ' ' << o.cavities << ' ' << o.hypervolume << ' ' << join(o.position) << o.tau_low << ' ' << o.tau_high
             << ' ' << o.inside << ' ' << o.branch_top << ' ' << o.note << '\n';
+        RC_ASSERT(isoatlas::isovalue_of(table, o).has_value());
     }
+    for (const auto& i : table.isovalues)
+        out << i.branch_top << ' ' << i.tau << ' ' << i.prominence << ' ' << name_of(i.reason) << ' ' << i.cavity << '\n';
     return out.str();
 }
 

@@ -259,5 +259,23 @@ TEST(Tunnels, SixShapesUpToSymmetry) {
     EXPECT_EQ(shapes.size(), 6U);
 }
 
+// A face that joined its Highs in the ring around an open tunnel of Lows could do so on two sides of the tunnel (descending_disk.cpp).
+TEST_F(Cells, NoFaceJoinsHighsWhileATunnelOfLowsIsOpen) {
+    int tunnels = 0;
+    for (int i = 0; i < 300000; ++i) {
+        const CellElements cell = cell_of(i % 2 == 0 ? uniform() : small_integers(3 + i % 5));
+        const unsigned types = default_face_types(cell);
+        const CellBodies bodies = bodies_of_cell(cell, types);
+        if (!bodies.closing) continue;
+        ++tunnels;
+        for (int f = 0; f < 6; ++f) {
+            const bool joins = (cell.ambiguous >> f & 1) != 0 && ((types ^ bodies.exceptional) >> f & 1) != 0;
+            if (!joins || !element_below(cell, 8 + f, 8 + bodies.closing->face)) continue;
+            ASSERT_LE(cell.face_value[f], bodies.closing->value);
+        }
+    }
+    EXPECT_GT(tunnels, 5000);
+}
+
 }  // namespace
 }  // namespace isoatlas
