@@ -34,5 +34,6 @@ export function volume(measure: number, unit: string | null): string {
     size /= factor ** 3;
     name = larger;
   }
-  return `${value(Number(size.toPrecision(3)))} ${name}³`;
+  const digits = Number(size.toPrecision(3));
+  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}³`;
 }
