@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "page/thin_curve.h"
@@ -79,16 +80,22 @@ private:
                                           .measure = b.measure,
                                           .joined = joined[i],
                                           .stands_out = is_essential[i],
-                                          .shape = is_shown[i] ? shape_of(b.top, b.merges) : std::vector<CountColumn>{}});
+                                          .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{}});
+            if (is_shown[i]) mark_events(b, place[i]);
         }
         for (PageBranch& b : contents_.branches) {
             while (b.parent >= 0 && place[b.parent] < 0) b.parent = all[b.parent].parent;
             if (b.parent >= 0) b.parent = place[b.parent];
         }
     }
-    std::vector<CountColumn> shape_of(std::int64_t top, double merges) const {
-        const std::vector<SpectrumInterval> intervals = branch_intervals(analysis_, top, merges);
-        return count_columns(intervals, std::max(atlas_.range()[0], merges), contents_.scale, kShapeColumns);
+    std::vector<CountColumn> shape_of(const BranchInfo& b) const {
+        const std::vector<SpectrumInterval> intervals = branch_intervals(analysis_, b.top, b.merges);
+        return count_columns(intervals, std::max(atlas_.range()[0], b.merges), contents_.scale, kShapeColumns);
+    }
+    void mark_events(const BranchInfo& b, std::int64_t place) {
+        branch_of_event_.resize(static_cast<std::size_t>(analysis_.event_count()), -1);
+        for (std::int64_t event = b.top; event >= 0 && analysis_.event(event).value > b.merges; event = analysis_.event(event).parent)
+            branch_of_event_[event] = place;
     }
 
     void add_bright_entries(const ObjectTable& table) {
@@ -103,10 +110,19 @@ private:
                                          .tunnels = entry.tunnels,
                                          .cavities = entry.cavities,
                                          .inside = entry.inside,
-                                         .why = why(entry)});
+                                         .why = why(table, entry)});
+        }
+        for (const RecommendedIsovalue& isovalue : table.isovalues) {
+            const std::int64_t branch = place_of_top_.at(isovalue.branch_top);
+            const bool is_shown = std::ranges::any_of(
+                contents_.entries, [&](const PageEntry& entry) { return entry.branch == branch && entry.tau == isovalue.tau; });
+            if (!is_shown) contents_.branches[branch].isovalues.push_back(isovalue);
         }
     }
-    static std::string why(const ObjectEntry& entry) { return entry.outline ? "everything that is not background" : ""; }
+    static std::string why(const ObjectTable& table, const ObjectEntry& entry) {
+        const std::optional<RecommendedIsovalue> isovalue = isovalue_of(table, entry);
+        return isovalue ? text_of(isovalue->reason) : "";
+    }
 
     /// A dark object merges into the one around it, or into the outside.
     void add_dark(const DarkTable& dark) {
@@ -135,17 +151,22 @@ private:
                                          .tunnels = entry.tunnels,
                                          .cavities = entry.islands,
                                          .inside = inside < 0 ? -1 : first_entry + inside,
-                                         .around = entry_around(entry, first_entry)});
+                                         .around = entry_around(entry)});
         }
     }
-    /// The bright entry of the same object whose isovalue is closest.
-    std::int64_t entry_around(const DarkEntry& dark, std::int64_t bright) const {
+    /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.
+    std::int64_t entry_around(const DarkEntry& dark) const {
+        std::int64_t event = analysis_.zone(dark.object);
+        for (std::int64_t next = event; next >= 0 && analysis_.event(next).value >= dark.best_tau; next = analysis_.event(next).parent)
+            event = next;
+        const std::int64_t branch = branch_of_event_[event];
         std::int64_t closest = -1;
-        for (std::int64_t i = 0; i < bright; ++i) {
-            const PageEntry& entry = contents_.entries[static_cast<std::size_t>(i)];
-            if (entry.id != dark.object) continue;
-            const auto distance = [&](const PageEntry& e) { return std::abs(e.tau - dark.best_tau); };
-            if (closest < 0 || distance(entry) < distance(contents_.entries[static_cast<std::size_t>(closest)])) closest = i;
+        double distance = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < contents_.entries.size(); ++i) {
+            const PageEntry& entry = contents_.entries[i];
+            if (entry.branch != branch || std::abs(entry.tau - dark.best_tau) >= distance) continue;
+            closest = static_cast<std::int64_t>(i);
+            distance = std::abs(entry.tau - dark.best_tau);
         }
         return closest;
     }
@@ -156,8 +177,11 @@ private:
         for (std::size_t i = 0; i < entries.size(); ++i) {
             PageEntry& entry = entries[i];
             entry.colour = palette(static_cast<std::int64_t>(i));
-            if (atlas_.info().extent.rank != 3) continue;
             context_.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
+            if (atlas_.info().extent.rank == 2) {
+                entry.picture = draw_still(volume_, entry.tau, entry.colour, options_, silent);
+                continue;
+            }
             ExtractOptions options;
             (contents_.branches[entry.branch].dark ? options.contours : options.objects) = {entry.id};
             entry.picture = draw_turntable(atlas_.extract(entry.tau, options, silent), entry.colour, options_, silent);
@@ -171,6 +195,7 @@ private:
     BranchHierarchy hierarchy_;
     const Context& context_;
     std::unordered_map<std::int64_t, std::int64_t> place_of_top_;
+    std::vector<std::int64_t> branch_of_event_;  ///< -1: of no branch that has an entry
     PageContents contents_;
 };
 

@@ -27,6 +27,7 @@ struct PageBranch {
     std::int64_t joined = 0;         ///< objects that merge into it, those that are not on the page included
     bool stands_out = false;         ///< noise does not explain it, and it is not tiny beside the largest
     std::vector<CountColumn> shape{};  ///< what it is like over its isovalues; empty: not on the page
+    std::vector<RecommendedIsovalue> isovalues{};  ///< others that show it well, without an entry
 };
 
 /// A branch at an isovalue that shows it.

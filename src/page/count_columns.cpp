@@ -43,9 +43,10 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
     }
     const double begin = scale.position(inside.front().low), end = scale.position(inside.back().high);
     std::size_t first = 0;
-    for (std::int64_t k = 0; k < columns; ++k) {
-        const auto edge = [&](std::int64_t i) { return scale.tau(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(columns)); };
-        const double left = edge(k), right = k + 1 == columns ? inside.back().high : edge(k + 1);
+    double left = inside.front().low;
+    for (std::int64_t k = 1; k <= columns; ++k) {
+        const double part = static_cast<double>(k) / static_cast<double>(columns);
+        const double right = k == columns ? inside.back().high : scale.tau(begin + (end - begin) * part);
         while (first + 1 < inside.size() && inside[first].high <= left) ++first;
         CountColumn column = column_of(inside[first], left, right);
         for (std::size_t i = first; i < inside.size() && inside[i].low < right; ++i) {
@@ -53,6 +54,7 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
             widen(column.essential_least, column.essential_most, inside[i].essential);
         }
         result.push_back(column);
+        left = right;
     }
     return result;
 }

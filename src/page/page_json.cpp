@@ -165,8 +165,19 @@ private:
         json_.key("parent").value(branch.parent).key("hypervolume").value(scale_.reported_difference(branch.hypervolume));
         json_.key("voxels").value(branch.voxels).key("measure").value(branch.measure).key("joined").value(branch.joined);
         json_.key("standsOut").value(branch.stands_out);
-        if (!branch.shape.empty()) put_columns((json_.key("shape"), branch.shape), false);
+        if (!branch.shape.empty()) {
+            json_.key("shape");
+            put_columns(branch.shape, false);
+        }
+        if (!branch.isovalues.empty()) write_isovalues(branch.isovalues);
         json_.end_object();
+    }
+
+    void write_isovalues(const std::vector<RecommendedIsovalue>& isovalues) {
+        json_.key("isovalues").begin_array();
+        for (const RecommendedIsovalue& isovalue : isovalues)
+            json_.begin_object().key("tau").value(scale_.reported(isovalue.tau)).key("why").value(text_of(isovalue.reason)).end_object();
+        json_.end_array();
     }
 
     void write_entry(std::size_t i) {

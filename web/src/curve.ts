@@ -35,13 +35,13 @@ export function curve(page: Page): CurvePanel | null {
   const x = (t: number): number => left + ((Math.max(Math.log10(Math.max(t, 1e-300)), least) - least) / (most - least || 1)) * (width - left - right);
   const tallest = Math.log10(Math.max(10, data.kept.at(-1) ?? 1));
   const y = (n: number): number => bottom - (Math.log10(Math.max(1, n)) / tallest) * (bottom - top);
-  const label = `${count(data.kept.at(-1) ?? 0)} objects without a threshold, ${count(data.automaticKept)} at the automatic one of ${value(data.automaticThreshold)}`;
+  const label = `${count(data.kept.at(-1) ?? 0)} objects without a threshold, ${count(data.automaticKept)} chosen automatically, the least of them ${value(data.automaticThreshold)}`;
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "curve", role: "img", "aria-label": label });
   for (let ten = 1; Math.log10(ten) <= tallest; ten *= 10)
     drawing.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: y(ten), y2: y(ten) }), svg("text", { x: left - 6, y: y(ten) + 4, "text-anchor": "end" }, count(ten)));
   const step = Math.max(1, Math.ceil((most - least) / 9));
   for (let power = Math.ceil(least); power <= most; power += step)
-    drawing.append(svg("text", { x: x(10 ** power), y: bottom + 16, "text-anchor": "middle" }, value(10 ** power)));
+    drawing.append(svg("text", { x: x(10 ** power), y: bottom + 16, "text-anchor": x(10 ** power) > width - 40 ? "end" : "middle" }, value(10 ** power)));
   const path = data.kept.map((n, i) => `${i === 0 ? `M${x(data.threshold[0] ?? 1)} ${bottom}` : ""}H${x(data.threshold[i] ?? 1).toFixed(1)}V${y(n).toFixed(1)}`);
   drawing.append(svg("path", { class: "count objects", d: path.join("") }));
   const at = x(data.automaticThreshold);
@@ -60,5 +60,5 @@ export function curve(page: Page): CurvePanel | null {
     current.replaceChildren(svg("circle", { cx: there, cy: y(kept), r: 5 }), svg("title", {}, `${kept} kept`));
   };
   mark(pictured(page));
-  return { mark, panel: html("section", { class: "panel" }, html("h2", {}, "How many objects for which threshold"), html("p", { class: "note" }, `${label}. The ring is what is kept here.`), drawing) };
+  return { mark, panel: html("section", { class: "panel" }, html("h2", {}, "How many objects for which threshold"), html("p", { class: "note" }, `${label}. The automatic choice also leaves out what noise alone explains. The ring is what is kept here.`), drawing) };
 }

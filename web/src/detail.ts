@@ -112,6 +112,8 @@ export class Detail {
     const siblings = page.branches.flatMap((other, b) => (branch.parent >= 0 && other.parent === branch.parent && b !== entry.branch ? entriesOf(page, b).slice(0, 1) : []));
     const facts: [string, (Node | string)[]][] = [["shown at", [value(entry.tau), entry.why ? `: ${entry.why}` : ""]]];
     if (same.length > 0) facts.push(["the same object", this.links(same, (k) => ` at ${value(entryOf(page, k).tau)}`)]);
+    const more = branch.isovalues ?? [];
+    if (more.length > 0) facts.push(["look also at", more.map(({ tau, why }) => html("div", {}, `${value(tau)}: ${why}`))]);
     facts.push(
       ["on its own", [rangeOf(branch)]],
       ["size", [volume(entry.measure, page.volume.unit), page.volume.unit === null ? "" : `, ${count(entry.voxels)} voxels`]],

@@ -33,6 +33,8 @@ function verdict(page: Page): string[] {
   if (page.volume.low === page.volume.high) return ["All samples have one value: there is nothing to tell apart, at no isovalue."];
   if (page.entries.length === 0) return ["There is nothing to show: noise explains all there is."];
   const others = page.branches.some((branch) => branch.standsOut && branch.merges !== null);
+  const noisy = 1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
+  if (!others && noisy) return [...hiddenWords(page), "The noise is as strong as all contrast there is: this may be nothing but noise, whatever the picture seems to show."];
   return others ? hiddenWords(page) : [...hiddenWords(page), "No object stands out beside the largest one: the pictures show what lies above some of its isovalues."];
 }
 
@@ -61,12 +63,13 @@ function start(page: Page, main: HTMLElement): void {
     counts?.mark([...kept].filter((b) => page.branches[b]?.side === "bright").length);
   };
   main.append(about(page));
-  if (items.length > 0) {
+  const constant = page.volume.low === page.volume.high;
+  if (items.length > 0 && !constant) {
     show(firstChoice(page));
     main.append(lanes, html("section", {}, html("h2", {}, "Objects"), controls(page, show), said, bright), darkPart, rest);
   }
   const last = html("footer", {}, `isoatlas ${page.version}, interpolant ${page.interpolant}. This page loads nothing from elsewhere.`);
-  main.append(spectrum(page) ?? "", counts?.panel ?? "", glossary(), last, detail.dialog);
+  main.append(spectrum(page) ?? "", constant ? "" : (counts?.panel ?? ""), glossary(), last, detail.dialog);
   detail.openAt(location.hash);
 }
 

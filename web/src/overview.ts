@@ -44,6 +44,7 @@ export function overview(page: Page, kept: Set<number>, open: (i: number) => voi
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${bottom + 36}`, class: "overview", role: "group", "aria-label": "Objects over the isovalue" });
   drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }), drawTicks(axis, bottom, 9));
   for (const b of kept) drawing.append(...branchLines(page, kept, b, axis, y));
+  for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(steadyLine(page, i, axis, y(b)));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), Math.min(9, laneHeight), open));
   drawing.append(svg("text", { class: "caption", x: width - 14, y: bottom + 32, "text-anchor": "end" }, axisName(page)));
   return drawing;
@@ -61,19 +62,21 @@ function branchLines(page: Page, kept: Set<number>, b: number, axis: Axis, y: (b
   return lines;
 }
 
+/** Where its tunnels and cavities stay what they are. */
+function steadyLine(page: Page, i: number, axis: Axis, y: number): SVGLineElement {
+  const entry = entryOf(page, i);
+  const [left, right] = [axis.x(entry.low), axis.x(entry.high)];
+  return svg("line", { class: "steady", x1: left, x2: Math.max(right, left + 3), y1: y, y2: y, stroke: entry.colour });
+}
+
 function mark(page: Page, i: number, axis: Axis, y: number, radius: number, open: (i: number) => void): SVGGElement {
   const entry = entryOf(page, i);
   const x = axis.x(entry.tau);
-  const [left, right] = [axis.x(entry.low), axis.x(entry.high)];
   const group = svg("g", { class: `mark ${isDark(page, i) ? "dark" : "bright"}`, tabindex: 0, role: "button", "aria-label": describe(page, i) });
   const shape = isDark(page, i)
     ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
     : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });
-  group.append(
-    svg("title", {}, describe(page, i)),
-    svg("line", { class: "steady", x1: left, x2: Math.max(right, left + 3), y1: y, y2: y, stroke: entry.colour }),
-    shape,
-  );
+  group.append(svg("title", {}, describe(page, i)), shape);
   if (radius >= 7) group.append(svg("text", { x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
   group.addEventListener("click", () => open(i));
   group.addEventListener("keydown", (event) => {

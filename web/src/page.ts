@@ -56,6 +56,8 @@ export interface Branch {
   joined: number;
   standsOut: boolean;
   shape?: Shape | null;
+  /** others that show it well, without an entry */
+  isovalues?: { tau: number; why: string }[];
 }
 
 /** A branch at an isovalue that shows it. */

@@ -65,9 +65,8 @@ export function spectrum(page: Page): HTMLElement | null {
     "section",
     { class: "panel" },
     html("h2", {}, "How many at which isovalue"),
-    html("div", { class: "controls" }, html("label", {}, "Count ", which)),
+    html("div", { class: "controls" }, html("label", {}, "Count ", which), html("label", { class: "at" }, "at ", at)),
     drawing,
-    at,
     legend(lines()),
     readout,
   );

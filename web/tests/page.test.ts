@@ -58,7 +58,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     expect(await keep.inputValue()).toBe("3");
     expect(await tab.locator(".others").count()).toBe(0);
     expect(await tab.locator(".about").textContent()).toContain("1,231 are hidden");
-    expect(await tab.getByRole("img", { name: "1,234 objects without a threshold, 3 at the automatic one of 800" }).count()).toBe(1);
+    expect(await tab.getByRole("img", { name: "1,234 objects without a threshold, 3 chosen automatically, the least of them 800" }).count()).toBe(1);
     expect(problems).toEqual([]);
     await tab.close();
   });
@@ -146,6 +146,17 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     const { tab, problems } = await open(nothing);
     expect(await tab.locator("h1").textContent()).toBe("</script><b>x");
     expect(await tab.locator(".about").textContent()).toContain("nothing to show");
+    const constant = page([branch({})], [entry({})]);
+    constant.volume.high = constant.volume.low;
+    const same = await open(constant);
+    expect(await same.tab.locator("main").textContent()).toContain("All samples have one value");
+    expect(await same.tab.locator(".card, .overview").count()).toBe(0);
+    await same.tab.close();
+    const noise = page([branch({})], [entry({})]);
+    noise.volume.noise = 30;
+    const noisy = await open(noise);
+    expect(await noisy.tab.locator(".about").textContent()).toContain("may be nothing but noise");
+    await noisy.tab.close();
     const empty = await open(null);
     expect(await empty.tab.locator("main").textContent()).toContain("no data");
     expect([...problems, ...empty.problems]).toEqual([]);

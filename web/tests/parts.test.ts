@@ -12,7 +12,7 @@ import { branch, page, scene } from "./sample";
 
 describe("numbers", () => {
   it("have about four digits", () => {
-    expect([0, 627.2656, 12345.6, 0.00012, 2.5e7, -3.25].map(value)).toEqual(["0", "627.3", "12346", "1.20e-4", "2.50e7", "-3.25"]);
+    expect([0, 627.2656, 12345.6, 0.00012, 2.5e7, -3.25].map(value)).toEqual(["0", "627.3", "12346", "1.2e-4", "2.5e7", "-3.25"]);
   });
   it("count things", () => {
     expect(plural(0, "tunnel")).toBe("no tunnels");
