@@ -110,7 +110,7 @@ private:
                                          .tunnels = entry.tunnels,
                                          .cavities = entry.cavities,
                                          .inside = entry.inside,
-                                         .why = why(table, entry)});
+                                         .reason = reason_of(table, entry)});
         }
         for (const RecommendedIsovalue& isovalue : table.isovalues) {
             const std::int64_t branch = place_of_top_.at(isovalue.branch_top);
@@ -119,9 +119,9 @@ private:
             if (!is_shown) contents_.branches[branch].isovalues.push_back(isovalue);
         }
     }
-    static std::string why(const ObjectTable& table, const ObjectEntry& entry) {
+    static std::optional<IsovalueReason> reason_of(const ObjectTable& table, const ObjectEntry& entry) {
         const std::optional<RecommendedIsovalue> isovalue = isovalue_of(table, entry);
-        return isovalue ? text_of(isovalue->reason) : "";
+        return isovalue ? std::optional(isovalue->reason) : std::nullopt;
     }
 
     /// A dark object merges into the one around it, or into the outside.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "isoatlas/atlas.h"
@@ -40,7 +40,7 @@ struct PageEntry {
     std::int64_t tunnels = 0, cavities = 0;  ///< dark: of its wall; bright objects inside it
     std::int64_t inside = -1;                ///< entry of the same side that contains it
     std::int64_t around = -1;                ///< dark: entry of the object that it is a cavity of
-    std::string why{};                       ///< this isovalue
+    std::optional<IsovalueReason> reason{};  ///< why this isovalue, where it is known
     Turntable picture{};
     Colour colour{};
 };

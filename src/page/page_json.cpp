@@ -188,7 +188,8 @@ private:
         put_value("high", entry.tau_high);
         json_.key("voxels").value(entry.voxels).key("measure").value(entry.measure);
         json_.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
-        json_.key("inside").value(entry.inside).key("around").value(entry.around).key("why").value(entry.why);
+        json_.key("inside").value(entry.inside).key("around").value(entry.around);
+        json_.key("reason").value(entry.reason ? name_of(*entry.reason) : "").key("why").value(entry.reason ? text_of(*entry.reason) : "");
         json_.key("colour").value(web_colour(entry.colour)).line().key("picture");
         if (entry.picture.image.empty()) {
             json_.null();

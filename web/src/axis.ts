@@ -79,6 +79,14 @@ export function drawTicks(axis: Axis, y: number, most: number): SVGGElement {
   return group;
 }
 
+/** Screens on which a drawing must be narrow, or its letters are too small to read. */
+export const narrowScreens = "(max-width: 700px)";
+
+/** Width of the drawings that are as wide as the page, in units of which a letter is 12 high. */
+export function drawingWidth(): number {
+  return matchMedia(narrowScreens).matches ? 430 : 1000;
+}
+
 export function axisName(page: Page): string {
   return `isovalue${page.volume.valueUnit ? `, ${page.volume.valueUnit}` : ""}`;
 }

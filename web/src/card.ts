@@ -1,7 +1,7 @@
 // A card for an object: how it looks, how large it is, and where its isovalues are.
 import { html } from "./dom";
 import { value, volume } from "./format";
-import { anchorOf, describe, isDark, nameOf, placeOf, rangeOf, shapeOf } from "./names";
+import { anchorOf, describe, isDark, nameOf, placeOf, rangeOf, reasonOf, shapeOf } from "./names";
 import { rangeBar } from "./overview";
 import { branchOf, entryOf, type Page } from "./page";
 import { turntable } from "./turntable";
@@ -14,12 +14,14 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     ? turntable(entry.picture, `Picture of ${describe(page, i)}`)
     : html("div", { class: "turntable missing" }, "no picture");
   picture.addEventListener("click", () => open(i));
-  const place = placeOf(page, i);
+  const trunk = branchOf(page, entry.branch).merges === null;
+  const notes = [trunk ? "the largest object" : "", placeOf(page, i)].filter(Boolean).join(", ");
+  const reason = reasonOf(page, i);
   const facts = html(
     "dl",
     { class: "facts" },
     html("dt", {}, "shown at"),
-    html("dd", {}, value(entry.tau)),
+    html("dd", {}, value(entry.tau), reason ? html("span", { class: "why" }, `: ${reason}`) : null),
     html("dt", {}, "on its own"),
     html("dd", {}, rangeOf(branchOf(page, entry.branch))),
     html("dt", {}, "size"),
@@ -32,8 +34,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     { class: `card ${isDark(page, i) ? "dark" : "bright"}`, id: anchorOf(page, i) },
     picture,
     html("h3", {}, title),
-    place ? html("p", { class: "note" }, place) : null,
-    entry.why ? html("p", { class: "note why" }, entry.why) : null,
+    notes ? html("p", { class: "note" }, notes) : null,
     rangeBar(page, i),
     facts,
   );

@@ -27,7 +27,7 @@ export function controls(page: Page, changed: (choice: Choice) => void): HTMLEle
   return html(
     "form",
     { class: "controls", submit: (event) => event.preventDefault() },
-    page.branches.length > 1 ? html("div", { class: "keep" }, html("label", {}, "Keep the ", said, " most important ", keep), reset) : null,
+    page.branches.length > 1 ? html("div", { class: "keep" }, html("label", {}, html("span", {}, "Keep the ", said, " most important"), keep), reset) : null,
     html("label", {}, "Sort by ", order),
     both ? html("label", {}, "Show ", side) : null,
     html("label", {}, "At least ", least, " voxels"),

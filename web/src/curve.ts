@@ -1,4 +1,5 @@
 // How many objects there are for every threshold, where the automatic choice lies, and what that hides.
+import { drawingWidth } from "./axis";
 import { html, svg } from "./dom";
 import { count, plural, value } from "./format";
 import { pictured } from "./choice";
@@ -29,7 +30,7 @@ export interface CurvePanel {
 export function curve(page: Page): CurvePanel | null {
   const data = page.curve;
   if (data.kept.length < 2) return null;
-  const [width, height, left, right, top, bottom] = [1000, 220, 60, 14, 16, 180];
+  const [width, height, left, right, top, bottom] = [drawingWidth(), 220, 60, 14, 16, 180];
   const positive = data.threshold.filter((t) => t > 0);
   const [least, most] = [Math.log10(Math.min(...positive)), Math.log10(Math.max(...positive))];
   const x = (t: number): number => left + ((Math.max(Math.log10(Math.max(t, 1e-300)), least) - least) / (most - least || 1)) * (width - left - right);
@@ -39,7 +40,7 @@ export function curve(page: Page): CurvePanel | null {
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "curve", role: "img", "aria-label": label });
   for (let ten = 1; Math.log10(ten) <= tallest; ten *= 10)
     drawing.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: y(ten), y2: y(ten) }), svg("text", { x: left - 6, y: y(ten) + 4, "text-anchor": "end" }, count(ten)));
-  const step = Math.max(1, Math.ceil((most - least) / 9));
+  const step = Math.max(1, Math.ceil((most - least) / (width / 110)));
   for (let power = Math.ceil(least); power <= most; power += step)
     drawing.append(svg("text", { x: x(10 ** power), y: bottom + 16, "text-anchor": x(10 ** power) > width - 40 ? "end" : "middle" }, value(10 ** power)));
   const path = data.kept.map((n, i) => `${i === 0 ? `M${x(data.threshold[0] ?? 1)} ${bottom}` : ""}H${x(data.threshold[i] ?? 1).toFixed(1)}V${y(n).toFixed(1)}`);

@@ -1,4 +1,5 @@
 // The page from top to bottom.
+import { narrowScreens } from "./axis";
 import { card } from "./card";
 import { chosenBranches, chosenEntries, firstChoice, type Choice } from "./choice";
 import { controls } from "./controls";
@@ -75,5 +76,10 @@ function start(page: Page, main: HTMLElement): void {
 
 const main = document.getElementById("atlas");
 const page = readPage(document.getElementById("atlas-data")?.textContent ?? "null");
-if (main && page) start(page, main);
-else main?.append(html("p", {}, "This page has no data: isoatlas writes it with data."));
+if (main && page) {
+  start(page, main);
+  matchMedia(narrowScreens).addEventListener("change", () => {
+    main.replaceChildren();
+    start(page, main);
+  });
+} else main?.append(html("p", {}, "This page has no data: isoatlas writes it with data."));

@@ -42,6 +42,20 @@ export function describe(page: Page, i: number): string {
   return `${nameOf(page, i)} at isovalue ${value(entry.tau)}: ${volume(entry.measure, page.volume.unit)}, ${shapeOf(page, i)}`;
 }
 
+const reasons: Record<string, string> = {
+  steady: "sharp boundary",
+  outline: "all but background",
+  outer: "sharp outer boundary",
+  inner: "sharp wall of a cavity",
+  merge: "as large as it gets on its own",
+  middle: "middle of its range",
+};
+
+/** Why its isovalue, in a few words. */
+export function reasonOf(page: Page, i: number): string {
+  return reasons[entryOf(page, i).reason] ?? "";
+}
+
 /** Where it lies, in a few words; empty: nowhere that is on this page. */
 export function placeOf(page: Page, i: number): string {
   const entry = entryOf(page, i);

@@ -1,6 +1,6 @@
 // All objects over the isovalue axis: a line for each, as long as it is on its own, from where it appears to where it merges, and on to the
 // object it merges into. Bright ones grow to the left, dark ones to the right. The histogram lies behind.
-import { Axis, axisName, drawTicks, histogramPath } from "./axis";
+import { Axis, axisName, drawingWidth, drawTicks, histogramPath } from "./axis";
 import { svg } from "./dom";
 import { value } from "./format";
 import { describe, entriesOf, isDark, nameOf, numberOf } from "./names";
@@ -34,7 +34,7 @@ export function keptParent(page: Page, kept: Set<number>, b: number): number {
 }
 
 export function overview(page: Page, kept: Set<number>, open: (i: number) => void): SVGSVGElement {
-  const width = 1000;
+  const width = drawingWidth();
   const axis = Axis.of(page, width, 14);
   const lane = lanesOf(page, kept);
   const lanes = Math.max(-1, ...lane) + 1;
@@ -42,7 +42,7 @@ export function overview(page: Page, kept: Set<number>, open: (i: number) => voi
   const bottom = head + lanes * laneHeight + 10;
   const y = (b: number): number => head + ((lane[b] ?? 0) + 0.5) * laneHeight;
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${bottom + 36}`, class: "overview", role: "group", "aria-label": "Objects over the isovalue" });
-  drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }), drawTicks(axis, bottom, 9));
+  drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }), drawTicks(axis, bottom, width / 110));
   for (const b of kept) drawing.append(...branchLines(page, kept, b, axis, y));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(steadyLine(page, i, axis, y(b)));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), Math.min(9, laneHeight), open));
@@ -77,7 +77,7 @@ function mark(page: Page, i: number, axis: Axis, y: number, radius: number, open
     ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
     : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });
   group.append(svg("title", {}, describe(page, i)), shape);
-  if (radius >= 7) group.append(svg("text", { x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
+  if (radius >= 7) group.append(svg("text", { class: isDeep(entry.colour) ? "on-deep" : undefined, x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
   group.addEventListener("click", () => open(i));
   group.addEventListener("keydown", (event) => {
     if (event.key !== "Enter" && event.key !== " ") return;
@@ -85,6 +85,12 @@ function mark(page: Page, i: number, axis: Axis, y: number, radius: number, open
     open(i);
   });
   return group;
+}
+
+/** Is white easier to read on it than black? colour: #rrggbb. */
+export function isDeep(colour: string): boolean {
+  const [red, green, blue] = [1, 3, 5].map((at) => (parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2) as [number, number, number];
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.18; // where both have the same contrast (WCAG)
 }
 
 /** The axis of one card. */

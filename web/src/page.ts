@@ -78,7 +78,8 @@ export interface Entry {
   inside: number;
   /** of a dark object: the entry of the object that it is a cavity of, -1: none */
   around: number;
-  /** why this isovalue, in plain words; empty: not known */
+  /** why this isovalue: in a word, and in a sentence; empty: not known */
+  reason: string;
   why: string;
   colour: string;
   picture: Picture | null;

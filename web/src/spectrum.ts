@@ -1,5 +1,5 @@
 // How many objects, contours, tunnels and cavities there are at every isovalue.
-import { Axis, axisName, drawTicks } from "./axis";
+import { Axis, axisName, drawingWidth, drawTicks } from "./axis";
 import { columnAt, countWords, drawCounts, Scale, type Line } from "./columns";
 import { html, svg } from "./dom";
 import { value } from "./format";
@@ -21,7 +21,7 @@ export function legend(lines: Line[]): HTMLElement {
 export function spectrum(page: Page): HTMLElement | null {
   const data = page.spectrum;
   if (!data || data.edges.length < 2) return null;
-  const [width, height, bottom] = [1000, 250, 210];
+  const [width, height, bottom] = [drawingWidth(), 250, 210];
   const axis = Axis.of(page, width, 14);
   const whole = new Scale(linesOf(data.all), 14, bottom);
   const which = html("select", { name: "counted" }, html("option", { value: "all" }, "everything"), html("option", { value: "essential" }, "objects that stand out"));
@@ -32,7 +32,7 @@ export function spectrum(page: Page): HTMLElement | null {
   const lines = (): Line[] => linesOf(which.value === "all" ? data.all : data.essential);
   const draw = (): void => {
     drawing.replaceChildren(
-      drawTicks(axis, bottom, 9),
+      drawTicks(axis, bottom, width / 110),
       drawCounts(data.edges, lines(), axis, whole),
       needle,
       svg("text", { class: "caption", x: width - 14, y: height - 4, "text-anchor": "end" }, axisName(page)),

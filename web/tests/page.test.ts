@@ -167,6 +167,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   it("fits a phone", async () => {
     const { tab } = await open(scene);
     await tab.setViewportSize({ width: 360, height: 700 });
+    await tab.locator('.overview[viewBox^="0 0 430"]').waitFor(); // drawn anew, or its letters would be too small
     expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
     await tab.close();
   });

@@ -4,9 +4,9 @@ import { chosenBranches, chosenEntries, firstChoice, ranked } from "../src/choic
 import { columnAt, countPath, countWords, Scale } from "../src/columns";
 import { hiddenWords } from "../src/curve";
 import { plural, value, volume } from "../src/format";
-import { anchorOf, branchName, contentsOf, describe as said, nameOf, placeOf, rangeOf } from "../src/names";
+import { anchorOf, branchName, contentsOf, describe as said, nameOf, placeOf, rangeOf, reasonOf } from "../src/names";
 import { largestAt } from "../src/others";
-import { lanesOf } from "../src/overview";
+import { isDeep, lanesOf } from "../src/overview";
 import { readPage } from "../src/page";
 import { branch, page, scene } from "./sample";
 
@@ -88,7 +88,11 @@ describe("objects", () => {
     expect([rangeOf(scene.branches[1]!), rangeOf(scene.branches[3]!)]).toEqual(["30 to 95", "10 to 70"]);
     expect(contentsOf(scene, 0)).toEqual([1, 2, 3]);
     expect([placeOf(scene, 0), placeOf(scene, 3)]).toEqual(["", "a cavity of object 1"]);
+    expect([reasonOf(scene, 0), reasonOf(scene, 1)]).toEqual(["", "sharp boundary"]);
     expect([branchName(scene, 0), branchName(scene, 2)]).toEqual(["Object 1", "the object 9"]);
+  });
+  it("have numbers that can be read on their colour", () => {
+    expect(["#0072b2", "#56b4e9", "#f0e442", "#d55e00"].map(isDeep)).toEqual([true, false, false, false]);
   });
   it("without a picture are named where they are largest, on their own", () => {
     const tau = largestAt(scene.branches[2]!);

@@ -10,7 +10,7 @@ export function branch(changes: Partial<Branch>): Branch {
 
 export function entry(changes: Partial<Entry>): Entry {
   return {
-    branch: 0, id: 1, tau: 50, low: 40, high: 60, voxels: 1000, measure: 1000, tunnels: 0, cavities: 0, inside: -1, around: -1, why: "",
+    branch: 0, id: 1, tau: 50, low: 40, high: 60, voxels: 1000, measure: 1000, tunnels: 0, cavities: 0, inside: -1, around: -1, reason: "", why: "",
     colour: "#56b4e9", picture: null, commands: [{ name: "surface", line: "isoatlas extract scan.atlas --object 1 --tau 50 -o object-1.ply" }],
     ...changes,
   };
@@ -46,7 +46,7 @@ export const scene = page(
   ],
   [
     entry({ id: 7, tunnels: 2, voxels: 5000, measure: 10000 }),
-    entry({ id: 7, tau: 80, low: 70, high: 85, voxels: 300, inside: 0, why: "its boundary is sharp" }),
+    entry({ id: 7, tau: 80, low: 70, high: 85, voxels: 300, inside: 0, reason: "steady", why: "its boundary is sharp" }),
     entry({ branch: 1, id: 8, tau: 70, voxels: 40, inside: 0 }),
     entry({ branch: 3, id: 5, tau: 45, low: 20, high: 70, voxels: 90, measure: 180, cavities: 1, around: 0 }),
   ],
