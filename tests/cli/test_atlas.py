@@ -1,8 +1,10 @@
 """isoatlas FILE: a page from a volume, whole, self-contained, with data as described and commands that run."""
 import json
+import math
 import os
 import re
 import shlex
+import struct
 
 import harness
 
@@ -101,12 +103,44 @@ class Atlas(harness.CliTest):
         self.assertGreater(os.stat(self.folder / "again.atlas").st_mtime_ns, before)
         self.assertEqual(self.run_json("again.atlas", "-o", "other.html", "--top", "1")["store"], "again.atlas")
 
+    def test_what_is_shown_and_hidden_is_all_there_is(self):
+        self.run_ok("phantom", "random-field", "--size", "48", "--noise", "0.1", "-o", "field.nrrd")
+        told = self.run_json("field.nrrd")
+        text, page = self.page("field.atlas.html")
+        shown = {entry["branch"] for entry in page["entries"]}
+        self.assertEqual(len(shown) + told["hidden"], page["objects"]["bright"]["all"] + page["objects"]["dark"]["all"])
+        self.assertEqual((told["shown"], told["bytes"]), (len(page["entries"]), len(text.encode())))
+        self.assertGreater(told["hidden"], 10000)
+        self.assertLess(told["bytes"], 3_000_000)
+        self.assertLessEqual(len(page["branches"]), 24 + 12 + 200)
+        self.assertLessEqual(len(page["spectrum"]["edges"]), 481)
+
     def test_volumes_with_nothing_in_them(self):
-        for name in ("flat", "noise"):
-            self.run_ok(name + ".nrrd")
-            self.page(name + ".atlas.html")
+        self.run_ok("flat.nrrd")
+        page = self.page("flat.atlas.html")[1]
+        self.assertEqual(page["volume"]["low"], page["volume"]["high"])
+        self.assertIsNone(page["spectrum"])
+        self.run_ok("noise.nrrd")
+        page = self.page("noise.atlas.html")[1]
+        self.assertEqual([branch["standsOut"] for branch in page["branches"]], [True] + [False] * (len(page["branches"]) - 1))
+        self.assertEqual({entry["branch"] for entry in page["entries"]}, {0})
+        self.write_nrrd("flat.2d.nrrd", (24, 24), bytes(9 * (8 <= x < 16 and 8 <= y < 16) for y in range(24) for x in range(24)))
+        self.run_ok("flat.2d.nrrd")
+        self.assertEqual(self.page("flat.2d.atlas.html")[1]["entries"][0]["picture"]["frames"], 1)
+
+    def test_what_is_no_volume_gives_a_message_and_no_page(self):
+        self.write_nrrd("empty.nrrd", (0, 8, 8), b"")
+        self.run_error(3, "empty.nrrd", says="0 samples")
+        self.write_nrrd("nan.nrrd", (2, 2, 2), struct.pack("<8f", *[math.nan] * 8), "float")
+        self.run_error(3, "nan.nrrd", says="nan", next_says="--missing")
+        for name in ("empty", "nan"):
+            self.assertEqual([file.name for file in self.folder.glob(name + ".*") if file.suffix != ".nrrd"], [])
         self.run_error(2, "demo.nrrd", "-o", "page.txt", says=".txt")
         self.run_error(2, "no such file.nrrd", says="no verb")
+
+    def write_nrrd(self, name, sizes, samples, kind="uint8"):
+        head = f"NRRD0004\ntype: {kind}\ndimension: {len(sizes)}\nsizes: {' '.join(map(str, sizes))}\nencoding: raw\nendian: little\n\n"
+        (self.folder / name).write_bytes(head.encode() + samples)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,8 @@ export class Detail {
     const entry = entryOf(page, i);
     const branch = branchOf(page, entry.branch);
     const into = branch.parent >= 0 ? branchName(page, branch.parent) : branch.side === "dark" ? "the outside or another dark object" : "a larger object";
-    const steady = `Between ${value(entry.low)} and ${value(entry.high)} its shape stays the same: ${shapeOf(page, i)}.`;
+    const [low, high] = [value(entry.low), value(entry.high)];
+    const steady = low === high ? `At ${value(entry.tau)} it has ${shapeOf(page, i)}.` : `Between ${low} and ${high} its shape stays the same: ${shapeOf(page, i)}.`;
     const end =
       branch.merges === null
         ? `It appears at ${value(branch.appears)} and is there at every lower isovalue.`
