@@ -16,4 +16,8 @@ struct Turntable {
 /// The first frame is the best view; the others turn around what is upwards.
 [[nodiscard]] Turntable draw_turntable(Surface surface, const Colour& colour, const PageOptions& options, const Context& context);
 
+/// A 2D volume in grey with its contours at an isovalue: one frame.
+[[nodiscard]] Turntable draw_still(const Volume& volume, double tau, const Colour& colour, const PageOptions& options,
+                                   const Context& context);
+
 }  // namespace isoatlas::page

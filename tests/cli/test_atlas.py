@@ -1,8 +1,10 @@
 """isoatlas FILE: a page from a volume, whole, self-contained, with data as described and commands that run."""
 import json
+import math
 import os
 import re
 import shlex
+import struct
 
 import harness
 
@@ -25,33 +27,66 @@ class Atlas(harness.CliTest):
         self.assertIn("demo.atlas.html", told.stdout)
         text, page = self.page("demo.atlas.html")
         self.assertTrue((self.folder / "demo.atlas").is_file())
-        table = self.run_json("objects", "demo.atlas")["objects"]
-        self.assertEqual([entry["id"] for entry in page["objects"]], [entry["id"] for entry in table])
-        self.assertEqual([entry["tunnels"] for entry in page["objects"]], [entry["tunnels"] for entry in table])
-        for entry in page["objects"]:
+        table = self.run_json("objects", "demo.atlas", "--both")
+        branches, entries = page["branches"], page["entries"]
+        of_side = {side: [entry for entry in entries if branches[entry["branch"]]["side"] == side] for side in ("bright", "dark")}
+        self.assertGreater(len(of_side["dark"]), 0)
+        for side, expected in (("bright", table["objects"]), ("dark", table["dark"])):
+            self.assertEqual([entry["id"] for entry in of_side[side]], [entry["id"] for entry in expected])
+            self.assertEqual([entry["tunnels"] for entry in of_side[side]], [entry["tunnels"] for entry in expected])
+        self.assertEqual(page["objects"]["bright"]["all"], table["branches"])
+        self.assertEqual(page["objects"]["dark"]["all"], table["dark_branches"])
+        for entry in entries:
             self.assertTrue(entry["picture"]["image"].startswith("data:image/webp;base64,"))
-            self.assertLess(entry["into"], len(page["objects"]))
         self.assertEqual(re.findall(r"""(?:src|href)=["']?(?!data:)[a-z]+:""", text), [])
         self.assertNotRegex(text, r"""@import|url\((?!data:)""")
         samples = 1
         for size in page["volume"]["size"]:
             samples *= size
-        self.assertLess(abs(sum(page["histogram"]["counts"]) - samples), samples / 20)
+        self.assertEqual(sum(page["histogram"]["counts"]), samples)
+
+    def test_counts_of_the_page_are_those_of_the_spectrum(self):
+        self.run_ok("demo.nrrd", "-o", "counts.html", "--top", "1")
+        page = self.page("counts.html")[1]
+        intervals = self.run_json("spectrum", "counts.atlas", "--samples", "0")["intervals"]
+        for which in ("all", "essential"):
+            for name in ("objects", "contours", "tunnels", "cavities"):
+                count = page["spectrum"][which][name]
+                for k, (low, high) in enumerate(zip(page["spectrum"]["edges"], page["spectrum"]["edges"][1:])):
+                    there = [i[which][name] for i in intervals if i["high"] > low and (i["low"] is None or i["low"] < high)]
+                    self.assertEqual(max(there), count["most"][k])
+                    self.assertEqual(min(there), count.get("least", count["most"])[k])
+
+    def test_the_curve_says_what_every_threshold_keeps(self):
+        self.run_ok("demo.nrrd", "-o", "curve.html", "--top", "1")
+        page = self.page("curve.html")[1]
+        self.run_ok("objects", "demo.nrrd", "--curve", "curve.json")
+        full = json.loads((self.folder / "curve.json").read_text())["curves"][0]
+        points = [[threshold, kept] for threshold, kept in zip(page["curve"]["threshold"], page["curve"]["kept"])]
+        self.assertTrue(all(point in full["points"] for point in points))
+        self.assertEqual((points[0], points[-1]), (full["points"][0], full["points"][-1]))
+        self.assertEqual(page["curve"]["automaticKept"], full["automatic"]["kept"])
+        self.assertEqual(page["objects"]["bright"]["standingOut"], full["automatic"]["kept"])
 
     def test_objects_merge_into_others_of_the_page(self):
         self.run_ok("demo.nrrd", "-o", "merge.html")
-        entries = self.page("merge.html")[1]["objects"]
-        for entry in entries:
-            self.assertEqual(entry["merges"] is None, entry["into"] == -1, entry["id"])
-            if entry["into"] >= 0:
-                other = entries[entry["into"]]
-                self.assertTrue(other["merges"] is None or other["merges"] < entry["merges"])
+        branches = self.page("merge.html")[1]["branches"]
+        for branch in branches:
+            if branch["side"] == "bright":
+                self.assertEqual(branch["merges"] is None, branch["parent"] == -1, branch["id"])
+            if branch["parent"] >= 0:
+                other = branches[branch["parent"]]
+                self.assertEqual(other["side"], branch["side"])
+                bright = branch["side"] == "bright"
+                self.assertTrue(other["merges"] is None or (other["merges"] < branch["merges"] if bright else other["merges"] > branch["merges"]))
+        self.assertGreater(branches[0]["joined"], 0)
 
     def test_commands_of_the_page_run(self):
         self.run_ok("atlas", "demo.nrrd", "--top", "2", "-o", "two words.html")
-        entries = self.page("two words.html")[1]["objects"]
-        self.assertEqual(len(entries), 2)
-        for command in entries[1]["commands"]:
+        page = self.page("two words.html")[1]
+        dark = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "dark"]
+        self.assertEqual(len(page["entries"]) - len(dark), 2)
+        for command in page["entries"][1]["commands"] + dark[0]["commands"]:
             words = shlex.split(command["line"])
             self.assertEqual(words[0], "isoatlas")
             self.run_ok(*words[1:])
@@ -68,12 +103,44 @@ class Atlas(harness.CliTest):
         self.assertGreater(os.stat(self.folder / "again.atlas").st_mtime_ns, before)
         self.assertEqual(self.run_json("again.atlas", "-o", "other.html", "--top", "1")["store"], "again.atlas")
 
+    def test_what_is_shown_and_hidden_is_all_there_is(self):
+        self.run_ok("phantom", "random-field", "--size", "48", "--noise", "0.1", "-o", "field.nrrd")
+        told = self.run_json("field.nrrd")
+        text, page = self.page("field.atlas.html")
+        shown = {entry["branch"] for entry in page["entries"]}
+        self.assertEqual(len(shown) + told["hidden"], page["objects"]["bright"]["all"] + page["objects"]["dark"]["all"])
+        self.assertEqual((told["shown"], told["bytes"]), (len(page["entries"]), len(text.encode())))
+        self.assertGreater(told["hidden"], 10000)
+        self.assertLess(told["bytes"], 3_000_000)
+        self.assertLessEqual(len(page["branches"]), 24 + 12 + 200)
+        self.assertLessEqual(len(page["spectrum"]["edges"]), 481)
+
     def test_volumes_with_nothing_in_them(self):
-        for name in ("flat", "noise"):
-            self.run_ok(name + ".nrrd")
-            self.page(name + ".atlas.html")
+        self.run_ok("flat.nrrd")
+        page = self.page("flat.atlas.html")[1]
+        self.assertEqual(page["volume"]["low"], page["volume"]["high"])
+        self.assertIsNone(page["spectrum"])
+        self.run_ok("noise.nrrd")
+        page = self.page("noise.atlas.html")[1]
+        self.assertEqual([branch["standsOut"] for branch in page["branches"]], [True] + [False] * (len(page["branches"]) - 1))
+        self.assertEqual({entry["branch"] for entry in page["entries"]}, {0})
+        self.write_nrrd("flat.2d.nrrd", (24, 24), bytes(9 * (8 <= x < 16 and 8 <= y < 16) for y in range(24) for x in range(24)))
+        self.run_ok("flat.2d.nrrd")
+        self.assertEqual(self.page("flat.2d.atlas.html")[1]["entries"][0]["picture"]["frames"], 1)
+
+    def test_what_is_no_volume_gives_a_message_and_no_page(self):
+        self.write_nrrd("empty.nrrd", (0, 8, 8), b"")
+        self.run_error(3, "empty.nrrd", says="0 samples")
+        self.write_nrrd("nan.nrrd", (2, 2, 2), struct.pack("<8f", *[math.nan] * 8), "float")
+        self.run_error(3, "nan.nrrd", says="nan", next_says="--missing")
+        for name in ("empty", "nan"):
+            self.assertEqual([file.name for file in self.folder.glob(name + ".*") if file.suffix != ".nrrd"], [])
         self.run_error(2, "demo.nrrd", "-o", "page.txt", says=".txt")
         self.run_error(2, "no such file.nrrd", says="no verb")
+
+    def write_nrrd(self, name, sizes, samples, kind="uint8"):
+        head = f"NRRD0004\ntype: {kind}\ndimension: {len(sizes)}\nsizes: {' '.join(map(str, sizes))}\nencoding: raw\nendian: little\n\n"
+        (self.folder / name).write_bytes(head.encode() + samples)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // The isovalue axis that everything on the page shares, low on the left.
 import { svg } from "./dom";
 import { value } from "./format";
-import type { Histogram } from "./page";
+import type { Histogram, Page } from "./page";
 
 export class Axis {
   constructor(
@@ -9,22 +9,35 @@ export class Axis {
     readonly high: number,
     readonly width: number,
     readonly margin = 0,
+    /** null: linear */
+    readonly bend: number | null = null,
   ) {}
 
+  static of(page: Page, width: number, margin: number): Axis {
+    return new Axis(page.axis.low, page.axis.high, width, margin, page.axis.bend);
+  }
+
+  private bent(distance: number): number {
+    return this.bend === null ? distance : Math.asinh(distance / this.bend);
+  }
+
   x(tau: number): number {
-    const range = this.high - this.low;
-    const at = range > 0 ? (Math.min(Math.max(tau, this.low), this.high) - this.low) / range : 0.5;
+    const range = this.bent(this.high - this.low);
+    const inside = Math.min(Math.max(tau, this.low), this.high);
+    const at = range > 0 ? this.bent(inside - this.low) / range : 0.5;
     return this.margin + at * (this.width - 2 * this.margin);
   }
 
   tau(x: number): number {
-    return this.low + ((x - this.margin) / (this.width - 2 * this.margin)) * (this.high - this.low);
+    const at = ((x - this.margin) / (this.width - 2 * this.margin)) * this.bent(this.high - this.low);
+    return this.low + (this.bend === null ? at : this.bend * Math.sinh(at));
   }
 
   /** Round values, about `most` of them. */
   ticks(most: number): number[] {
     const range = this.high - this.low;
     if (!(range > 0)) return [this.low];
+    if (this.bend !== null) return this.bentTicks(most);
     const rough = range / Math.max(1, most);
     const power = 10 ** Math.floor(Math.log10(rough));
     const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? 10 * power;
@@ -32,18 +45,26 @@ export class Axis {
     const last = Math.floor(this.high / step + 1e-9);
     return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => Number(((first + i) * step).toPrecision(12)));
   }
+
+  /** 1, 2 and 5 times powers of ten, no two of them closer than width / most. */
+  private bentTicks(most: number): number[] {
+    const gap = (this.width - 2 * this.margin) / Math.max(1, most);
+    const kept = [this.low];
+    for (let power = 10 ** Math.floor(Math.log10((this.bend ?? 1) / 10)); power <= this.high; power *= 10) {
+      for (const tau of [power, 2 * power, 5 * power]) {
+        if (tau < this.high && this.x(tau) - this.x(kept.at(-1) ?? this.low) >= gap) kept.push(Number(tau.toPrecision(12)));
+      }
+    }
+    return kept;
+  }
 }
 
 /** The outline of a histogram between y = bottom and y = top; heights are logarithmic, because the background outweighs all else. */
 export function histogramPath(histogram: Histogram, axis: Axis, top: number, bottom: number): string {
   const most = Math.log1p(Math.max(1, ...histogram.counts));
-  const step = (histogram.high - histogram.low) / histogram.counts.length;
-  let path = `M${axis.x(histogram.low).toFixed(1)} ${bottom}`;
-  histogram.counts.forEach((n, i) => {
-    const y = (bottom - (Math.log1p(n) / most) * (bottom - top)).toFixed(1);
-    path += `L${axis.x(histogram.low + i * step).toFixed(1)} ${y}L${axis.x(histogram.low + (i + 1) * step).toFixed(1)} ${y}`;
-  });
-  return `${path}L${axis.x(histogram.high).toFixed(1)} ${bottom}Z`;
+  const x = histogram.edges.map((edge) => axis.x(edge).toFixed(1));
+  const path = histogram.counts.map((n, i) => `V${(bottom - (Math.log1p(n) / most) * (bottom - top)).toFixed(1)}H${x[i + 1]}`);
+  return `M${x[0]} ${bottom}${path.join("")}V${bottom}Z`;
 }
 
 export function drawTicks(axis: Axis, y: number, most: number): SVGGElement {
@@ -52,8 +73,20 @@ export function drawTicks(axis: Axis, y: number, most: number): SVGGElement {
     const x = axis.x(tau);
     group.append(
       svg("line", { x1: x, x2: x, y1: y, y2: y + 4 }),
-      svg("text", { x, y: y + 16, "text-anchor": "middle" }, value(tau)),
+      svg("text", { x, y: y + 16, "text-anchor": x < 20 ? "start" : "middle" }, value(tau)),
     );
   }
   return group;
+}
+
+/** Screens on which a drawing must be narrow, or its letters are too small to read. */
+export const narrowScreens = "(max-width: 700px)";
+
+/** Width of the drawings that are as wide as the page, in units of which a letter is 12 high. */
+export function drawingWidth(): number {
+  return matchMedia(narrowScreens).matches ? 430 : 1000;
+}
+
+export function axisName(page: Page): string {
+  return `isovalue${page.volume.valueUnit ? `, ${page.volume.valueUnit}` : ""}`;
 }

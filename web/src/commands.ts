@@ -2,9 +2,9 @@
 import { html } from "./dom";
 import type { Entry } from "./page";
 
-export function commandList(entry: Entry): HTMLElement {
+export function commandList(commands: Entry["commands"]): HTMLElement {
   const list = html("dl", { class: "commands" });
-  for (const command of entry.commands) {
+  for (const command of commands) {
     const copy = html("button", { type: "button", class: "copy", "aria-label": `Copy: ${command.name}` }, "Copy");
     copy.addEventListener("click", () => {
       void navigator.clipboard

@@ -1,35 +1,33 @@
-// Sorting and filtering cards.
+// How many objects are kept, sorting and filtering.
+import { firstChoice, orders, pictured, type Choice } from "./choice";
 import { html } from "./dom";
-import type { Entry, Page } from "./page";
+import { count } from "./format";
+import type { Page } from "./page";
 
-const orders: [string, (p: Entry, q: Entry) => number][] = [
-  ["rank", () => 0],
-  ["size", (p, q) => q.voxels - p.voxels],
-  ["isovalue", (p, q) => q.best - p.best],
-  ["range of isovalues", (p, q) => q.high - q.low - (p.high - p.low)],
-  ["tunnels", (p, q) => q.tunnels - p.tunnels],
-  ["cavities", (p, q) => q.cavities - p.cavities],
-];
-
-export type Side = "all" | "bright" | "dark";
-
-/** Positions of the entries to show, in order. */
-export function chosen(page: Page, order: string, side: Side, least: number): number[] {
-  const compare = orders.find(([name]) => name === order)?.[1] ?? (() => 0);
-  const kept = page.objects.flatMap((entry, i) => ((side === "all" || entry.side === side) && entry.voxels >= least ? [i] : []));
-  return kept.sort((a, b) => compare(page.objects[a] as Entry, page.objects[b] as Entry) || a - b);
-}
-
-export function controls(page: Page, changed: (kept: number[]) => void): HTMLElement {
+export function controls(page: Page, changed: (choice: Choice) => void): HTMLElement {
+  const first = firstChoice(page);
   const order = html("select", { name: "order" }, ...orders.map(([name]) => html("option", { value: name }, name)));
   const side = html("select", { name: "side" }, ...["all", "bright", "dark"].map((name) => html("option", { value: name }, name)));
   const least = html("input", { type: "number", name: "least", min: 0, step: 1, value: 0, inputmode: "numeric" });
-  const update = (): void => changed(chosen(page, order.value, side.value as Side, Number(least.value) || 0));
-  for (const input of [order, side, least]) input.addEventListener("input", update);
-  const both = new Set(page.objects.map((entry) => entry.side)).size > 1;
+  const keep = html("input", { type: "range", name: "keep", min: 1, max: Math.max(1, page.branches.length), step: 1, value: first.keep });
+  const said = html("strong", {});
+  const reset = html("button", { type: "button", class: "copy" }, "Automatic");
+  const update = (): void => {
+    said.textContent = count(Number(keep.value));
+    keep.setAttribute("aria-valuetext", `${keep.value} of ${page.branches.length} objects`);
+    changed({ keep: Number(keep.value), order: order.value, side: side.value as Choice["side"], least: Number(least.value) || 0 });
+  };
+  for (const input of [order, side, least, keep]) input.addEventListener("input", update);
+  reset.addEventListener("click", () => {
+    keep.value = String(pictured(page));
+    update();
+  });
+  said.textContent = count(first.keep);
+  const both = new Set(page.branches.map((branch) => branch.side)).size > 1;
   return html(
     "form",
     { class: "controls", submit: (event) => event.preventDefault() },
+    page.branches.length > 1 ? html("div", { class: "keep" }, html("label", {}, html("span", {}, "Keep the ", said, " most important"), keep), reset) : null,
     html("label", {}, "Sort by ", order),
     both ? html("label", {}, "Show ", side) : null,
     html("label", {}, "At least ", least, " voxels"),

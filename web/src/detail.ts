@@ -1,11 +1,16 @@
-// Everything about one object, in a dialog: what it lies in, what lies in it, what it merges into, and the commands.
+// Everything about one object, in a dialog: what it lies in, what lies in it, what merges where, its shape over its range, and the commands.
+import { Axis, drawTicks } from "./axis";
+import { drawCounts, Scale, type Line } from "./columns";
 import { commandList } from "./commands";
-import { html } from "./dom";
-import { count, value, volume } from "./format";
-import { contentsOf, describe, nameOf, rangeOf, shapeOf } from "./names";
+import { html, svg } from "./dom";
+import { count, plural, value, volume } from "./format";
+import { anchorOf, branchName, contentsOf, describe, entriesOf, isDark, nameOf, rangeOf, shapeOf } from "./names";
 import { rangeBar } from "./overview";
-import type { Page } from "./page";
-import { turntable } from "./turntable";
+import { branchOf, entryOf, type Page } from "./page";
+import { legend } from "./spectrum";
+import { thumbnail, turntable } from "./turntable";
+
+const mostMerges = 12;
 
 export class Detail {
   readonly dialog = html("dialog", { class: "detail", "aria-labelledby": "detail-title" });
@@ -25,19 +30,25 @@ export class Detail {
   }
 
   open(i: number): void {
-    const n = this.page.objects.length;
+    const n = this.page.entries.length;
     if (n === 0) return;
     this.shown = ((i % n) + n) % n;
     this.dialog.replaceChildren(...this.content(this.shown));
     if (!this.dialog.open) this.dialog.showModal();
+    this.dialog.scrollTop = 0;
     this.dialog.querySelector("h2")?.focus(); // what had it may be gone, and keys go on to work
-    history.replaceState(null, "", `#object-${this.shown + 1}`);
+    history.replaceState(null, "", `#${anchorOf(this.page, this.shown)}`);
   }
 
-  private content(i: number): Node[] {
+  /** By its address, "#object-3" or "#dark-1". */
+  openAt(hash: string): void {
+    const i = this.page.entries.findIndex((_, k) => `#${anchorOf(this.page, k)}` === hash);
+    if (i >= 0) this.open(i);
+  }
+
+  private content(i: number): (Node | string)[] {
     const { page } = this;
-    const entry = page.objects[i];
-    if (!entry) return [];
+    const entry = entryOf(page, i);
     const close = html("button", { type: "button", class: "close", "aria-label": "Close" }, "×");
     close.addEventListener("click", () => this.dialog.close());
     const step = (by: number, label: string): HTMLElement => {
@@ -55,45 +66,106 @@ export class Detail {
         { class: "facts" },
         ...this.facts(i).flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)]),
       ),
+      this.shape(i) ?? "",
+      this.merges(i) ?? "",
       html("h3", {}, "Get it"),
-      commandList(entry),
+      commandList(entry.commands),
     ];
   }
 
   private sentence(i: number): string {
-    const entry = this.page.objects[i];
-    if (!entry) return "";
-    const steady = `Between ${value(entry.low)} and ${value(entry.high)} its shape stays the same: ${shapeOf(entry)}.`;
+    const { page } = this;
+    const entry = entryOf(page, i);
+    const branch = branchOf(page, entry.branch);
+    const into = branch.parent >= 0 ? branchName(page, branch.parent) : branch.side === "dark" ? "the outside or another dark object" : "a larger object";
+    const [low, high] = [value(entry.low), value(entry.high)];
+    const steady = low === high ? `At ${value(entry.tau)} it has ${shapeOf(page, i)}.` : `Between ${low} and ${high} its shape stays the same: ${shapeOf(page, i)}.`;
     const end =
-      entry.merges === null
-        ? `It appears at ${value(entry.appears)} and is there at every lower isovalue.`
-        : `It appears at ${value(entry.appears)}. At ${value(entry.merges)} it merges into ${entry.into >= 0 ? nameOf(this.page, entry.into) : "a larger object"}.`;
+      branch.merges === null
+        ? `It appears at ${value(branch.appears)} and is there at every lower isovalue.`
+        : `It appears at ${value(branch.appears)}${branch.side === "dark" ? " and grows with the isovalue" : ""}. At ${value(branch.merges)} it merges into ${into}.`;
     return `${end} ${steady}`;
+  }
+
+  private link(i: number): HTMLElement {
+    const { picture } = entryOf(this.page, i);
+    const button = html("button", { type: "button", class: "link" }, picture ? thumbnail(picture) : null, nameOf(this.page, i));
+    button.addEventListener("click", () => this.open(i));
+    return button;
+  }
+
+  /** A branch, as its first entry. */
+  private branchLink(b: number): Node {
+    const [first] = entriesOf(this.page, b);
+    return first === undefined ? document.createTextNode(branchName(this.page, b)) : this.link(first);
+  }
+
+  private links(all: number[], words: (i: number) => string = () => ""): Node[] {
+    return all.map((k) => html("span", { class: "relative" }, this.link(k), words(k)));
   }
 
   private facts(i: number): [string, (Node | string)[]][] {
     const { page } = this;
-    const entry = page.objects[i];
-    if (!entry) return [];
-    const link = (k: number): Node => {
-      const button = html("button", { type: "button", class: "link" }, nameOf(page, k));
-      button.addEventListener("click", () => this.open(k));
-      return button;
-    };
-    const links = (all: number[]): (Node | string)[] => all.flatMap((k, at) => (at > 0 ? [", ", link(k)] : [link(k)]));
+    const entry = entryOf(page, i);
+    const branch = branchOf(page, entry.branch);
     const inside = contentsOf(page, i);
-    const siblings = page.objects.flatMap((other, k) => (entry.into >= 0 && other.into === entry.into && k !== i ? [k] : []));
-    const facts: [string, (Node | string)[]][] = [
-      ["best isovalue", [value(entry.best)]],
-      ["on its own", [rangeOf(entry)]],
+    const same = entriesOf(page, entry.branch).filter((k) => k !== i);
+    const siblings = page.branches.flatMap((other, b) => (branch.parent >= 0 && other.parent === branch.parent && b !== entry.branch ? entriesOf(page, b).slice(0, 1) : []));
+    const facts: [string, (Node | string)[]][] = [["shown at", [value(entry.tau), entry.why ? `: ${entry.why}` : ""]]];
+    if (same.length > 0) facts.push(["the same object", this.links(same, (k) => ` at ${value(entryOf(page, k).tau)}`)]);
+    const more = branch.isovalues ?? [];
+    if (more.length > 0) facts.push(["look also at", more.map(({ tau, why }) => html("div", {}, `${value(tau)}: ${why}`))]);
+    facts.push(
+      ["on its own", [rangeOf(branch)]],
       ["size", [volume(entry.measure, page.volume.unit), page.volume.unit === null ? "" : `, ${count(entry.voxels)} voxels`]],
-      ["contrast × size", [value(entry.hypervolume)]],
+      ["contrast × size", [value(branch.hypervolume)]],
       ["name", [String(entry.id)]],
-    ];
-    if (entry.inside >= 0) facts.push(["lies in", [link(entry.inside)]]);
-    if (inside.length > 0) facts.push(["contains", links(inside)]);
-    if (entry.into >= 0) facts.push(["merges into", [link(entry.into)]]);
-    if (siblings.length > 0) facts.push(["siblings", links(siblings)]);
+    );
+    if (entry.inside >= 0) facts.push(["lies in", this.links([entry.inside])]);
+    if (entry.around >= 0) facts.push(["a cavity of", this.links([entry.around])]);
+    if (inside.length > 0) facts.push(["contains", this.links(inside)]);
+    if (branch.parent >= 0) facts.push(["merges into", [this.branchLink(branch.parent)]]);
+    if (siblings.length > 0) facts.push(["merge into it too", this.links(siblings)]);
     return facts;
+  }
+
+  /** Tunnels and cavities from where it appears to where it merges. */
+  private shape(i: number): HTMLElement | null {
+    const { page } = this;
+    const entry = entryOf(page, i);
+    const shape = branchOf(page, entry.branch).shape;
+    if (!shape || shape.edges.length < 2) return null;
+    const lines: Line[] = [
+      { name: "tunnels", one: "tunnel", count: shape.tunnels },
+      { name: "cavities", one: "cavity", count: shape.cavities },
+    ];
+    const most = Math.max(...lines.flatMap((line) => line.count.most));
+    if (most === 0) return html("p", { class: "note" }, "It has no tunnels and no cavities at any of its isovalues.");
+    const [width, height, bottom] = [640, 140, 112];
+    const axis = new Axis(shape.edges[0] ?? 0, shape.edges.at(-1) ?? 1, width, 10, page.axis.bend);
+    const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "spectrum", role: "img", "aria-label": `At most ${plural(Math.max(...shape.tunnels.most), "tunnel")} and ${plural(Math.max(...shape.cavities.most), "cavity", "cavities")}` });
+    const x = axis.x(entry.tau);
+    drawing.append(drawTicks(axis, bottom, 7), drawCounts(shape.edges, lines, axis, new Scale(lines, 14, bottom)), svg("line", { class: "needle", x1: x, x2: x, y1: 4, y2: bottom }));
+    return html("section", {}, html("h3", {}, "Its tunnels and cavities over its isovalues"), drawing, legend(lines));
+  }
+
+  /** What merges into this object, from the first on. */
+  private merges(i: number): HTMLElement | null {
+    const { page } = this;
+    const own = entryOf(page, i).branch;
+    const arriving = page.branches.map((_, b) => b).filter((b) => branchOf(page, b).parent === own);
+    const shown = arriving.filter((b) => entriesOf(page, b).length > 0).sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
+    const joined = Math.max(branchOf(page, own).joined, shown.length);
+    if (joined === 0) return null;
+    const items = shown.slice(0, mostMerges).map((b) => html("li", {}, `at ${value(branchOf(page, b).merges ?? 0)}: `, this.branchLink(b)));
+    const rest = joined - items.length;
+    const words = isDark(page, i) ? "dark object" : "object";
+    return html(
+      "section",
+      {},
+      html("h3", {}, "What merges into it"),
+      html("ul", { class: "merges" }, ...items),
+      rest > 0 ? html("p", { class: "note" }, `${items.length > 0 ? "and " : ""}${plural(rest, items.length > 0 ? `more ${words}` : words)} without a picture`) : null,
+    );
   }
 }

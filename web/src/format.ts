@@ -6,7 +6,7 @@ const groups = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 export function value(x: number): string {
   if (x === 0) return "0";
   const size = Math.abs(x);
-  if (size >= 1e6 || size < 1e-3) return x.toExponential(2).replace("e+", "e");
+  if (size >= 1e6 || size < 1e-3) return x.toExponential(2).replace(/\.?0*e\+?/, "e");
   return String(size >= 1000 ? Math.round(x) : Number(x.toPrecision(4)));
 }
 
@@ -34,5 +34,6 @@ export function volume(measure: number, unit: string | null): string {
     size /= factor ** 3;
     name = larger;
   }
-  return `${value(Number(size.toPrecision(3)))} ${name}³`;
+  const digits = Number(size.toPrecision(3));
+  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}³`;
 }

@@ -1,95 +1,115 @@
-// All objects over the isovalue axis: a line for each, as long as it is on its own, from where it appears (right) to where it merges (left),
-// and down to the object it merges into. The histogram lies behind.
-import { Axis, drawTicks, histogramPath } from "./axis";
+// All objects over the isovalue axis: a line for each, as long as it is on its own, from where it appears to where it merges, and on to the
+// object it merges into. Bright ones grow to the left, dark ones to the right. The histogram lies behind.
+import { Axis, axisName, drawingWidth, drawTicks, histogramPath } from "./axis";
 import { svg } from "./dom";
 import { value } from "./format";
-import { describe, nameOf } from "./names";
-import type { Page } from "./page";
+import { describe, entriesOf, isDark, nameOf, numberOf } from "./names";
+import { branchOf, entryOf, type Page } from "./page";
 
-const laneHeight = 22;
 const head = 90;
+const neutral = "var(--soft)";
 
-/** Objects that merge into one lie below it: a walk over the tree. The trunk has one lane, whatever isovalues show of it. */
-export function lanesOf(page: Page): number[] {
-  const lane = page.objects.map(() => -1);
+/** Per branch its lane, -1: not kept. What merges into a branch lies below it: a walk over the tree; bright ones first. */
+export function lanesOf(page: Page, kept: Set<number>): number[] {
+  const lane = page.branches.map(() => -1);
+  const children = new Map<number, number[]>();
+  for (const b of kept) {
+    const parent = keptParent(page, kept, b);
+    children.set(parent, [...(children.get(parent) ?? []), b]);
+  }
+  const waiting = (children.get(-1) ?? []).sort((p, q) => q - p);
   let next = 0;
-  const place = (i: number): void => {
-    const entry = page.objects[i];
-    if (!entry || (lane[i] ?? 0) >= 0) return;
-    const mine = next++;
-    page.objects.forEach((other, k) => {
-      if (k === i || (entry.trunk && other.trunk && other.side === entry.side)) lane[k] = mine;
-    });
-    page.objects.forEach((other, k) => {
-      if (other.into >= 0 && lane[other.into] === mine) place(k);
-    });
-  };
-  page.objects.forEach((entry, i) => {
-    if (entry.into < 0) place(i);
-  });
-  page.objects.forEach((_, i) => place(i));
+  for (let b = waiting.pop(); b !== undefined; b = waiting.pop()) {
+    lane[b] = next++;
+    waiting.push(...(children.get(b) ?? []).sort((p, q) => q - p));
+  }
   return lane;
 }
 
-export function overview(page: Page, open: (i: number) => void): SVGSVGElement {
-  const width = 1000;
-  const axis = new Axis(page.histogram.low, page.histogram.high, width, 14);
-  const lane = lanesOf(page);
-  const height = head + (Math.max(-1, ...lane) + 1) * laneHeight + 40;
-  const y = (i: number): number => head + (lane[i] ?? 0) * laneHeight + laneHeight / 2;
-  const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "overview", role: "group", "aria-label": "Objects over the isovalue" });
-  drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, height - 30) }));
-  drawing.append(drawTicks(axis, height - 30, 9));
-  const seen = new Set<number>();
-  page.objects.forEach((entry, i) => {
-    const row = lane[i] ?? 0;
-    if (!seen.has(row)) {
-      seen.add(row);
-      const from = axis.x(entry.merges ?? page.histogram.low);
-      drawing.append(svg("line", { class: "branch", x1: from, x2: axis.x(entry.appears), y1: y(i), y2: y(i), stroke: entry.colour }));
-      if (entry.into >= 0)
-        drawing.append(svg("line", { class: "merge", x1: from, x2: from, y1: y(i), y2: y(entry.into), stroke: entry.colour }));
-    }
-    const x = axis.x(entry.best);
-    const [left, right] = [axis.x(entry.low), axis.x(entry.high)];
-    const mark = svg("g", { class: "mark", tabindex: 0, role: "button", "aria-label": describe(page, i) });
-    mark.append(
-      svg("title", {}, describe(page, i)),
-      svg("line", { class: "steady", x1: left, x2: Math.max(right, left + 3), y1: y(i), y2: y(i), stroke: entry.colour }),
-      svg("circle", { cx: x, cy: y(i), r: 9, fill: entry.colour }),
-      svg("text", { x, y: y(i) + 4, "text-anchor": "middle" }, String(i + 1)),
-    );
-    mark.addEventListener("click", () => open(i));
-    mark.addEventListener("keydown", (event) => {
-      if (event.key === "Enter" || event.key === " ") open(i);
-    });
-    drawing.append(mark);
-  });
-  drawing.append(svg("text", { class: "caption", x: width - 14, y: height - 2, "text-anchor": "end" }, axisName(page)));
+/** The closest branch that is kept, of those that go on where this one merges. */
+export function keptParent(page: Page, kept: Set<number>, b: number): number {
+  let parent = branchOf(page, b).parent;
+  while (parent >= 0 && !kept.has(parent)) parent = branchOf(page, parent).parent;
+  return parent;
+}
+
+export function overview(page: Page, kept: Set<number>, open: (i: number) => void): SVGSVGElement {
+  const width = drawingWidth();
+  const axis = Axis.of(page, width, 14);
+  const lane = lanesOf(page, kept);
+  const lanes = Math.max(-1, ...lane) + 1;
+  const laneHeight = Math.max(3, Math.min(22, 880 / Math.max(1, lanes)));
+  const bottom = head + lanes * laneHeight + 10;
+  const y = (b: number): number => head + ((lane[b] ?? 0) + 0.5) * laneHeight;
+  const drawing = svg("svg", { viewBox: `0 0 ${width} ${bottom + 36}`, class: "overview", role: "group", "aria-label": "Objects over the isovalue" });
+  drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }), drawTicks(axis, bottom, width / 110));
+  for (const b of kept) drawing.append(...branchLines(page, kept, b, axis, y));
+  for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(steadyLine(page, i, axis, y(b)));
+  for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), Math.min(9, laneHeight), open));
+  drawing.append(svg("text", { class: "caption", x: width - 14, y: bottom + 32, "text-anchor": "end" }, axisName(page)));
   return drawing;
 }
 
-function axisName(page: Page): string {
-  return `isovalue${page.volume.valueUnit ? `, ${page.volume.valueUnit}` : ""}`;
+function branchLines(page: Page, kept: Set<number>, b: number, axis: Axis, y: (b: number) => number): SVGLineElement[] {
+  const branch = branchOf(page, b);
+  const [first] = entriesOf(page, b);
+  const stroke = first === undefined ? neutral : entryOf(page, first).colour;
+  const end = axis.x(branch.merges ?? page.axis.low);
+  const kind = first === undefined ? "branch thin" : `branch ${branch.side}`;
+  const lines = [svg("line", { class: kind, x1: end, x2: axis.x(branch.appears), y1: y(b), y2: y(b), style: `--colour: ${stroke}` })];
+  const parent = keptParent(page, kept, b);
+  if (parent >= 0) lines.push(svg("line", { class: "merge", x1: end, x2: end, y1: y(b), y2: y(parent), style: `--colour: ${stroke}` }));
+  return lines;
+}
+
+/** Where its tunnels and cavities stay what they are. */
+function steadyLine(page: Page, i: number, axis: Axis, y: number): SVGLineElement {
+  const entry = entryOf(page, i);
+  const [left, right] = [axis.x(entry.low), axis.x(entry.high)];
+  return svg("line", { class: "steady", x1: left, x2: Math.max(right, left + 3), y1: y, y2: y, stroke: entry.colour });
+}
+
+function mark(page: Page, i: number, axis: Axis, y: number, radius: number, open: (i: number) => void): SVGGElement {
+  const entry = entryOf(page, i);
+  const x = axis.x(entry.tau);
+  const group = svg("g", { class: `mark ${isDark(page, i) ? "dark" : "bright"}`, tabindex: 0, role: "button", "aria-label": describe(page, i) });
+  const shape = isDark(page, i)
+    ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
+    : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });
+  group.append(svg("title", {}, describe(page, i)), shape);
+  if (radius >= 7) group.append(svg("text", { class: isDeep(entry.colour) ? "on-deep" : undefined, x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
+  group.addEventListener("click", () => open(i));
+  group.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    open(i);
+  });
+  return group;
+}
+
+/** Is white easier to read on it than black? colour: #rrggbb. */
+export function isDeep(colour: string): boolean {
+  const [red, green, blue] = [1, 3, 5].map((at) => (parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2) as [number, number, number];
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.18; // where both have the same contrast (WCAG)
 }
 
 /** The axis of one card. */
 export function rangeBar(page: Page, i: number): SVGSVGElement {
-  const entry = page.objects[i];
+  const entry = entryOf(page, i);
+  const branch = branchOf(page, entry.branch);
   const [width, height] = [280, 44];
-  const axis = new Axis(page.histogram.low, page.histogram.high, width, 6);
-  const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "range", "aria-hidden": "true" });
+  const axis = Axis.of(page, width, 6);
+  const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "range", "aria-hidden": "true", style: `--colour: ${entry.colour}` });
   drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 2, 32) }));
-  if (!entry) return drawing;
-  const bar = (from: number, to: number, kind: string): void => {
-    const [a, b] = [axis.x(from), axis.x(to)];
-    drawing.append(svg("rect", { class: kind, x: a, y: kind === "whole" ? 33 : 31, width: Math.max(b - a, 2), height: kind === "whole" ? 4 : 8, fill: entry.colour }));
+  const bar = (from: number, to: number, kind: string, y: number, thick: number): void => {
+    const [a, b] = [axis.x(from), axis.x(to)].sort((p, q) => p - q) as [number, number];
+    drawing.append(svg("rect", { class: kind, x: a, y, width: Math.max(b - a, 2), height: thick }));
   };
-  bar(entry.merges ?? page.histogram.low, entry.appears, "whole");
-  bar(entry.low, entry.high, "steady");
+  bar(branch.merges ?? page.axis.low, branch.appears, "whole", 33, 4);
+  bar(entry.low, entry.high, "steady", 31, 8);
   drawing.append(
-    svg("title", {}, `${nameOf(page, i)} at ${value(entry.best)}`),
-    svg("path", { class: "needle", d: `M${axis.x(entry.best)} 4V40` }),
+    svg("title", {}, `${nameOf(page, i)} at ${value(entry.tau)}`),
+    svg("path", { class: "needle", d: `M${axis.x(entry.tau)} 4V40` }),
   );
   return drawing;
 }

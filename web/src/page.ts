@@ -1,22 +1,70 @@
-// What `isoatlas` writes into the page: docs/schema/page.schema.json.
+// What `isoatlas` writes into the page: docs/schema/page.schema.json. Values are in units of the file.
 
-/** A turntable: frames side by side in one picture, from the front once around. */
+/** A turntable: square frames side by side in one picture, from the front once around. */
 export interface Picture {
   /** data: URI */
   image: string;
   frames: number;
-  width: number;
-  height: number;
+  /** pixels of a frame */
+  side: number;
 }
 
-/** An object at the isovalue that shows it best. Values are in units of the file. */
-export interface Entry {
+export type Side = "bright" | "dark";
+
+/** A count over columns of isovalues: between least and most; without `least` it is `most` everywhere in the column. */
+export interface Count {
+  most: number[];
+  least?: number[];
+}
+
+/** Counts in the isovalues (edges[i], edges[i + 1]]. */
+export interface Shape {
+  edges: number[];
+  tunnels: Count;
+  cavities: Count;
+}
+
+export interface Counts {
+  objects: Count;
+  contours: Count;
+  tunnels: Count;
+  cavities: Count;
+}
+
+/** Of all objects, and of those that hold one that stands out. */
+export interface Spectrum {
+  edges: number[];
+  all: Counts;
+  essential: Counts;
+}
+
+/** An object of the volume, on its own between appears and merges. Bright ones by rank, then dark ones by rank. */
+export interface Branch {
+  side: Side;
   id: number;
-  side: "bright" | "dark";
   appears: number;
   /** null: it never merges into another one */
   merges: number | null;
-  best: number;
+  /** the branch that goes on where this one merges, -1: none of this page */
+  parent: number;
+  /** contrast x size: the rank */
+  hypervolume: number;
+  /** just before it merges */
+  voxels: number;
+  measure: number;
+  /** objects that merge into it, those that are not on this page included */
+  joined: number;
+  standsOut: boolean;
+  shape?: Shape | null;
+  /** others that show it well, without an entry */
+  isovalues?: { tau: number; why: string }[];
+}
+
+/** A branch at an isovalue that shows it. */
+export interface Entry {
+  branch: number;
+  id: number;
+  tau: number;
   /** between these it keeps its tunnels and cavities */
   low: number;
   high: number;
@@ -24,36 +72,36 @@ export interface Entry {
   /** physical volume, or voxels where the file has no unit */
   measure: number;
   tunnels: number;
+  /** of a dark object: bright objects inside it */
   cavities: number;
-  hypervolume: number;
   /** the entry it lies in, -1: none */
   inside: number;
-  /** the entry whose object it merges into when the isovalue goes on, -1: none that is shown */
-  into: number;
-  trunk: boolean;
-  note: string;
+  /** of a dark object: the entry of the object that it is a cavity of, -1: none */
+  around: number;
+  /** why this isovalue: in a word, and in a sentence; empty: not known */
+  reason: string;
+  why: string;
   colour: string;
   picture: Picture | null;
   commands: { name: string; line: string }[];
 }
 
+/** counts[i] samples from edges[i] to edges[i + 1]. */
 export interface Histogram {
-  low: number;
-  high: number;
+  edges: number[];
   counts: number[];
 }
 
-/** How many there are at the isovalues tau[i]. */
-export interface Spectrum {
-  tau: number[];
-  objects: number[];
-  contours: number[];
-  tunnels: number[];
-  cavities: number[];
+/** kept[i] objects have at least a contrast x size of threshold[i], which descends. */
+export interface Curve {
+  threshold: number[];
+  kept: number[];
+  automaticThreshold: number;
+  automaticKept: number;
 }
 
 export interface Page {
-  schema: "isoatlas/page/1";
+  schema: "isoatlas/page/2";
   version: string;
   volume: {
     name: string;
@@ -68,16 +116,31 @@ export interface Page {
     noise: number;
   };
   interpolant: string;
-  /** objects in all, and the rule that chose those on the page */
-  branches: number;
-  rule: string;
+  /** how many there are in all, and how many of them noise does not explain and are not tiny */
+  objects: Record<Side, { all: number; standingOut: number }>;
+  /** bend: null for a linear axis; else equal steps of asinh((value - low) / bend) */
+  axis: { low: number; high: number; bend: number | null };
   histogram: Histogram;
-  objects: Entry[];
   spectrum: Spectrum | null;
+  curve: Curve;
+  branches: Branch[];
+  entries: Entry[];
 }
 
 export function readPage(text: string): Page | null {
   const page = JSON.parse(text) as Page | null;
-  if (page !== null && page.schema !== "isoatlas/page/1") throw new Error(`unknown page: ${String(page.schema)}`);
+  if (page !== null && page.schema !== "isoatlas/page/2") throw new Error(`unknown page: ${String(page.schema)}`);
   return page;
+}
+
+export function entryOf(page: Page, i: number): Entry {
+  const entry = page.entries[i];
+  if (!entry) throw new Error(`no entry ${i}`);
+  return entry;
+}
+
+export function branchOf(page: Page, b: number): Branch {
+  const branch = page.branches[b];
+  if (!branch) throw new Error(`no branch ${b}`);
+  return branch;
 }

@@ -1,45 +1,73 @@
 // How many objects, contours, tunnels and cavities there are at every isovalue.
-import { Axis, drawTicks } from "./axis";
+import { Axis, axisName, drawingWidth, drawTicks } from "./axis";
+import { columnAt, countWords, drawCounts, Scale, type Line } from "./columns";
 import { html, svg } from "./dom";
-import { count, value } from "./format";
-import type { Page, Spectrum } from "./page";
+import { value } from "./format";
+import type { Counts, Page } from "./page";
 
-const lines: [keyof Omit<Spectrum, "tau">, string][] = [
-  ["objects", "objects"],
-  ["contours", "contours"],
-  ["tunnels", "tunnels"],
-  ["cavities", "cavities"],
-];
+function linesOf(counts: Counts): Line[] {
+  return [
+    { name: "objects", one: "object", count: counts.objects },
+    { name: "contours", one: "contour", count: counts.contours },
+    { name: "tunnels", one: "tunnel", count: counts.tunnels },
+    { name: "cavities", one: "cavity", count: counts.cavities },
+  ];
+}
 
-/** A staircase: counts hold from an isovalue to the next one. */
-function staircase(x: number[], y: number[]): string {
-  return x.map((at, i) => (i === 0 ? `M${at.toFixed(1)} ${(y[0] ?? 0).toFixed(1)}` : `H${at.toFixed(1)}V${(y[i] ?? 0).toFixed(1)}`)).join("");
+export function legend(lines: Line[]): HTMLElement {
+  return html("p", { class: "legend" }, ...lines.map((line) => html("span", { class: line.name }, line.name)));
 }
 
 export function spectrum(page: Page): HTMLElement | null {
   const data = page.spectrum;
-  if (!data || data.tau.length < 2) return null;
-  const [width, height, bottom] = [1000, 240, 205];
-  const axis = new Axis(page.histogram.low, page.histogram.high, width, 14);
-  const most = Math.log1p(Math.max(1, ...lines.flatMap(([key]) => data[key])));
+  if (!data || data.edges.length < 2) return null;
+  const [width, height, bottom] = [drawingWidth(), 250, 210];
+  const axis = Axis.of(page, width, 14);
+  const whole = new Scale(linesOf(data.all), 14, bottom);
+  const which = html("select", { name: "counted" }, html("option", { value: "all" }, "everything"), html("option", { value: "essential" }, "objects that stand out"));
+  const at = html("input", { type: "range", name: "isovalue", min: 0, max: data.edges.length - 2, step: 1, value: 0, "aria-label": "Isovalue of the counts" });
+  const readout = html("output", { class: "readout", "aria-live": "polite" });
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "spectrum", role: "img", "aria-label": "Counts over the isovalue, logarithmic" });
-  drawing.append(drawTicks(axis, bottom, 9));
-  for (let ten = 1; Math.log1p(ten) <= most; ten *= 10) {
-    const y = bottom - (Math.log1p(ten) / most) * (bottom - 10);
-    drawing.append(svg("line", { class: "grid", x1: 14, x2: width - 14, y1: y, y2: y }), svg("text", { class: "grid", x: 16, y: y - 3 }, count(ten)));
-  }
-  const x = data.tau.map((tau) => axis.x(tau));
-  for (const [key] of lines) {
-    const y = data[key].map((n) => bottom - (Math.log1p(Math.max(0, n)) / most) * (bottom - 10));
-    drawing.append(svg("path", { class: `count ${key}`, d: staircase(x, y) }));
-  }
-  const legend = html("p", { class: "legend" }, ...lines.map(([key, name]) => html("span", { class: key }, name)));
-  const readout = html("output", { class: "readout", "aria-live": "polite" }, "Move over the picture to read numbers.");
+  const needle = svg("line", { class: "needle", y1: 8, y2: bottom });
+  const lines = (): Line[] => linesOf(which.value === "all" ? data.all : data.essential);
+  const draw = (): void => {
+    drawing.replaceChildren(
+      drawTicks(axis, bottom, width / 110),
+      drawCounts(data.edges, lines(), axis, whole),
+      needle,
+      svg("text", { class: "caption", x: width - 14, y: height - 4, "text-anchor": "end" }, axisName(page)),
+    );
+  };
+  const read = (): void => {
+    const column = Number(at.value);
+    const [low, high] = [data.edges[column] ?? 0, data.edges[column + 1] ?? 0];
+    const x = axis.x((low + high) / 2);
+    needle.setAttribute("x1", String(x));
+    needle.setAttribute("x2", String(x));
+    const words = `above ${value(low)} up to ${value(high)}: ${lines().map((line) => countWords(line, column)).join(", ")}`;
+    at.setAttribute("aria-valuetext", words);
+    readout.textContent = words;
+  };
   drawing.addEventListener("pointermove", (event) => {
     const box = drawing.getBoundingClientRect();
-    const tau = axis.tau(((event.clientX - box.left) / box.width) * width);
-    const i = Math.max(0, data.tau.findLastIndex((at) => at <= tau));
-    readout.textContent = `${value(tau)}: ${lines.map(([key, name]) => `${count(data[key][i] ?? 0)} ${name}`).join(", ")}`;
+    at.value = String(columnAt(data.edges, axis.tau(((event.clientX - box.left) / box.width) * width)));
+    read();
   });
-  return html("section", { class: "panel" }, html("h2", {}, "How many at which isovalue"), drawing, legend, readout);
+  at.addEventListener("input", read);
+  which.addEventListener("input", () => {
+    draw();
+    read();
+  });
+  at.value = String(columnAt(data.edges, page.entries[0]?.tau ?? page.axis.low));
+  draw();
+  read();
+  return html(
+    "section",
+    { class: "panel" },
+    html("h2", {}, "How many at which isovalue"),
+    html("div", { class: "controls" }, html("label", {}, "Count ", which), html("label", { class: "at" }, "at ", at)),
+    drawing,
+    legend(lines()),
+    readout,
+  );
 }

@@ -2,13 +2,19 @@
 import { html } from "./dom";
 import type { Picture } from "./page";
 
+/** Its first frame, small; what it shows is said beside it. */
+export function thumbnail(picture: Picture): HTMLElement {
+  const strip = html("img", { src: picture.image, alt: "" });
+  strip.style.width = `${picture.frames * 100}%`;
+  return html("span", { class: "thumbnail", "aria-hidden": "true" }, strip);
+}
+
 export function turntable(picture: Picture, label: string): HTMLElement {
   const view = html("div", {
     class: "turntable",
     role: "img",
     "aria-label": label,
     tabindex: picture.frames > 1 ? 0 : undefined,
-    style: `aspect-ratio: ${picture.width} / ${picture.height}`,
   });
   const strip = html("img", { src: picture.image, alt: "", draggable: "false" });
   strip.style.width = `${picture.frames * 100}%`;

@@ -6,7 +6,7 @@ import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Page } from "../src/page";
-import { entry, page, scene } from "./sample";
+import { branch, entry, page, scene } from "./sample";
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
 const bundled = fileURLToPath(new URL("../dist/atlas.html", import.meta.url));
@@ -42,13 +42,70 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await tab.close();
   });
 
+  it("keeps more or fewer objects at once, by keyboard too, and says what is hidden", async () => {
+    const { tab, problems } = await open(scene);
+    const keep = tab.getByRole("slider", { name: /^Keep the/ });
+    expect(await keep.inputValue()).toBe("3");
+    await keep.focus();
+    await tab.keyboard.press("Home");
+    expect(await tab.locator(".card .title").allTextContents()).toEqual(["Object 1", "Object 2"]);
+    expect(await tab.locator(".overview .branch").count()).toBe(1);
+    await tab.keyboard.press("End");
+    expect(await keep.getAttribute("aria-valuetext")).toBe("4 of 4 objects");
+    expect(await tab.locator(".overview .branch").count()).toBe(4);
+    expect(await tab.locator(".others tbody tr").count()).toBe(1);
+    await tab.getByRole("button", { name: "Automatic" }).click();
+    expect(await keep.inputValue()).toBe("3");
+    expect(await tab.locator(".others").count()).toBe(0);
+    expect(await tab.locator(".about").textContent()).toContain("1,231 are hidden");
+    expect(await tab.getByRole("img", { name: "1,234 objects without a threshold, 3 chosen automatically, the least of them 800" }).count()).toBe(1);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("shows dark objects apart, and says what they are", async () => {
+    const { tab } = await open(scene, "#dark-1");
+    expect(await tab.locator(".dark-part .card").count()).toBe(1);
+    expect(await tab.locator(".dark-part").textContent()).toContain("a cavity of object 1");
+    const dialog = tab.getByRole("dialog", { name: "Dark object 1" });
+    expect(await dialog.textContent()).toContain("grows with the isovalue");
+    await dialog.getByRole("button", { name: "Object 1", exact: true }).click();
+    expect(await tab.getByRole("dialog", { name: "Object 1" }).textContent()).toContain("at 30: Object 3");
+    expect(await tab.getByRole("dialog").textContent()).toContain("and 40 more objects without a picture");
+    await tab.close();
+  });
+
+  it("reads counts out at an isovalue, by keyboard", async () => {
+    const { tab } = await open(scene);
+    const at = tab.getByRole("slider", { name: "Isovalue of the counts" });
+    await at.focus();
+    await tab.keyboard.press("Home");
+    expect(await tab.locator(".readout").textContent()).toBe("above 0 up to 25: 1 object, 1 contour, no tunnels, no cavities");
+    await tab.keyboard.press("ArrowRight");
+    expect(await at.getAttribute("aria-valuetext")).toContain("20 objects, 3 contours, 2 to 5 tunnels, 1 cavity");
+    await tab.selectOption("select[name=counted]", "essential");
+    expect(await tab.locator(".readout").textContent()).toContain("2 objects");
+    await tab.close();
+  });
+
+  it("gives everything that can be reached a name", async () => {
+    const { tab } = await open(scene, "#object-1");
+    const nameless = await tab.evaluate(() =>
+      [...document.querySelectorAll("button, select, input, [tabindex='0'], [role=img], [role=button]")]
+        .filter((e) => !(e.getAttribute("aria-label") || e.textContent?.trim() || (e as HTMLInputElement).labels?.length))
+        .map((e) => e.outerHTML.slice(0, 80)),
+    );
+    expect(nameless).toEqual([]);
+    await tab.close();
+  });
+
   it("sorts and filters", async () => {
     const { tab } = await open(scene);
     await tab.selectOption("select[name=order]", "size");
-    expect(await tab.locator(".card .title").allTextContents()).toEqual(["Object 1", "Object 2", "Dark object 4", "Object 3"]);
+    expect(await tab.locator(".card .title").allTextContents()).toEqual(["Object 1", "Object 2", "Object 3", "Dark object 1"]);
     await tab.selectOption("select[name=side]", "dark");
     expect(await tab.locator(".card").count()).toBe(1);
-    expect(await tab.locator(".said").textContent()).toBe("1 of 4 shown");
+    expect(await tab.locator(".said").textContent()).toBe("1 of 4 pictures shown");
     await tab.close();
   });
 
@@ -61,7 +118,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     expect(await dialog.locator("h2").textContent()).toBe("Object 1");
     expect(await tab.evaluate(() => location.hash)).toBe("#object-1");
     await tab.keyboard.press("ArrowLeft");
-    expect(await dialog.locator("h2").textContent()).toBe("Dark object 4");
+    expect(await dialog.locator("h2").textContent()).toBe("Dark object 1");
     await tab.keyboard.press("Escape");
     expect(await dialog.isVisible()).toBe(false);
     await tab.locator(".overview .mark").nth(1).focus();
@@ -71,7 +128,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   });
 
   it("turns pictures by keyboard and pointer", async () => {
-    const { tab } = await open(page([entry({ picture: { image: pixel, frames: 4, width: 1, height: 1 } })]));
+    const { tab } = await open(page([branch({})], [entry({ picture: { image: pixel, frames: 4, side: 1 } })]));
     const picture = tab.locator(".card .turntable");
     await picture.focus();
     await tab.keyboard.press("ArrowRight");
@@ -83,12 +140,23 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   });
 
   it("says so when there is nothing, and does not take names for markup", async () => {
-    const nothing = page([]);
+    const nothing = page([], []);
     nothing.volume.name = "</script><b>x";
     nothing.spectrum = null;
     const { tab, problems } = await open(nothing);
     expect(await tab.locator("h1").textContent()).toBe("</script><b>x");
     expect(await tab.locator(".about").textContent()).toContain("nothing to show");
+    const constant = page([branch({})], [entry({})]);
+    constant.volume.high = constant.volume.low;
+    const same = await open(constant);
+    expect(await same.tab.locator("main").textContent()).toContain("All samples have one value");
+    expect(await same.tab.locator(".card, .overview").count()).toBe(0);
+    await same.tab.close();
+    const noise = page([branch({})], [entry({})]);
+    noise.volume.noise = 30;
+    const noisy = await open(noise);
+    expect(await noisy.tab.locator(".about").textContent()).toContain("may be nothing but noise");
+    await noisy.tab.close();
     const empty = await open(null);
     expect(await empty.tab.locator("main").textContent()).toContain("no data");
     expect([...problems, ...empty.problems]).toEqual([]);
@@ -99,6 +167,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   it("fits a phone", async () => {
     const { tab } = await open(scene);
     await tab.setViewportSize({ width: 360, height: 700 });
+    await tab.locator('.overview[viewBox^="0 0 430"]').waitFor(); // drawn anew, or its letters would be too small
     expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
     await tab.close();
   });

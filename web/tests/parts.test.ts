@@ -1,15 +1,18 @@
 import { describe, expect, it } from "vitest";
 import { Axis, histogramPath } from "../src/axis";
-import { chosen } from "../src/controls";
+import { chosenBranches, chosenEntries, firstChoice, ranked } from "../src/choice";
+import { columnAt, countPath, countWords, Scale } from "../src/columns";
+import { hiddenWords } from "../src/curve";
 import { plural, value, volume } from "../src/format";
-import { contentsOf, describe as said, nameOf, rangeOf } from "../src/names";
-import { lanesOf } from "../src/overview";
+import { anchorOf, branchName, contentsOf, describe as said, nameOf, placeOf, rangeOf, reasonOf } from "../src/names";
+import { largestAt } from "../src/others";
+import { isDeep, lanesOf } from "../src/overview";
 import { readPage } from "../src/page";
-import { page, scene } from "./sample";
+import { branch, page, scene } from "./sample";
 
 describe("numbers", () => {
   it("have about four digits", () => {
-    expect([0, 627.2656, 12345.6, 0.00012, 2.5e7, -3.25].map(value)).toEqual(["0", "627.3", "12346", "1.20e-4", "2.50e7", "-3.25"]);
+    expect([0, 627.2656, 12345.6, 0.00012, 2.5e7, -3.25].map(value)).toEqual(["0", "627.3", "12346", "1.2e-4", "2.5e7", "-3.25"]);
   });
   it("count things", () => {
     expect(plural(0, "tunnel")).toBe("no tunnels");
@@ -25,43 +28,96 @@ describe("numbers", () => {
 });
 
 describe("the axis", () => {
-  it("maps isovalues there and back", () => {
-    const axis = new Axis(-100, 300, 1000, 20);
-    for (const tau of [-100, 0, 17.5, 300]) expect(axis.tau(axis.x(tau))).toBeCloseTo(tau);
-    expect(axis.x(1e9)).toBe(980);
+  it("maps isovalues there and back, linear and bent", () => {
+    for (const axis of [new Axis(-100, 300, 1000, 20), new Axis(-100, 300, 1000, 20, 5)]) {
+      for (const tau of [-100, 0, 17.5, 300]) expect(axis.tau(axis.x(tau))).toBeCloseTo(tau);
+      expect([axis.x(-100), axis.x(1e9)]).toEqual([20, 980]);
+    }
   });
   it("has round ticks within its range, also for one value", () => {
     expect(new Axis(0, 255, 100).ticks(6)).toEqual([0, 50, 100, 150, 200, 250]);
     expect(new Axis(0.1, 0.3, 100).ticks(4)).toEqual([0.1, 0.15, 0.2, 0.25, 0.3]);
     expect(new Axis(5, 5, 100).ticks(4)).toEqual([5]);
   });
+  it("has round ticks that keep their distance when it is bent", () => {
+    const axis = new Axis(0, 60000, 1000, 0, 500);
+    const ticks = axis.ticks(8);
+    expect(ticks.slice(1).every((tau) => [1, 2, 5].includes(Number(String(tau)[0])))).toBe(true);
+    expect(ticks.slice(1).every((tau, i) => axis.x(tau) - axis.x(ticks[i]!) >= 125)).toBe(true);
+  });
   it("draws a closed histogram", () => {
-    expect(histogramPath({ low: 0, high: 2, counts: [0, 9] }, new Axis(0, 2, 100), 0, 50)).toBe("M0.0 50L0.0 50.0L50.0 50.0L50.0 0.0L100.0 0.0L100.0 50Z");
+    expect(histogramPath({ edges: [0, 1, 2], counts: [0, 9] }, new Axis(0, 2, 100), 0, 50)).toBe("M0.0 50V50.0H50.0V0.0H100.0V50Z");
+  });
+});
+
+describe("counts over the isovalue", () => {
+  const line = { name: "tunnels", one: "tunnel", count: scene.spectrum!.all.tunnels };
+  it("are read in the column that holds an isovalue", () => {
+    expect([-5, 0, 25, 25.1, 60, 100, 999].map((tau) => columnAt(scene.spectrum!.edges, tau))).toEqual([0, 0, 0, 1, 2, 3, 3]);
+    expect([0, 1, 2].map((column) => countWords(line, column))).toEqual(["no tunnels", "2 to 5 tunnels", "1 tunnel"]);
+  });
+  it("are drawn as a staircase, or a band", () => {
+    const scale = new Scale([{ name: "x", one: "x", count: { most: [Math.expm1(1)] } }], 0, 10);
+    expect(countPath([0, 50, 100], { most: [0, Math.expm1(1)], least: [0, 0] }, new Axis(0, 100, 100), scale)).toBe("M0.0 10.0H50.0V0.0V10.0V0.0H100.0");
   });
 });
 
 describe("objects", () => {
-  it("of one branch share a lane, and what merges into them lies below", () => {
-    expect(lanesOf(scene)).toEqual([0, 0, 1, 2]);
-    expect(lanesOf(page([]))).toEqual([]);
+  const all = new Set([0, 1, 2, 3]);
+  it("have lanes; what merges into one lies below it, dark ones last, those not kept nowhere", () => {
+    expect(lanesOf(scene, all)).toEqual([0, 1, 2, 3]);
+    expect(lanesOf(scene, new Set([0, 2]))).toEqual([0, -1, 1, -1]);
+    expect(lanesOf(page([], []), new Set())).toEqual([]);
+  });
+  it("are kept by rank, those with a picture first", () => {
+    expect(ranked(scene)).toEqual([0, 1, 3, 2]);
+    expect([...chosenBranches(scene, firstChoice(scene))]).toEqual([0, 1, 3]);
+    expect([...chosenBranches(scene, { ...firstChoice(scene), keep: 4 })]).toEqual([0, 1, 3, 2]);
+    expect(chosenEntries(scene, { ...firstChoice(scene), keep: 1 })).toEqual([0, 1]);
   });
   it("are sorted and filtered, ties by rank", () => {
-    expect(chosen(scene, "rank", "all", 0)).toEqual([0, 1, 2, 3]);
-    expect(chosen(scene, "size", "all", 0)).toEqual([0, 1, 3, 2]);
-    expect(chosen(scene, "size", "bright", 50)).toEqual([0, 1]);
-    expect(chosen(scene, "cavities", "dark", 0)).toEqual([3]);
+    const choice = firstChoice(scene);
+    expect(chosenEntries(scene, choice)).toEqual([0, 1, 2, 3]);
+    expect(chosenEntries(scene, { ...choice, order: "size" })).toEqual([0, 1, 3, 2]);
+    expect(chosenEntries(scene, { ...choice, side: "bright", least: 50 })).toEqual([0, 1]);
+    expect(chosenEntries(scene, { ...choice, order: "cavities", side: "dark" })).toEqual([3]);
   });
   it("have names and sentences", () => {
-    expect(nameOf(scene, 3)).toBe("Dark object 4");
+    expect([nameOf(scene, 2), nameOf(scene, 3), anchorOf(scene, 3)]).toEqual(["Object 3", "Dark object 1", "dark-1"]);
     expect(said(scene, 0)).toBe("Object 1 at isovalue 50: 10 cm³, 2 tunnels, no cavities");
-    expect(rangeOf(scene.objects[2]!)).toBe("30 to 95");
-    expect(contentsOf(scene, 0)).toEqual([1, 2]);
+    expect([rangeOf(scene.branches[1]!), rangeOf(scene.branches[3]!)]).toEqual(["30 to 95", "10 to 70"]);
+    expect(contentsOf(scene, 0)).toEqual([1, 2, 3]);
+    expect([placeOf(scene, 0), placeOf(scene, 3)]).toEqual(["", "a cavity of object 1"]);
+    expect([reasonOf(scene, 0), reasonOf(scene, 1)]).toEqual(["", "sharp boundary"]);
+    expect([branchName(scene, 0), branchName(scene, 2)]).toEqual(["Object 1", "the object 9"]);
+  });
+  it("have numbers that can be read on their colour", () => {
+    expect(["#0072b2", "#56b4e9", "#f0e442", "#d55e00"].map(isDeep)).toEqual([true, false, false, false]);
+  });
+  it("without a picture are named where they are largest, on their own", () => {
+    const tau = largestAt(scene.branches[2]!);
+    expect(tau).toBeGreaterThan(60);
+    expect(tau).toBeLessThan(61);
+  });
+});
+
+describe("what is hidden", () => {
+  it("is counted, with the reason", () => {
+    expect(hiddenWords(scene)).toEqual([
+      "1,234 objects in all, 2 shown. 1 more stand out but come later by rank: --top 7 draws them too. 1,231 are hidden: noise alone explains them, or they are tiny beside the largest.",
+      "77 dark objects in all, 1 shown. 76 are hidden: noise alone explains them, or they are tiny beside the largest.",
+    ]);
+  });
+  it("is nothing where everything is shown", () => {
+    const one = page([branch({})], []);
+    one.objects = { bright: { all: 1, standingOut: 1 }, dark: { all: 0, standingOut: 0 } };
+    expect(hiddenWords(one)).toEqual(["1 object in all, 0 shown. 1 more stand out but come later by rank: --top 5 draws them too."]);
   });
 });
 
 describe("data", () => {
   it("of another version are refused", () => {
     expect(readPage("null")).toBeNull();
-    expect(() => readPage('{"schema":"isoatlas/page/2"}')).toThrow("isoatlas/page/2");
+    expect(() => readPage('{"schema":"isoatlas/page/1"}')).toThrow("isoatlas/page/1");
   });
 });

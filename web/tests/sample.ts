@@ -1,33 +1,53 @@
 // A page as isoatlas writes it, small.
-import type { Entry, Page } from "../src/page";
+import type { Branch, Counts, Entry, Page } from "../src/page";
 
-export function entry(changes: Partial<Entry>): Entry {
+export function branch(changes: Partial<Branch>): Branch {
   return {
-    id: 1, side: "bright", appears: 90, merges: null, best: 50, low: 40, high: 60, voxels: 1000, measure: 1000, tunnels: 0, cavities: 0,
-    hypervolume: 5000, inside: -1, into: -1, trunk: false, note: "", colour: "#56b4e9", picture: null,
-    commands: [{ name: "surface", line: "isoatlas extract scan.atlas --object 1 --tau 50 -o object-1.ply" }],
+    side: "bright", id: 1, appears: 90, merges: null, parent: -1, hypervolume: 5000, voxels: 1000, measure: 1000, joined: 0, standsOut: true,
     ...changes,
   };
 }
 
-export function page(objects: Entry[]): Page {
+export function entry(changes: Partial<Entry>): Entry {
   return {
-    schema: "isoatlas/page/1",
-    version: "0.1.0",
-    volume: { name: "scan", size: [10, 20, 30], type: "uint8", spacing: [1, 1, 2], unit: "mm", valueUnit: null, low: 0, high: 100, noise: 1 },
-    interpolant: "trilinear",
-    branches: 1234,
-    rule: "those that noise alone explains are not shown",
-    histogram: { low: 0, high: 100, counts: [5000, 700, 200, 100] },
-    objects,
-    spectrum: { tau: [0, 25, 50, 75, 100], objects: [1, 2, 3, 2, 1], contours: [1, 3, 4, 2, 1], tunnels: [0, 5, 1, 0, 0], cavities: [0, 1, 1, 0, 0] },
+    branch: 0, id: 1, tau: 50, low: 40, high: 60, voxels: 1000, measure: 1000, tunnels: 0, cavities: 0, inside: -1, around: -1, reason: "", why: "",
+    colour: "#56b4e9", picture: null, commands: [{ name: "surface", line: "isoatlas extract scan.atlas --object 1 --tau 50 -o object-1.ply" }],
+    ...changes,
   };
 }
 
-/** A trunk seen at two isovalues, and two branches; the second merges into the first. */
-export const scene = page([
-  entry({ id: 7, trunk: true, tunnels: 2, voxels: 5000, measure: 10000, note: "largest" }),
-  entry({ id: 6, trunk: true, best: 80, low: 70, high: 85, voxels: 300, inside: 0 }),
-  entry({ id: 8, appears: 95, merges: 30, into: 0, best: 70, voxels: 40, inside: 0 }),
-  entry({ id: 9, appears: 85, merges: 60, into: 2, best: 75, voxels: 90, side: "dark", cavities: 1 }),
-]);
+function counts(n: number): Counts {
+  return { objects: { most: [1, n, 3, 1] }, contours: { most: [1, 3, 4, 2] }, tunnels: { most: [0, 5, 1, 0], least: [0, 2, 1, 0] }, cavities: { most: [0, 1, 1, 0] } };
+}
+
+export function page(branches: Branch[], entries: Entry[]): Page {
+  return {
+    schema: "isoatlas/page/2",
+    version: "0.1.0",
+    volume: { name: "scan", size: [10, 20, 30], type: "uint8", spacing: [1, 1, 2], unit: "mm", valueUnit: null, low: 0, high: 100, noise: 1 },
+    interpolant: "trilinear",
+    objects: { bright: { all: 1234, standingOut: 3 }, dark: { all: 77, standingOut: 1 } },
+    axis: { low: 0, high: 100, bend: null },
+    histogram: { edges: [0, 25, 50, 75, 100], counts: [5000, 700, 200, 100] },
+    spectrum: { edges: [0, 25, 50, 75, 100], all: counts(20), essential: counts(2) },
+    curve: { threshold: [9000, 5000, 800, 1], kept: [1, 2, 3, 1234], automaticThreshold: 800, automaticKept: 3 },
+    branches,
+    entries,
+  };
+}
+
+/** A trunk seen at two isovalues, two branches of which the second has no picture, and a cavity of the trunk. */
+export const scene = page(
+  [
+    branch({ id: 7, hypervolume: 9000, joined: 41, shape: { edges: [0, 50, 90], tunnels: { most: [2, 0] }, cavities: { most: [0, 1] } } }),
+    branch({ id: 8, appears: 95, merges: 30, parent: 0, hypervolume: 5000, voxels: 400, measure: 800 }),
+    branch({ id: 9, appears: 85, merges: 60, parent: 1, hypervolume: 4000, voxels: 200, measure: 400, standsOut: false }),
+    branch({ side: "dark", id: 5, appears: 10, merges: 70, hypervolume: 800, voxels: 120, measure: 240 }),
+  ],
+  [
+    entry({ id: 7, tunnels: 2, voxels: 5000, measure: 10000 }),
+    entry({ id: 7, tau: 80, low: 70, high: 85, voxels: 300, inside: 0, reason: "steady", why: "its boundary is sharp" }),
+    entry({ branch: 1, id: 8, tau: 70, voxels: 40, inside: 0 }),
+    entry({ branch: 3, id: 5, tau: 45, low: 20, high: 70, voxels: 90, measure: 180, cavities: 1, around: 0 }),
+  ],
+);

@@ -1,0 +1,236 @@
+#include "page/page_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "isoatlas/shell_word.h"
+#include "output/byte_writer.h"
+
+namespace isoatlas::page {
+namespace {
+
+using output::JsonStream;
+
+std::string web_colour(const Colour& colour) {
+    std::string text = "#";
+    for (const double part : {colour.red, colour.green, colour.blue}) {
+        const int byte = static_cast<int>(std::lround(255 * part));
+        for (const int digit : {byte / 16, byte % 16}) text += "0123456789abcdef"[digit];
+    }
+    return text;
+}
+
+void put_text(JsonStream& json, const std::string& text) {
+    if (text.empty()) {
+        json.null();
+    } else {
+        json.value(text);
+    }
+}
+
+/// The name of the store without folder and extension.
+std::string title_of(const std::string& path) {
+    std::string name = path.substr(path.rfind('/') + 1);
+    if (name.ends_with(".atlas")) name.resize(name.size() - 6);
+    return name;
+}
+
+/// Empty: a voxel is a unit.
+std::string unit_of(const Geometry& geometry) {
+    if (!geometry.unit.empty()) return geometry.unit;
+    const bool voxels = geometry.coordinates[0].empty() && geometry.spacing == Vec3{1, 1, 1};
+    return voxels ? "" : "units";
+}
+
+template <class Items, class Of>
+void put_array(JsonStream& json, const char* name, const Items& items, const Of& of) {
+    json.key(name).begin_array();
+    for (const auto& item : items) json.value(of(item));
+    json.end_array();
+}
+
+class Writer {
+public:
+    Writer(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source)
+        : json_(json), atlas_(atlas), contents_(contents), scale_(atlas.info().calibration), source_(shell_word(source)) {}
+
+    void write() {
+        json_.begin_object().key("schema").value("isoatlas/page/2").key("version").value(ISOATLAS_VERSION).line();
+        write_volume();
+        json_.key("interpolant").value(name_of(atlas_.interpolant()));
+        write_counts();
+        write_axis();
+        json_.line().key("spectrum");
+        put_columns(contents_.spectrum, true);
+        write_curve();
+        json_.line().key("branches").begin_array();
+        for (const PageBranch& branch : contents_.branches) write_branch(branch);
+        json_.end_array().line().key("entries").begin_array();
+        for (std::size_t i = 0; i < contents_.entries.size(); ++i) write_entry(i);
+        json_.end_array().line().end_object().finish();
+    }
+
+private:
+    JsonStream& put_value(const char* name, double stored) { return json_.key(name).value(scale_.reported(stored)); }
+
+    void write_volume() {
+        const VolumeInfo& info = atlas_.info();
+        json_.key("volume").begin_object().key("name").value(title_of(info.path));
+        json_.key("size").begin_array();
+        for (int a = 0; a < info.extent.rank; ++a) json_.value(info.extent.size[a]);
+        json_.end_array().key("type").value(name_of(info.type)).key("spacing").value(info.geometry.spacing);
+        put_text(json_.key("unit"), unit_of(info.geometry));
+        put_text(json_.key("valueUnit"), info.value_unit);
+        put_value("low", contents_.scale.low);
+        put_value("high", contents_.scale.high);
+        json_.key("noise").value(scale_.reported_difference(contents_.noise)).end_object().line();
+    }
+
+    void write_counts() {
+        const auto put = [&](const char* name, std::int64_t all, std::int64_t standing_out) {
+            json_.key(name).begin_object().key("all").value(all).key("standingOut").value(standing_out).end_object();
+        };
+        json_.key("objects").begin_object();
+        put("bright", contents_.bright, contents_.bright_standing_out);
+        put("dark", contents_.dark, contents_.dark_standing_out);
+        json_.end_object();
+    }
+
+    void write_axis() {
+        json_.line().key("axis").begin_object();
+        put_value("low", contents_.scale.low);
+        put_value("high", contents_.scale.high);
+        json_.key("bend");
+        if (contents_.scale.bend > 0) {
+            json_.value(scale_.reported_difference(contents_.scale.bend));
+        } else {
+            json_.null();
+        }
+        json_.end_object().line().key("histogram").begin_object();
+        put_array(json_, "edges", contents_.histogram.edges, [&](double edge) { return scale_.reported(edge); });
+        put_array(json_, "counts", contents_.histogram.counts, [](std::int64_t count) { return count; });
+        json_.end_object();
+    }
+
+    /// Columns as one array for each number; "least" is left out where it is "most".
+    void put_columns(const std::vector<CountColumn>& columns, bool all_counts) {
+        if (columns.empty()) {
+            json_.null();
+            return;
+        }
+        json_.begin_object().key("edges").begin_array().value(scale_.reported(columns.front().low));
+        for (const CountColumn& column : columns) json_.value(scale_.reported(column.high));
+        json_.end_array();
+        const auto put = [&](LevelCounts CountColumn::* least, LevelCounts CountColumn::* most) {
+            const auto put_count = [&](const char* name, std::int64_t LevelCounts::* count) {
+                json_.key(name).begin_object();
+                put_array(json_, "most", columns, [&](const CountColumn& column) { return (column.*most).*count; });
+                const bool same = std::ranges::all_of(
+                    columns, [&](const CountColumn& column) { return (column.*least).*count == (column.*most).*count; });
+                if (!same) put_array(json_, "least", columns, [&](const CountColumn& column) { return (column.*least).*count; });
+                json_.end_object();
+            };
+            if (all_counts) {
+                put_count("objects", &LevelCounts::objects);
+                put_count("contours", &LevelCounts::contours);
+            }
+            put_count("tunnels", &LevelCounts::tunnels);
+            put_count("cavities", &LevelCounts::cavities);
+        };
+        if (all_counts) {
+            json_.key("all").begin_object();
+            put(&CountColumn::least, &CountColumn::most);
+            json_.end_object().key("essential").begin_object();
+            put(&CountColumn::essential_least, &CountColumn::essential_most);
+            json_.end_object();
+        } else {
+            put(&CountColumn::least, &CountColumn::most);
+        }
+        json_.end_object();
+    }
+
+    void write_curve() {
+        const SelectionCurve& curve = contents_.curve;
+        json_.line().key("curve").begin_object();
+        put_array(json_, "threshold", curve.threshold, [&](double size) { return scale_.reported_difference(size); });
+        put_array(json_, "kept", curve.kept, [](std::int64_t kept) { return kept; });
+        json_.key("automaticThreshold").value(scale_.reported_difference(curve.automatic_threshold));
+        json_.key("automaticKept").value(curve.automatic_kept).end_object();
+    }
+
+    void write_branch(const PageBranch& branch) {
+        json_.line().begin_object().key("side").value(branch.dark ? "dark" : "bright").key("id").value(branch.id);
+        put_value("appears", branch.appears);
+        put_value("merges", branch.merges);  // null: never
+        json_.key("parent").value(branch.parent).key("hypervolume").value(scale_.reported_difference(branch.hypervolume));
+        json_.key("voxels").value(branch.voxels).key("measure").value(branch.measure).key("joined").value(branch.joined);
+        json_.key("standsOut").value(branch.stands_out);
+        if (!branch.shape.empty()) {
+            json_.key("shape");
+            put_columns(branch.shape, false);
+        }
+        if (!branch.isovalues.empty()) write_isovalues(branch.isovalues);
+        json_.end_object();
+    }
+
+    void write_isovalues(const std::vector<RecommendedIsovalue>& isovalues) {
+        json_.key("isovalues").begin_array();
+        for (const RecommendedIsovalue& isovalue : isovalues)
+            json_.begin_object().key("tau").value(scale_.reported(isovalue.tau)).key("why").value(text_of(isovalue.reason)).end_object();
+        json_.end_array();
+    }
+
+    void write_entry(std::size_t i) {
+        const PageEntry& entry = contents_.entries[i];
+        json_.line().begin_object().key("branch").value(entry.branch).key("id").value(entry.id);
+        put_value("tau", entry.tau);
+        put_value("low", entry.tau_low);
+        put_value("high", entry.tau_high);
+        json_.key("voxels").value(entry.voxels).key("measure").value(entry.measure);
+        json_.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
+        json_.key("inside").value(entry.inside).key("around").value(entry.around);
+        json_.key("reason").value(entry.reason ? name_of(*entry.reason) : "").key("why").value(entry.reason ? text_of(*entry.reason) : "");
+        json_.key("colour").value(web_colour(entry.colour)).line().key("picture");
+        if (entry.picture.image.empty()) {
+            json_.null();
+        } else {
+            json_.begin_object().key("image").value(entry.picture.image).key("frames").value(entry.picture.frames);
+            json_.key("side").value(entry.picture.side).end_object();
+        }
+        json_.line().key("commands").begin_array();
+        write_commands(i);
+        json_.end_array().end_object();
+    }
+
+    void write_commands(std::size_t i) {
+        const PageEntry& entry = contents_.entries[i];
+        const std::string id = std::to_string(entry.id), tau = output::number_text(scale_.reported(entry.tau));
+        const auto put = [&](const char* name, const std::string& verb, const std::string& options) {
+            json_.begin_object().key("name").value(name).key("line").value("isoatlas " + verb + " " + source_ + options).end_object();
+        };
+        if (contents_.branches[entry.branch].dark) {
+            const std::string name = " -o dark-" + std::to_string(i + 1);
+            put("its wall as a surface", "extract", " --contour " + id + " --tau " + tau + name + ".ply");
+            put("labels of all dark objects there", "label", " --dark --tau " + tau + name + ".nrrd");
+            return;
+        }
+        const std::string name = " -o object-" + std::to_string(i + 1);
+        put("surface", "extract", " --object " + id + " --tau " + tau + name + ".ply");
+        put("labels of all objects there", "label", " --tau " + tau + name + ".nrrd");
+        put("picture", "render", " --object " + id + "@" + tau + name + ".png");
+    }
+
+    JsonStream& json_;
+    const Atlas& atlas_;
+    const PageContents& contents_;
+    Calibration scale_;
+    std::string source_;
+};
+
+}  // namespace
+
+void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source) {
+    Writer(json, atlas, contents, source).write();
+}
+
+}  // namespace isoatlas::page

@@ -1,0 +1,14 @@
+// The data of a page as JSON: docs/schema/page.schema.json.
+#pragma once
+
+#include <string>
+
+#include "output/json_stream.h"
+#include "page/contents.h"
+
+namespace isoatlas::page {
+
+/// source: what commands name.
+void write_page_json(output::JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source);
+
+}  // namespace isoatlas::page

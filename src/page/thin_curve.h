@@ -1,0 +1,11 @@
+// A curve with so few points as can be told apart.
+#pragma once
+
+#include "isoatlas/simplify.h"
+
+namespace isoatlas::page {
+
+/// The first and the last point, and those between at equal distances on a logarithmic scale of `kept`, at most `points` in all.
+[[nodiscard]] SelectionCurve thin_curve(const SelectionCurve& curve, std::int64_t points);
+
+}  // namespace isoatlas::page

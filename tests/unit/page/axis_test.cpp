@@ -1,0 +1,71 @@
+// The axis of a page, the histogram over it, and curves with few points.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "page/axis_scale.h"
+#include "page/histogram.h"
+#include "page/thin_curve.h"
+
+namespace isoatlas::page {
+namespace {
+
+Volume volume_of(const std::vector<float>& samples) {
+    return make_volume<float>({3, {static_cast<std::int64_t>(samples.size()), 1, 1}}, samples);
+}
+
+TEST(AxisScale, MapsThereAndBack) {
+    for (const AxisScale& scale : {AxisScale{-5, 20, 0}, AxisScale{-5, 20, 0.25}}) {
+        for (const double tau : {-5.0, 0.0, 3.5, 20.0}) EXPECT_NEAR(scale.tau(scale.position(tau)), tau, 1e-9);
+        EXPECT_EQ(scale.position(-5), 0);
+        EXPECT_NEAR(scale.position(20), 1, 1e-12);
+    }
+    EXPECT_EQ((AxisScale{3, 3, 0}.position(3)), 0);
+}
+
+TEST(AxisScale, IsBentWhereNearlyAllSamplesAreLow) {
+    std::vector<float> samples(1000);
+    std::iota(samples.begin(), samples.end(), 0.0F);
+    EXPECT_EQ(axis_scale(volume_of(samples), 0, 999).bend, 0);
+    samples.back() = 1e6F;
+    const AxisScale bent = axis_scale(volume_of(samples), 0, 1e6);
+    EXPECT_NEAR(bent.bend, 500, 2);
+    EXPECT_NEAR(bent.position(999), 0.17, 0.02);  // linear: 0.001
+    EXPECT_EQ(axis_scale(volume_of({7, 7, 7}), 7, 7).bend, 0);
+}
+
+TEST(Histogram, CountsEverySampleOnce) {
+    const Volume bytes = make_volume<std::uint8_t>({3, {3, 2, 1}}, std::vector<std::uint8_t>{4, 5, 5, 7, 7, 7});
+    const Histogram few = make_histogram(bytes, {4, 7, 0});
+    EXPECT_EQ(few.counts, (std::vector<std::int64_t>{1, 2, 0, 3}));
+    EXPECT_EQ(few.edges, (std::vector<double>{3.5, 4.5, 5.5, 6.5, 7.5}));
+    std::mt19937 random(3);
+    std::vector<float> samples(5000);
+    for (float& sample : samples) sample = std::uniform_real_distribution<float>(0, 1)(random);
+    const auto [low, high] = std::ranges::minmax(samples);
+    for (const double bend : {0.0, 0.01}) {
+        const Histogram many = make_histogram(volume_of(samples), {low, high, bend});
+        EXPECT_EQ(std::reduce(many.counts.begin(), many.counts.end()), 5000);
+        EXPECT_EQ(many.edges.size(), many.counts.size() + 1);
+        EXPECT_TRUE(std::ranges::is_sorted(many.edges));
+    }
+    EXPECT_EQ(make_histogram(volume_of({2, 2}), {2, 2, 0}).counts.front(), 2);
+}
+
+TEST(ThinCurve, KeepsTheEndsAndFewPointsBetween) {
+    SelectionCurve curve{"hypervolume", {}, {}, 500, 500};
+    for (std::int64_t n = 1; n <= 100000; ++n) curve.threshold.push_back(1.0 / static_cast<double>(n)), curve.kept.push_back(n);
+    const SelectionCurve thin = thin_curve(curve, 100);
+    EXPECT_LE(thin.kept.size(), 100U);
+    EXPECT_GT(thin.kept.size(), 60U);
+    EXPECT_EQ(thin.kept.front(), 1);
+    EXPECT_EQ(thin.kept.back(), 100000);
+    EXPECT_EQ(thin.automatic_kept, 500);
+    for (std::size_t i = 0; i < thin.kept.size(); ++i) EXPECT_EQ(thin.threshold[i], 1.0 / static_cast<double>(thin.kept[i]));
+    EXPECT_EQ(thin_curve(curve, 200000).kept.size(), 100000U);
+}
+
+}  // namespace
+}  // namespace isoatlas::page
