@@ -1,4 +1,4 @@
-# Writes OUTPUT, a source file with the bytes of PAGE; none: an empty page.
+# Writes OUTPUT, a source file with a function of page/template.h, NAME, that gives the bytes of PAGE; no page: no bytes.
 set(bytes "")
 if(PAGE)
   file(READ ${PAGE} hexadecimal HEX)
@@ -16,7 +16,7 @@ const char kPage[] = {
 
 }  // namespace
 
-std::string_view page_template() { return {kPage, sizeof kPage - 1}; }
+std::string_view ${NAME}() { return {kPage, sizeof kPage - 1}; }
 
 }  // namespace isoatlas::page
 ")

@@ -21,6 +21,9 @@ demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
 demo|libembree-dev|ray tracing of pictures
 demo|libwebp-dev|WebP pictures
+demo|libcpp-httplib-dev|the server of the viewer
+demo|libmeshoptimizer-dev|meshes in few bytes for the viewer
+demo|libzstd-dev|the same
 demo|nodejs|bundles the page
 demo|npm|bundles the page
 demo|libcli11-dev|command line

@@ -32,7 +32,7 @@ export default defineConfig({
     modulePreload: false,
     assetsInlineLimit: 1 << 20,
     cssCodeSplit: false,
-    rollupOptions: { input: "atlas.html" },
+    rollupOptions: { input: `${process.env.PAGE ?? "atlas"}.html` },
   },
   plugins: [intoOneFile()],
   test: { include: ["tests/**/*.test.ts"] },

@@ -151,6 +151,10 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
+    } else if (verb == "view") {
+        app.add_option("--port", arguments.port, "Listen on this port of 127.0.0.1 (any that is free)")->check(in_range(1, 65535))->type_name("N");
+        app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
+        add_build(app, arguments, typed);
     } else if (verb == "handles") {
         app.add_flag("--exact", arguments.exact, "Which tunnel closes where, truly: persistent homology (slower)");
         app.add_option("--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");

@@ -52,6 +52,10 @@ struct Arguments {
     bool full = false;
     std::uint64_t seed = 1;
 
+    // Serving
+    int port = 0;  ///< 0: any
+    bool no_browser = false;
+
     // Shaping the output
     ShellChoice shell = ShellChoice::all;
     SurfaceStyle style = SurfaceStyle::compact;

@@ -11,6 +11,7 @@ namespace isoatlas::cli {
 class Terminal;
 
 int run_atlas(const Arguments& arguments, Terminal& terminal);
+int run_view(const Arguments& arguments, Terminal& terminal);
 int run_info(const Arguments& arguments, Terminal& terminal);
 int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);

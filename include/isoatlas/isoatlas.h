@@ -36,6 +36,7 @@
 #include "isoatlas/render.h"
 #include "isoatlas/search_table.h"
 #include "isoatlas/selection.h"
+#include "isoatlas/server.h"
 #include "isoatlas/shell_word.h"
 #include "isoatlas/simplify.h"
 #include "isoatlas/spectrum.h"

@@ -1,0 +1,50 @@
+#include "store_beside.h"
+
+#include <filesystem>
+
+#include "terminal.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The store is of this file as it is now: newer than it.
+bool is_fresh(const std::string& store, const std::string& file) {
+    std::error_code error;
+    return is_atlas(store) && !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) &&
+           !error;
+}
+
+}  // namespace
+
+std::string stem_of(const std::string& file) {
+    fs::path path(file);
+    if (path.filename().empty()) path = path.parent_path();  // a folder
+    std::string name = path.filename().string();
+    for (const char* suffix : {".gz", ".nii", ".atlas"}) {
+        if (name.ends_with(suffix)) name.resize(name.size() - std::string_view(suffix).size());
+    }
+    if (name == path.filename().string()) name = path.stem().string();
+    return name;
+}
+
+std::string store_beside(const std::string& page) {
+    std::string store = page.substr(0, page.size() - std::string_view(".html").size());
+    return store.ends_with(".atlas") ? store : store + ".atlas";
+}
+
+std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store) {
+    if (is_atlas(arguments.file)) return arguments.file;
+    if (is_fresh(store, arguments.file) && !arguments.restart) {
+        terminal.say("note: " + store + " is there already; --restart builds it anew");
+        return store;
+    }
+    Arguments build = arguments;
+    build.output = store;
+    build_store(build, terminal, *open_volume(arguments.file, arguments.open));
+    return store;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,15 @@
+// Content codings of HTTP: fewer bytes on the wire for clients that can undo them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace isoatlas::server {
+
+/// The best coding that an Accept-Encoding header allows: "zstd", "gzip" or "" (none).
+[[nodiscard]] std::string_view coding_for(std::string_view accept);
+
+/// The bytes in that coding.
+[[nodiscard]] std::string coded(std::string_view bytes, std::string_view coding);
+
+}  // namespace isoatlas::server

@@ -1,0 +1,24 @@
+// What a viewer asks and what it is answered, without the network: server/http.cpp carries these, tests and fuzzers make them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace isoatlas::server {
+
+struct Question {
+    std::string path;                                ///< as sent, without what follows '?'
+    std::multimap<std::string, std::string> words;   ///< what follows '?'
+    std::string token;                               ///< who may ask; empty: none was sent
+    std::string client;                              ///< who asks; of one client a newer question ends an older one for a surface
+};
+
+struct Answer {
+    int status = 200;
+    std::string type = "application/json";
+    std::string bytes{};
+    std::map<std::string, std::string> headers{};
+};
+
+}  // namespace isoatlas::server

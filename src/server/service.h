@@ -1,0 +1,45 @@
+// What the server knows: answers to the questions of a viewer, from a store. Any question is safe; refusals are answers.
+//
+//   /api/atlas                              the volume, the objects that matter, a histogram: docs/schema/server_atlas.schema.json
+//   /api/preview?tau=T                      what the surface at T is and costs, before it is made
+//   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
+//   /api/surface?tau=T[&object=ID,...][&most=N]   a mesh (server/wire_mesh.h)
+//
+// tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
+#pragma once
+
+#include <atomic>
+
+#include "isoatlas/atlas.h"
+#include "isoatlas/context.h"
+#include "server/question.h"
+#include "server/turns.h"
+
+namespace isoatlas::server {
+
+class Service {
+public:
+    /// atlas must live as long as this.
+    Service(const Atlas& atlas, std::string token, const Context& context);
+
+    /// Never throws but for want of memory. From many threads.
+    [[nodiscard]] Answer answer(const Question& question);
+    /// Ends what is being answered.
+    void end() { turns_.end(); }
+
+private:
+    [[nodiscard]] Answer answer_known(const Question& question);
+    [[nodiscard]] Answer atlas_answer();
+    [[nodiscard]] Answer preview_answer(const Question& question) const;
+    [[nodiscard]] Answer objects_answer(const Question& question) const;
+    [[nodiscard]] Answer surface_answer(const Question& question);
+    /// In stored values.
+    [[nodiscard]] double stored_tau(double reported) const { return atlas_.info().calibration.stored(reported); }
+
+    const Atlas& atlas_;
+    std::string token_;
+    Context context_;
+    Turns turns_;
+};
+
+}  // namespace isoatlas::server

@@ -1,0 +1,36 @@
+// A surface in few bytes, for a viewer: positions in steps of a part of a voxel, normals as two bytes, triangles in an order that packs well.
+//
+//   0   "iam1"
+//   4   points, triangles, bytes of the packed points, bytes of the packed triangles: uint32 each
+//   20  zero: uint32
+//   24  origin x, y, z, step: float64 each; a point is origin + step * its three numbers, in physical coordinates
+//   56  the points, packed by meshoptimizer's vertex codec (version 0): 8 bytes each: x, y, z as uint16, normal as two int8
+//       then the triangles, packed by its index codec (version 1): three uint32 each
+//
+// Everything is little endian. Two bytes of a normal are an octahedral map of the unit sphere, 127 = 1.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "isoatlas/surface.h"
+
+namespace isoatlas::server {
+
+struct WireOptions {
+    double step = 0;                 ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
+    std::int64_t most_triangles = 0; ///< fewer by clustering points where there are more; 0: as many as there are
+};
+
+struct WireMesh {
+    std::vector<std::byte> bytes;
+    std::int64_t points = 0, triangles = 0;
+    bool coarse = false;  ///< triangles were left out
+};
+
+/// surface: of a 3D volume, with normals. Throws Error{resource} for more than 2^31 points or 2^30 triangles.
+/// Cost: about 300 ns a triangle, 60 bytes of memory.
+[[nodiscard]] WireMesh wire_mesh(const Surface& surface, const WireOptions& options);
+
+}  // namespace isoatlas::server

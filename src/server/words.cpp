@@ -1,0 +1,95 @@
+#include "server/words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "isoatlas/error.h"
+
+namespace isoatlas::server {
+namespace {
+
+constexpr std::size_t kLongestShown = 60;
+
+[[noreturn]] void refuse(std::string_view name, std::string_view text, const std::string& expected) {
+    throw Error(ErrorKind::usage, {.where = std::string(name),
+                                   .what = "'" + std::string(text.substr(0, kLongestShown)) + "' cannot be used",
+                                   .expected = expected});
+}
+
+/// The whole text is a number.
+template <class Number>
+std::optional<Number> read(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+std::int64_t whole_in(std::string_view name, std::string_view text, std::int64_t least, std::int64_t most) {
+    const std::optional<std::int64_t> number = read<std::int64_t>(text);
+    if (!number || *number < least || *number > most)
+        refuse(name, text, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    return *number;
+}
+
+}  // namespace
+
+std::optional<std::string_view> Words::take(std::string_view name) {
+    known_.push_back(name);
+    const auto [begin, end] = words_.equal_range(std::string(name));
+    if (begin == end) return std::nullopt;
+    if (std::next(begin) != end) refuse(name, begin->second, "to be said once");
+    return begin->second;
+}
+
+std::optional<double> Words::number(std::string_view name) {
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return std::nullopt;
+    const std::optional<double> number = read<double>(*text);
+    if (!number || !std::isfinite(*number)) refuse(name, *text, "a finite number");
+    return number;
+}
+
+std::optional<std::int64_t> Words::whole(std::string_view name, std::int64_t least, std::int64_t most) {
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return std::nullopt;
+    return whole_in(name, *text, least, most);
+}
+
+std::optional<std::string> Words::choice(std::string_view name, const std::vector<std::string_view>& choices) {
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return std::nullopt;
+    if (std::ranges::find(choices, *text) == choices.end()) {
+        std::string expected;
+        for (const std::string_view choice : choices) expected += (expected.empty() ? "" : ", ") + std::string(choice);
+        refuse(name, *text, "one of " + expected);
+    }
+    return std::string(*text);
+}
+
+std::vector<std::int64_t> Words::list(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count) {
+    std::vector<std::int64_t> numbers;
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return numbers;
+    for (std::string_view rest = *text;;) {
+        if (numbers.size() == count) refuse(name, *text, "at most " + std::to_string(count) + " numbers");
+        const std::size_t comma = rest.find(',');
+        numbers.push_back(whole_in(name, rest.substr(0, comma), least, most));
+        if (comma == std::string_view::npos) return numbers;
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+void Words::refuse_others() const {
+    for (const auto& [name, text] : words_) {
+        if (std::ranges::find(known_, name) != known_.end()) continue;
+        std::string expected;
+        for (const std::string_view word : known_) expected += (expected.empty() ? "" : ", ") + std::string(word);
+        throw Error(ErrorKind::usage, {.where = name.substr(0, kLongestShown),
+                                       .what = "this question has no such word",
+                                       .expected = expected.empty() ? "none" : expected});
+    }
+}
+
+}  // namespace isoatlas::server

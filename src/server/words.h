@@ -1,0 +1,33 @@
+// The words of a question, read strictly: what is not known, comes twice or is out of range is refused with the range.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isoatlas::server {
+
+class Words {
+public:
+    explicit Words(const std::multimap<std::string, std::string>& words) : words_(words) {}
+
+    /// All throw Error{usage}: not a number, not finite, out of range, more than one.
+    [[nodiscard]] std::optional<double> number(std::string_view name);
+    [[nodiscard]] std::optional<std::int64_t> whole(std::string_view name, std::int64_t least, std::int64_t most);
+    [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
+    /// Numbers between commas, at most `count`.
+    [[nodiscard]] std::vector<std::int64_t> list(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count);
+    /// Throws Error{usage} for a word that nobody asked for.
+    void refuse_others() const;
+
+private:
+    [[nodiscard]] std::optional<std::string_view> take(std::string_view name);
+
+    const std::multimap<std::string, std::string>& words_;
+    std::vector<std::string_view> known_;
+};
+
+}  // namespace isoatlas::server
