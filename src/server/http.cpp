@@ -69,10 +69,13 @@ struct Server::Data {
         for (const auto& [name, value] : answer.headers) response.set_header(name, value);
         const std::string_view coding =
             answer.bytes.size() < kWorthCoding ? std::string_view() : server::coding_for(request.get_header_value("Accept-Encoding"));
-        if (coding.empty()) return response.set_content(answer.bytes, answer.type);
-        response.set_header("Content-Encoding", std::string(coding));
         response.set_header("Vary", "Accept-Encoding");
-        response.set_content(server::coded(answer.bytes, coding), answer.type);
+        if (!coding.empty()) response.set_header("Content-Encoding", std::string(coding));
+        // A provider of known length: the library would code a text once more.
+        const auto bytes = std::make_shared<const std::string>(server::coded(answer.bytes, coding));
+        response.set_content_provider(bytes->size(), answer.type, [bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            return sink.write(bytes->data() + offset, length);
+        });
     }
 };
 

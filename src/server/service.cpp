@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSurfacesAtOnce = 2, kMostWaiting = 256;
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000;
-constexpr std::size_t kMostObjects = 4096;
+constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
 
 /// The same for every pair of texts of one length: how long it takes says nothing about the token.

@@ -1,0 +1,125 @@
+"""`isoatlas view`: what it answers over HTTP, to whom, and how it ends."""
+import concurrent.futures
+import gzip
+import json
+import signal
+import socket
+import subprocess
+import unittest
+import urllib.error
+import urllib.request
+
+import harness
+
+
+class View(harness.CliTest):
+    phantoms = {"field.nrrd": ["random-field", "--size", "24", "--noise", "0.02"]}
+
+    def setUp(self):
+        self.process = subprocess.Popen([harness.CLI, "view", "field.nrrd", "--no-browser", "--json"], cwd=self.folder, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, text=True)
+        lines = []
+        while True:
+            lines.append(self.process.stdout.readline())
+            self.assertNotEqual(lines[-1], "", "the server ended: " + (self.process.stderr.read() if lines[-1] == "" else ""))
+            if lines[-1] == "}\n":
+                break
+        self.document = json.loads("".join(lines))
+        self.port = self.document["port"]
+        self.token = self.document["address"].split("token=")[1]
+
+    def tearDown(self):
+        self.process.send_signal(signal.SIGINT)
+        _, errors = self.process.communicate(timeout=30)
+        self.assertEqual(self.process.returncode, 0, errors)
+
+    def ask(self, path, token=None, **headers):
+        request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", headers=headers)
+        request.add_header("Authorization", "Bearer " + (self.token if token is None else token))
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return answer.status, dict(answer.headers), answer.read()
+        except urllib.error.HTTPError as error:
+            return error.code, dict(error.headers), error.read()
+
+    def json_of(self, path):
+        status, _, body = self.ask(path)
+        self.assertEqual(status, 200, body)
+        return json.loads(body)
+
+    def raw(self, text):
+        with socket.create_connection(("127.0.0.1", self.port), timeout=30) as connection:
+            connection.sendall(text)
+            connection.shutdown(socket.SHUT_WR)
+            answer = b""
+            while piece := connection.recv(65536):
+                answer += piece
+            return answer
+
+    def test_story(self):
+        self.assert_schema(self.document, "view")
+        atlas = self.json_of("/api/atlas")
+        self.assert_schema(atlas, "server-atlas")
+        table = self.run_json("objects", "field.atlas")
+        self.assertEqual([entry["id"] for entry in atlas["objects"]], [entry["id"] for entry in table["objects"]])
+        for entry in atlas["objects"][:3]:
+            tau = entry["best"]
+            extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x.ply")
+            status, headers, body = self.ask(f"/api/surface?tau={tau!r}&object={entry['id']}")
+            self.assertEqual(status, 200, body)
+            self.assertEqual(int(headers["X-Triangles"]), extracted["triangles"])
+            self.assertEqual(body[:4], b"iam1")
+            preview = self.json_of(f"/api/preview?tau={tau!r}")
+            self.assert_schema(preview, "server-preview")
+            objects = self.json_of(f"/api/objects?tau={tau!r}")
+            self.assert_schema(objects, "server-objects")
+            self.assertEqual(objects["count"], preview["objects"])
+
+    def test_who_may_ask(self):
+        self.assertEqual(self.ask("/api/atlas", token="")[0], 403)
+        self.assertEqual(self.ask("/api/atlas", token=self.token[:-1] + "x")[0], 403)
+        self.assertEqual(self.ask("/", token="")[0], 200)
+        self.assertEqual(self.ask("/", Host="evil.example")[0], 421)
+        status, headers, _ = self.ask("/api/atlas", Origin="http://evil.example")
+        self.assertNotIn("Access-Control-Allow-Origin", headers)
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+
+    def test_refusals(self):
+        for path, status in (("/api/surface?tau=nan", 400), ("/api/surface", 400), ("/api/preview?tau=1&x=2", 400), ("/api/none", 404),
+                             ("/../../etc/passwd", 404), ("/%2e%2e/%2e%2e/etc/passwd", 404), ("/api/surface?tau=0&object=99999999999", 400),
+                             ("/api/surface?tau=0&object=" + ",".join(["1"] * 257), 400)):
+            got, _, body = self.ask(path)
+            self.assertEqual(got, status, path[:60])
+            self.assert_schema(json.loads(body), "server-error")
+
+    def test_hostile_bytes(self):
+        for text in (b"", b"\r\n\r\n", b"GET\r\n\r\n", b"\x00" * 1000 + b"\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET /" + b"a" * 100000 + b" HTTP/1.1\r\n\r\n",
+                     b"POST / HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 10000 + b"\r\n",
+                     b"GET / HTTP/1.1\r\nHost: 127.0.0.1:" + str(self.port).encode() + b"\r\nRange: bytes=-99999999999999\r\n\r\n"):
+            self.raw(text)
+        self.json_of("/api/atlas")
+
+    def test_coding(self):
+        status, headers, body = self.ask("/api/atlas", **{"Accept-Encoding": "gzip"})
+        self.assertEqual(headers["Content-Encoding"], "gzip")
+        self.assertEqual(json.loads(gzip.decompress(body)), self.json_of("/api/atlas"))
+
+    def test_many_clients(self):
+        atlas = self.json_of("/api/atlas")
+        taus = [atlas["low"] + (atlas["high"] - atlas["low"]) * i / 13 for i in range(1, 13)]
+        expected = {tau: self.ask(f"/api/surface?tau={tau!r}")[2] for tau in taus}
+
+        def step(client):
+            return all(self.ask(f"/api/surface?tau={tau!r}", **{"X-Client": str(client)})[2] == expected[tau] for tau in taus)
+
+        with concurrent.futures.ThreadPoolExecutor(50) as clients:
+            self.assertTrue(all(clients.map(step, range(50))))
+
+    def test_a_port_that_is_taken(self):
+        done = self.start(["view", "field.atlas", "--no-browser", "--port", str(self.port)])
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn("--port", done.stderr)
+
+
+if __name__ == "__main__":
+    harness.main()
