@@ -152,7 +152,9 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
     } else if (verb == "view") {
-        app.add_option("--port", arguments.port, "Listen on this port of 127.0.0.1 (any that is free)")->check(in_range(1, 65535))->type_name("N");
+        app.add_option("--port", arguments.port, "Listen on this port of 127.0.0.1 (any that is free)")
+            ->check(in_range(1, 65535))
+            ->type_name("N");
         app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
         add_build(app, arguments, typed);
     } else if (verb == "handles") {

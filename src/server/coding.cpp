@@ -55,7 +55,7 @@ std::string coded(std::string_view bytes, std::string_view coding) {
     }
     if (coding != "gzip") return std::string(bytes);
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(libdeflate_alloc_compressor(kQuick),
-                                                                                                    &libdeflate_free_compressor);
+                                                                                                   &libdeflate_free_compressor);
     ISOATLAS_CHECK(compressor != nullptr);
     result.resize(libdeflate_gzip_compress_bound(compressor.get(), bytes.size()));
     result.resize(libdeflate_gzip_compress(compressor.get(), bytes.data(), bytes.size(), result.data(), result.size()));

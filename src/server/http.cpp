@@ -54,15 +54,16 @@ struct Server::Data {
         response.set_header("X-Content-Type-Options", "nosniff");
         response.set_header("Referrer-Policy", "no-referrer");
         response.set_header("Cache-Control", "no-store");
-        response.set_header("Content-Security-Policy",
-                            "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; connect-src 'self'; "
-                            "img-src data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+        response.set_header(
+            "Content-Security-Policy",
+            "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; connect-src 'self'; "
+            "img-src data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
         if (!is_ours(request) || (request.method != "GET" && request.method != "HEAD")) {
             response.status = is_ours(request) ? 405 : 421;
             return;
         }
-        server::Question question{request.path, {request.params.begin(), request.params.end()}, bearer(request),
-                                  request.get_header_value("X-Client")};
+        server::Question question{
+            request.path, {request.params.begin(), request.params.end()}, bearer(request), request.get_header_value("X-Client")};
         if (question.path == "/") question.words.clear();
         const server::Answer answer = service.answer(question);
         response.status = answer.status;

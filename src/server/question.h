@@ -8,10 +8,10 @@
 namespace isoatlas::server {
 
 struct Question {
-    std::string path;                                ///< as sent, without what follows '?'
-    std::multimap<std::string, std::string> words;   ///< what follows '?'
-    std::string token;                               ///< who may ask; empty: none was sent
-    std::string client;                              ///< who asks; of one client a newer question ends an older one for a surface
+    std::string path;                               ///< as sent, without what follows '?'
+    std::multimap<std::string, std::string> words;  ///< what follows '?'
+    std::string token;                              ///< who may ask; empty: none was sent
+    std::string client;                             ///< who asks; of one client a newer question ends an older one for a surface
 };
 
 struct Answer {

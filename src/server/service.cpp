@@ -66,7 +66,8 @@ Answer Service::answer_known(const Question& question) {
         return {200, "text/html; charset=utf-8", std::string(page::viewer_template()), {}};
     }
     if (!is_token(question.token, token_)) {
-        const Error error(ErrorKind::usage, {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"});
+        const Error error(ErrorKind::usage,
+                          {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"});
         return {403, "application/json", error_json(error), {}};
     }
     if (question.path == "/api/atlas") return atlas_answer();

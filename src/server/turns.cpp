@@ -30,7 +30,7 @@ std::unique_ptr<Turns::Turn> Turns::take(const std::string& client) {
     const std::uint64_t number = ++questions_;
     if (!client.empty()) newest_[client] = number;
     std::unique_ptr<Turn> turn(new Turn(*this, client, number));  // the constructor is private
-    changed_.notify_all();  // an older question that waits
+    changed_.notify_all();                                        // an older question that waits
     ++waiting_;
     changed_.wait(lock, [&] { return running_ < at_once_ || is_over(client, number); });
     --waiting_;

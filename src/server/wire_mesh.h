@@ -1,4 +1,5 @@
-// A surface in few bytes, for a viewer: positions in steps of a part of a voxel, normals as two bytes, triangles in an order that packs well.
+// A surface in few bytes, for a viewer: positions in steps of a part of a voxel, normals as two bytes, triangles in an order that packs
+// well.
 //
 //   0   "iam1"
 //   4   points, triangles, bytes of the packed points, bytes of the packed triangles: uint32 each
@@ -19,8 +20,8 @@
 namespace isoatlas::server {
 
 struct WireOptions {
-    double step = 0;                 ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
-    std::int64_t most_triangles = 0; ///< fewer by clustering points where there are more; 0: as many as there are
+    double step = 0;                  ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
+    std::int64_t most_triangles = 0;  ///< fewer by clustering points where there are more; 0: as many as there are
 };
 
 struct WireMesh {

@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kLongestShown = 60;
 
 [[noreturn]] void refuse(std::string_view name, std::string_view text, const std::string& expected) {
-    throw Error(ErrorKind::usage, {.where = std::string(name),
-                                   .what = "'" + std::string(text.substr(0, kLongestShown)) + "' cannot be used",
-                                   .expected = expected});
+    throw Error(
+        ErrorKind::usage,
+        {.where = std::string(name), .what = "'" + std::string(text.substr(0, kLongestShown)) + "' cannot be used", .expected = expected});
 }
 
 /// The whole text is a number.

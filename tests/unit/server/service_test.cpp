@@ -80,7 +80,8 @@ TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     std::mt19937 random(7);
     const std::vector<std::string> paths{"/", "/api/atlas", "/api/preview", "/api/objects", "/api/surface", "/api/../api/atlas", "//"};
     const std::vector<std::string> names{"tau", "object", "most", "top", "", "TAU"};
-    const std::vector<std::string> values{"0.5", "-1e308", "1e308", "nan", "", "0", "1", "99999999999999999999", "1,2,3", "\xff\0x", "0.5;"};
+    const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan", "", "0", "1", "99999999999999999999",
+                                          "1,2,3", "\xff\0x", "0.5;"};
     for (int i = 0; i < 2000; ++i) {
         std::multimap<std::string, std::string> words;
         for (unsigned k = random() % 4; k > 0; --k) words.emplace(names[random() % names.size()], values[random() % values.size()]);

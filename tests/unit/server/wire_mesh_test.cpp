@@ -46,7 +46,8 @@ Decoded decoded(const WireMesh& mesh) {
     std::vector<unsigned char> records(std::size_t{8} * points);
     EXPECT_EQ(meshopt_decodeVertexBuffer(records.data(), points, 8, bytes + 56, point_bytes), 0);
     result.triangles.resize(triangles);
-    EXPECT_EQ(meshopt_decodeIndexBuffer(result.triangles.data(), std::size_t{3} * triangles, 4, bytes + 56 + point_bytes, triangle_bytes), 0);
+    EXPECT_EQ(meshopt_decodeIndexBuffer(result.triangles.data(), std::size_t{3} * triangles, 4, bytes + 56 + point_bytes, triangle_bytes),
+              0);
     for (std::size_t i = 0; i < points; ++i) {
         std::array<std::uint16_t, 3> steps{};
         std::memcpy(steps.data(), records.data() + 8 * i, 6);
