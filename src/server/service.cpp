@@ -7,6 +7,7 @@
 #include "isoatlas/error.h"
 #include "page/template.h"
 #include "server/answers.h"
+#include "server/mesh_file.h"
 #include "server/wire_mesh.h"
 #include "server/words.h"
 
@@ -104,7 +105,8 @@ Answer Service::surface_answer(const Question& question) {
     const double tau = required_tau(words);
     ExtractOptions options;
     options.objects = words.list("object", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
-    options.ids = false;
+    const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
+    options.ids = format.has_value();
     const std::int64_t most = words.whole("most", 1, kMostTriangles).value_or(kMostTriangles);
     words.refuse_others();
 
@@ -112,6 +114,7 @@ Answer Service::surface_answer(const Question& question) {
     Context context = context_;
     context.cancelled = [&turn] { return turn->is_over(); };
     const Surface surface = atlas_.extract(stored_tau(tau), options, context);
+    if (format) return {200, "application/octet-stream", mesh_file(surface, "." + *format), {}};
     const Vec3& spacing = atlas_.info().geometry.spacing;
     const WireMesh mesh = wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most});
     Answer answer{200, "application/octet-stream", std::string(reinterpret_cast<const char*>(mesh.bytes.data()), mesh.bytes.size()), {}};

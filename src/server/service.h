@@ -3,7 +3,8 @@
 //   /api/atlas                              the volume, the objects that matter, a histogram: docs/schema/server_atlas.schema.json
 //   /api/preview?tau=T                      what the surface at T is and costs, before it is made
 //   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
-//   /api/surface?tau=T[&object=ID,...][&most=N]   a mesh (server/wire_mesh.h)
+//   /api/surface?tau=T[&object=ID,...][&most=N]       a mesh (server/wire_mesh.h)
+//   /api/surface?tau=T[&object=ID,...]&format=stl     the file that `isoatlas extract` writes
 //
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
 #pragma once

@@ -69,6 +69,10 @@ class View(harness.CliTest):
             self.assertEqual(status, 200, body)
             self.assertEqual(int(headers["X-Triangles"]), extracted["triangles"])
             self.assertEqual(body[:4], b"iam1")
+            for format in ("ply", "stl", "obj", "vtp", "glb"):
+                self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x." + format)
+                status, _, body = self.ask(f"/api/surface?tau={tau!r}&object={entry['id']}&format={format}")
+                self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
             preview = self.json_of(f"/api/preview?tau={tau!r}")
             self.assert_schema(preview, "server-preview")
             objects = self.json_of(f"/api/objects?tau={tau!r}")

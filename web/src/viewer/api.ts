@@ -79,6 +79,12 @@ export class Api {
     return decodeMesh(await answer.arrayBuffer(), answer.headers.get("X-Coarse") === "1");
   }
 
+  /** The file that `isoatlas extract` writes. */
+  async file(tau: number, object: number | null, format: string): Promise<Blob> {
+    const which = object === null ? "" : `&object=${object}`;
+    return (await this.ask(`/api/surface?tau=${tau}${which}&format=${format}`, "file")).blob();
+  }
+
   /** Ends what a lane is waiting for. */
   leave(lane: string): void {
     this.lanes.get(lane)?.abort();

@@ -7,6 +7,12 @@ import type { Atlas, Preview } from "./api";
 const WIDTH = 800;
 const HEIGHT = 54;
 
+/** The values at which an object that matters begins, or ends in another one. */
+export function eventsOf(atlas: Atlas): number[] {
+  const values = atlas.objects.flatMap((entry) => [entry.appears, entry.merges]);
+  return [...new Set(values.filter((value): value is number => value !== null))].sort((a, b) => a - b);
+}
+
 export class AxisPanel {
   readonly element: HTMLElement;
   private readonly axis: Axis;
@@ -22,7 +28,12 @@ export class AxisPanel {
     private readonly moved: (tau: number, transient: boolean) => void,
   ) {
     this.axis = new Axis(atlas.low, atlas.high, WIDTH, 12);
-    const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" }, this.range, drawTicks(this.axis, 30, 8), this.mark);
+    const events = svg("g", { class: "events" });
+    for (const tau of eventsOf(atlas)) {
+      const x = this.axis.x(tau);
+      events.append(svg("line", { x1: x, x2: x, y1: 24, y2: 30 }));
+    }
+    const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, "aria-hidden": "true" }, this.range, events, drawTicks(this.axis, 30, 8), this.mark);
     this.slider = html("input", { type: "range", min: atlas.low, max: atlas.high, step: "any", "aria-label": "isovalue" });
     this.slider.addEventListener("input", () => this.moved(Number(this.slider.value), true));
     this.slider.addEventListener("change", () => this.moved(Number(this.slider.value), false));

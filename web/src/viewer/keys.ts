@@ -4,9 +4,14 @@ import type { Stage } from "./stage";
 export interface Actions {
   /** by a share of the range */
   step(by: number): void;
+  /** to where the next object that matters begins or ends */
+  event(up: boolean): void;
   undo(): void;
   redo(): void;
   fit(): void;
+  /** takes what is selected out of the scene */
+  hide(): void;
+  help(): void;
 }
 
 const STEP = 0.005;
@@ -16,7 +21,11 @@ export function keys(stage: Stage, actions: Actions): void {
   const bound: Record<string, () => void> = {
     "[": () => actions.step(-STEP),
     "]": () => actions.step(STEP),
+    "{": () => actions.event(false),
+    "}": () => actions.event(true),
     f: () => actions.fit(),
+    Delete: () => actions.hide(),
+    "?": () => actions.help(),
     ArrowLeft: () => stage.turn(-ANGLE, 0),
     ArrowRight: () => stage.turn(ANGLE, 0),
     ArrowUp: () => stage.turn(0, ANGLE),

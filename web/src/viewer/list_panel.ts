@@ -3,11 +3,11 @@ import { html } from "../dom";
 import { plural, value, volume } from "../format";
 import type { Atlas, Entry } from "./api";
 import type { State } from "./state";
-import { COLOURS } from "./colours";
+import { colourOf } from "./colours";
 
 export class ListPanel {
   readonly element: HTMLElement;
-  private readonly rows: { row: HTMLElement; box: HTMLInputElement }[] = [];
+  private readonly rows: { entry: number; row: HTMLElement; box: HTMLInputElement }[] = [];
 
   constructor(
     atlas: Atlas,
@@ -15,23 +15,26 @@ export class ListPanel {
     toggle: (entry: number) => void,
   ) {
     const list = html("ol", {});
-    atlas.objects.forEach((entry, i) => {
-      const box = html("input", { type: "checkbox", "aria-label": `show object ${i + 1}`, change: () => toggle(i) });
-      const swatch = html("span", { class: "swatch", style: `background:${COLOURS[i % COLOURS.length]}` });
-      const button = html("button", { type: "button", click: (event) => ((event as MouseEvent).shiftKey ? toggle(i) : isolate(i)) }, swatch, html("span", {}, html("b", {}, `Object ${i + 1}`), ` ${about(entry, atlas)}`));
+    const put = (entry: number, name: string, text: string): void => {
+      const box = html("input", { type: "checkbox", "aria-label": `show ${name.toLowerCase()}`, change: () => toggle(entry) });
+      const swatch = html("span", { class: "swatch", style: `background:${colourOf(entry)}` });
+      const chosen = (event: Event): void => ((event as MouseEvent).shiftKey ? toggle(entry) : isolate(entry));
+      const button = html("button", { type: "button", click: chosen }, swatch, html("span", {}, html("b", {}, name), ` ${text}`));
       const row = html("li", {}, box, button);
-      this.rows.push({ row, box });
+      this.rows.push({ entry, row, box });
       list.append(row);
-    });
+    };
+    atlas.objects.forEach((entry, i) => put(i, `Object ${i + 1}`, about(entry, atlas)));
+    put(-1, "All there is", "at one isovalue");
     this.element = html("nav", { class: "objects", "aria-label": "objects" }, html("h1", {}, atlas.name), html("p", {}, `${plural(atlas.objects.length, "object")} of ${plural(atlas.branches, "object")} stand out.`), list);
   }
 
   show(state: State): void {
-    this.rows.forEach(({ row, box }, i) => {
-      const at = state.shown.findIndex((shown) => shown.entry === i);
+    for (const { entry, row, box } of this.rows) {
+      const at = state.shown.findIndex((shown) => shown.entry === entry);
       box.checked = at >= 0;
       row.classList.toggle("selected", at >= 0 && at === state.selected);
-    });
+    }
   }
 }
 

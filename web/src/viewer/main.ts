@@ -1,26 +1,31 @@
 // The viewer: a list of objects, a picture of those shown, and the isovalue of the one selected.
 import { html } from "../dom";
 import { Api, isOvertaken, type Atlas } from "./api";
-import { AxisPanel } from "./axis_panel";
-import { COLOURS } from "./colours";
+import { AxisPanel, eventsOf } from "./axis_panel";
+import { colourOf } from "./colours";
+import { help } from "./help";
 import { keys } from "./keys";
 import { ListPanel } from "./list_panel";
+import { ObjectPanel } from "./object_panel";
 import { Stage } from "./stage";
-import { add, change, fromHash, History, isolate, NOTHING, remove, toHash, type Shown, type State } from "./state";
+import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type Shown, type State } from "./state";
 import "./viewer.css";
 
 const WHOLE = 100_000_000;
 const COARSE = 20_000;
+/** a press that moves less is a click */
+const CLICK_PIXELS = 4;
 
 class Viewer {
   private readonly history: History;
-  private readonly stage = new Stage();
+  private readonly stage = new Stage(() => this.go({ ...this.now, view: this.stage.view }, true));
   private readonly axis: AxisPanel;
   private readonly list: ListPanel;
+  private readonly panel: ObjectPanel;
   private readonly said = html("p", { class: "said", role: "status" });
-  /** per entry: what the picture shows of it */
-  private readonly drawn = new Map<number, { tau: number; coarse: boolean }>();
-  private fitted = false;
+  /** per entry: the isovalue of what the picture shows of it, or soon will */
+  private readonly drawn = new Map<number, number>();
+  private readonly help = help();
 
   constructor(
     private readonly api: Api,
@@ -35,29 +40,41 @@ class Viewer {
       (entry) => this.go(isolate(this.now, entry, this.best(entry))),
       (entry) => this.toggle(entry),
     );
-    main.append(this.list.element, html("div", { class: "stage" }, this.stage.canvas, this.said), this.axis.element);
-    this.history.listen((state, before) => this.show(state, before));
-    keys(this.stage, {
-      step: (by) => this.stepBy(by),
-      undo: () => this.history.undo(),
-      redo: () => this.history.redo(),
-      fit: () => this.stage.fit(),
+    this.panel = new ObjectPanel(atlas, atlas.name, {
+      fade: (opacity, transient) => this.go(change(this.now, this.now.selected, { opacity }), transient),
+      hide: () => this.hide(),
+      save: (format) => void this.save(format),
+      picture: () => void this.stage.picture().then((blob) => blob && keep(blob, "picture.png")),
+      link: () => void navigator.clipboard.writeText(location.href).then(() => this.say("the link is in the clipboard")),
     });
+    const side = html("div", { class: "side" }, this.list.element, this.panel.element);
+    main.append(side, html("div", { class: "stage" }, this.stage.canvas, this.said), this.axis.element, this.help);
+    this.history.listen((state, before) => this.show(state, before));
+    this.listenToKeys();
+    this.listenToClicks();
     if (asked) this.show(asked, NOTHING);
     else if (atlas.objects.length > 0) this.go(isolate(NOTHING, 0, this.best(0)));
-    else this.said.textContent = "There is nothing to show: noise explains all there is.";
+    else this.say("There is nothing to show: noise explains all there is.");
   }
 
   private get now(): State {
     return this.history.now;
   }
 
+  private get selected(): Shown | undefined {
+    return this.now.shown[this.now.selected];
+  }
+
   private best(entry: number): number {
-    return this.atlas.objects[entry]?.best ?? this.atlas.low;
+    return this.atlas.objects[entry]?.best ?? (this.atlas.low + this.atlas.high) / 2;
   }
 
   private go(state: State, transient = false): void {
     this.history.go(state, transient);
+  }
+
+  private say(text: string): void {
+    this.said.textContent = text;
   }
 
   private toggle(entry: number): void {
@@ -65,26 +82,56 @@ class Viewer {
     this.go(at >= 0 ? remove(this.now, at) : add(this.now, entry, this.best(entry)));
   }
 
-  private move(tau: number, transient: boolean): void {
-    if (this.now.selected >= 0) this.go(change(this.now, this.now.selected, { tau }), transient);
+  private hide(): void {
+    if (this.selected) this.go(remove(this.now, this.now.selected));
   }
 
-  private stepBy(share: number): void {
-    const selected = this.now.shown[this.now.selected];
-    if (!selected) return;
-    const tau = selected.tau + share * (this.atlas.high - this.atlas.low);
-    this.move(Math.min(Math.max(tau, this.atlas.low), this.atlas.high), false);
+  private move(tau: number, transient = false): void {
+    const inside = Math.min(Math.max(tau, this.atlas.low), this.atlas.high);
+    if (this.selected) this.go(change(this.now, this.now.selected, { tau: inside }), transient);
+  }
+
+  private listenToKeys(): void {
+    const events = eventsOf(this.atlas);
+    keys(this.stage, {
+      step: (by) => this.selected && this.move(this.selected.tau + by * (this.atlas.high - this.atlas.low)),
+      event: (up) => {
+        const tau = this.selected && nextEvent(events, this.selected.tau, up);
+        if (typeof tau === "number") this.move(tau);
+      },
+      undo: () => this.history.undo(),
+      redo: () => this.history.redo(),
+      fit: () => this.stage.fit(),
+      hide: () => this.hide(),
+      help: () => this.help.showModal(),
+    });
+  }
+
+  private listenToClicks(): void {
+    let pressed = { x: 0, y: 0 };
+    const { canvas } = this.stage;
+    canvas.addEventListener("pointerdown", (event) => (pressed = { x: event.clientX, y: event.clientY }));
+    canvas.addEventListener("click", (event) => {
+      if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > CLICK_PIXELS) return;
+      const frame = canvas.getBoundingClientRect();
+      const entry = this.stage.pick(event.clientX - frame.left, event.clientY - frame.top);
+      const at = this.now.shown.findIndex((shown) => shown.entry === entry);
+      if (at >= 0) this.go({ ...this.now, selected: at });
+    });
   }
 
   private show(state: State, before: State): void {
     history.replaceState(null, "", toHash(state));
     this.list.show(state);
-    const selected = state.shown[state.selected];
-    const entry = selected && this.atlas.objects[selected.entry];
-    if (selected) this.axis.show(selected.tau, entry?.merges ?? this.atlas.low, entry?.appears ?? this.atlas.high);
-    if (selected) void this.foresee(selected.tau);
+    this.panel.show(this.selected);
+    if (this.selected) {
+      const entry = this.atlas.objects[this.selected.entry];
+      this.axis.show(this.selected.tau, entry?.merges ?? this.atlas.low, entry?.appears ?? this.atlas.high);
+      void this.foresee(this.selected.tau);
+    }
     for (const old of before.shown) if (!state.shown.some((shown) => shown.entry === old.entry)) this.forget(old.entry);
     for (const shown of state.shown) void this.draw(shown);
+    if (state.view && state.view !== before.view && String(state.view) !== String(this.stage.view)) this.stage.view = state.view;
   }
 
   private forget(entry: number): void {
@@ -104,35 +151,52 @@ class Viewer {
   /** A coarse surface first where the whole one takes longer. */
   private async draw(shown: Shown): Promise<void> {
     const { entry, tau, opacity } = shown;
-    const before = this.drawn.get(entry);
-    if (before?.tau === tau) return this.stage.fade(entry, opacity);
-    this.drawn.set(entry, { tau, coarse: true });
-    const object = this.atlas.objects[entry]?.id ?? null;
+    if (this.drawn.get(entry) === tau) return this.stage.fade(entry, opacity);
+    const first = this.drawn.size === 0 && this.now.view === null;
+    this.drawn.set(entry, tau);
     try {
       for (const most of [COARSE, WHOLE]) {
-        const mesh = await this.api.surface(`surface ${entry}`, tau, object, most);
-        if (this.drawn.get(entry)?.tau !== tau) return;
-        this.stage.put(entry, mesh, COLOURS[entry % COLOURS.length] ?? "#999999", opacity);
-        if (!this.fitted) this.stage.fit();
-        this.fitted = true;
-        this.said.textContent = mesh.coarse ? "coarse preview" : "";
+        const mesh = await this.api.surface(`surface ${entry}`, tau, this.atlas.objects[entry]?.id ?? null, most);
+        if (this.drawn.get(entry) !== tau) return;
+        this.stage.put(entry, mesh, colourOf(entry), opacity);
+        if (first && most === COARSE) this.stage.fit();
+        this.say(mesh.coarse ? "coarse preview" : "");
         if (!mesh.coarse) break;
       }
     } catch (error) {
+      if (isOvertaken(error)) return;
       this.drawn.delete(entry);
-      if (!isOvertaken(error)) this.stage.remove(entry);
+      this.stage.remove(entry);
+      this.fail(error);
+    }
+  }
+
+  private async save(format: string): Promise<void> {
+    const shown = this.selected;
+    if (!shown) return;
+    try {
+      this.say("the surface is being written");
+      keep(await this.api.file(shown.tau, this.atlas.objects[shown.entry]?.id ?? null, format), `object-${shown.entry + 1}.${format}`);
+      this.say("");
+    } catch (error) {
       this.fail(error);
     }
   }
 
   private fail(error: unknown): void {
-    if (!isOvertaken(error)) this.said.textContent = error instanceof Error ? error.message : String(error);
+    if (!isOvertaken(error)) this.say(error instanceof Error ? error.message : String(error));
   }
 }
 
+/** Gives the reader a file. */
+function keep(blob: Blob, name: string): void {
+  const address = URL.createObjectURL(blob);
+  html("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
 async function start(main: HTMLElement): Promise<void> {
-  const token = new URLSearchParams(location.search).get("token") ?? "";
-  const api = new Api(token);
+  const api = new Api(new URLSearchParams(location.search).get("token") ?? "");
   try {
     const atlas = await api.atlas();
     document.title = `${atlas.name} – isoatlas`;

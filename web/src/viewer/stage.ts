@@ -12,7 +12,8 @@ export class Stage {
   private readonly meshes = new Map<number, three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>>();
   private asked = false;
 
-  constructor() {
+  /** moved: the camera has come to rest somewhere else */
+  constructor(moved: () => void) {
     this.renderer = new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.canvas = this.renderer.domElement;
     this.camera.up.set(0, 0, 1);
@@ -22,6 +23,7 @@ export class Stage {
     this.camera.add(lamp);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("end", moved);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
@@ -57,6 +59,22 @@ export class Stage {
     body.material.dispose();
     this.meshes.delete(key);
     this.draw();
+  }
+
+  /** What stands under this key at a place of the picture, in pixels from its left and its top; null: nothing. */
+  pick(left: number, top: number): number | null {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ray = new three.Raycaster();
+    ray.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.camera);
+    const hit = ray.intersectObjects([...this.meshes.values()], false)[0];
+    for (const [key, body] of this.meshes) if (body === hit?.object) return key;
+    return null;
+  }
+
+  /** The picture as it is, as a PNG. */
+  picture(): Promise<Blob | null> {
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
   }
 
   /** All there is in the middle of the picture. */

@@ -12,28 +12,37 @@ export interface State {
   shown: Shown[];
   /** which of them; -1: none */
   selected: number;
+  /** where the camera stands and what it looks at, six numbers; null: all that is shown in the middle */
+  view: number[] | null;
 }
 
-export const NOTHING: State = { shown: [], selected: -1 };
+export const NOTHING: State = { shown: [], selected: -1, view: null };
 
 export function isolate(state: State, entry: number, tau: number): State {
   const before = state.shown.find((shown) => shown.entry === entry);
-  return { shown: [before ? { ...before, visible: true } : { entry, tau, opacity: 1, visible: true }], selected: 0 };
+  return { ...state, shown: [before ? { ...before, visible: true } : { entry, tau, opacity: 1, visible: true }], selected: 0 };
 }
 
 export function add(state: State, entry: number, tau: number): State {
   const at = state.shown.findIndex((shown) => shown.entry === entry);
   if (at >= 0) return { ...state, selected: at };
-  return { shown: [...state.shown, { entry, tau, opacity: 1, visible: true }], selected: state.shown.length };
+  return { ...state, shown: [...state.shown, { entry, tau, opacity: 1, visible: true }], selected: state.shown.length };
 }
 
 export function remove(state: State, at: number): State {
   const shown = state.shown.filter((_, i) => i !== at);
-  return { shown, selected: Math.min(state.selected, shown.length - 1) };
+  return { ...state, shown, selected: Math.min(state.selected, shown.length - 1) };
 }
 
 export function change(state: State, at: number, what: Partial<Shown>): State {
   return { ...state, shown: state.shown.map((shown, i) => (i === at ? { ...shown, ...what } : shown)) };
+}
+
+/** The events of the objects that matter, next to an isovalue: the closest value above (up) or below it at which one begins or ends. */
+export function nextEvent(values: readonly (number | null)[], tau: number, up: boolean): number | null {
+  const beyond = values.filter((value): value is number => value !== null && (up ? value > tau : value < tau));
+  if (beyond.length === 0) return null;
+  return up ? Math.min(...beyond) : Math.max(...beyond);
 }
 
 /** All states so far, and where among them one is. */
@@ -94,7 +103,8 @@ export class History {
 /** The state as the part of an address behind '#'. */
 export function toHash(state: State): string {
   const parts = state.shown.map((s) => [s.entry, s.tau, s.opacity, s.visible ? 1 : 0].join(","));
-  return `#scene=${parts.join(";")}&selected=${state.selected}`;
+  const view = state.view ? `&view=${state.view.map((n) => Number(n.toPrecision(6))).join(",")}` : "";
+  return `#scene=${parts.join(";")}&selected=${state.selected}${view}`;
 }
 
 /** entries: how many there are. null: that is none of ours. */
@@ -111,5 +121,10 @@ export function fromHash(hash: string, entries: number): State | null {
     shown.push({ entry, tau, opacity, visible: visible === 1 });
   }
   const selected = Number(words.get("selected") ?? -1);
-  return { shown, selected: Number.isInteger(selected) && selected < shown.length ? selected : shown.length - 1 };
+  const view = (words.get("view") ?? "").split(",").map(Number);
+  return {
+    shown,
+    selected: Number.isInteger(selected) && selected < shown.length ? selected : shown.length - 1,
+    view: view.length === 6 && view.every(Number.isFinite) ? view : null,
+  };
 }
