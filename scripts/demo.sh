@@ -66,4 +66,5 @@ Next:
   make demo VOLUME=your_file              the same for your data (NRRD, NIfTI, MHA, NPY, VTI, TIFF, RAW)
   $isoatlas --help       everything else
   make install PREFIX=~/.local            puts isoatlas and the C++ library there
+  $isoatlas view $out/demo.atlas     explore it in a browser
 TEXT
