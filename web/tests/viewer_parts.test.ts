@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type State } from "../src/viewer/state";
+import { roundLength } from "../src/viewer/scale_bar";
 import { unfolded } from "../src/viewer/wire";
 
 const two: State = add(isolate(NOTHING, 3, 10), 1, 20.5);
@@ -65,5 +66,11 @@ describe("normals", () => {
     expect(unfolded(0, -127)).toEqual([0, -127, 0]);
     expect(unfolded(127, 127).map(Math.abs)).toEqual([0, 0, 127]);
     for (let a = -127; a <= 127; a += 5) for (let b = -127; b <= 127; b += 5) expect(Math.abs(Math.hypot(...unfolded(a, b)) - 127)).toBeLessThan(1.1);
+  });
+});
+
+describe("the scale bar", () => {
+  it("has a round length", () => {
+    expect([0, 0.99, 1, 1.99, 2, 4.9, 7, 99, 0.03].map(roundLength)).toEqual([0, 0.5, 1, 1, 2, 2, 5, 50, 0.02]);
   });
 });

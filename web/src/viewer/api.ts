@@ -25,6 +25,7 @@ export interface Atlas {
   type: string;
   spacing: [number, number, number];
   origin: [number, number, number];
+  direction: [number, number, number][];
   unit: string | null;
   valueUnit: string | null;
   low: number;

@@ -1,4 +1,5 @@
 // Keys that work wherever nothing is being typed.
+import { VIEWS } from "./eye";
 import type { Stage } from "./stage";
 
 export interface Actions {
@@ -12,6 +13,10 @@ export interface Actions {
   /** takes what is selected out of the scene */
   hide(): void;
   help(): void;
+  /** cuts everything open, or closes it */
+  cut(): void;
+  /** shows the edges of the volume, or not */
+  box(): void;
 }
 
 const STEP = 0.005;
@@ -24,13 +29,17 @@ export function keys(stage: Stage, actions: Actions): void {
     "{": () => actions.event(false),
     "}": () => actions.event(true),
     f: () => actions.fit(),
+    o: () => stage.eye.toggleFlat(),
+    b: () => actions.box(),
+    c: () => actions.cut(),
     Delete: () => actions.hide(),
     "?": () => actions.help(),
-    ArrowLeft: () => stage.turn(-ANGLE, 0),
-    ArrowRight: () => stage.turn(ANGLE, 0),
-    ArrowUp: () => stage.turn(0, ANGLE),
-    ArrowDown: () => stage.turn(0, -ANGLE),
+    ArrowLeft: () => stage.eye.turn(-ANGLE, 0),
+    ArrowRight: () => stage.eye.turn(ANGLE, 0),
+    ArrowUp: () => stage.eye.turn(0, ANGLE),
+    ArrowDown: () => stage.eye.turn(0, -ANGLE),
   };
+  for (const [key, direction] of Object.entries(VIEWS)) bound[key] = () => stage.eye.along(direction);
   document.addEventListener("keydown", (event) => {
     const typing = event.target instanceof HTMLInputElement && event.target.type !== "checkbox";
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {

@@ -7,6 +7,7 @@ import { help } from "./help";
 import { keys } from "./keys";
 import { ListPanel } from "./list_panel";
 import { ObjectPanel } from "./object_panel";
+import { ScaleBar } from "./scale_bar";
 import { Stage } from "./stage";
 import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type Shown, type State } from "./state";
 import "./viewer.css";
@@ -18,7 +19,7 @@ const CLICK_PIXELS = 4;
 
 class Viewer {
   private readonly history: History;
-  private readonly stage = new Stage(() => this.go({ ...this.now, view: this.stage.view }, true));
+  private readonly stage = new Stage(() => this.go({ ...this.now, view: this.stage.eye.view }, true));
   private readonly axis: AxisPanel;
   private readonly list: ListPanel;
   private readonly panel: ObjectPanel;
@@ -26,6 +27,8 @@ class Viewer {
   /** per entry: the isovalue of what the picture shows of it, or soon will */
   private readonly drawn = new Map<number, number>();
   private readonly help = help();
+  private framed = false;
+  private readonly cut = html("input", { class: "cut", type: "range", min: 0, max: 1, step: 0.01, hidden: true, "aria-label": "where it is cut open" });
 
   constructor(
     private readonly api: Api,
@@ -48,7 +51,10 @@ class Viewer {
       link: () => void navigator.clipboard.writeText(location.href).then(() => this.say("the link is in the clipboard")),
     });
     const side = html("div", { class: "side" }, this.list.element, this.panel.element);
-    main.append(side, html("div", { class: "stage" }, this.stage.canvas, this.said), this.axis.element, this.help);
+    const bar = new ScaleBar(atlas.unit);
+    this.stage.onDraw(() => bar.show(this.stage.eye.height, this.stage.canvas.clientHeight));
+    this.cut.addEventListener("input", () => this.stage.slide(Number(this.cut.value)));
+    main.append(side, html("div", { class: "stage" }, this.stage.canvas, this.said, bar.element, this.cut), this.axis.element, this.help);
     this.history.listen((state, before) => this.show(state, before));
     this.listenToKeys();
     this.listenToClicks();
@@ -104,6 +110,15 @@ class Viewer {
       fit: () => this.stage.fit(),
       hide: () => this.hide(),
       help: () => this.help.showModal(),
+      cut: () => {
+        this.stage.open(!this.stage.isOpen);
+        this.cut.hidden = !this.stage.isOpen;
+        this.cut.value = "0.5";
+      },
+      box: () => {
+        this.framed = !this.framed;
+        this.stage.frame(this.framed ? cornersOf(this.atlas) : null);
+      },
     });
   }
 
@@ -131,7 +146,7 @@ class Viewer {
     }
     for (const old of before.shown) if (!state.shown.some((shown) => shown.entry === old.entry)) this.forget(old.entry);
     for (const shown of state.shown) void this.draw(shown);
-    if (state.view && state.view !== before.view && String(state.view) !== String(this.stage.view)) this.stage.view = state.view;
+    if (state.view && state.view !== before.view && String(state.view) !== String(this.stage.eye.view)) this.stage.eye.view = state.view;
   }
 
   private forget(entry: number): void {
@@ -158,7 +173,7 @@ class Viewer {
       for (const most of [COARSE, WHOLE]) {
         const mesh = await this.api.surface(`surface ${entry}`, tau, this.atlas.objects[entry]?.id ?? null, most);
         if (this.drawn.get(entry) !== tau) return;
-        this.stage.put(entry, mesh, colourOf(entry), opacity);
+        this.stage.put(entry, mesh, colourOf(entry), opacity, tau);
         if (first && most === COARSE) this.stage.fit();
         this.say(mesh.coarse ? "coarse preview" : "");
         if (!mesh.coarse) break;
@@ -186,6 +201,15 @@ class Viewer {
   private fail(error: unknown): void {
     if (!isOvertaken(error)) this.say(error instanceof Error ? error.message : String(error));
   }
+}
+
+/** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */
+function cornersOf(atlas: Atlas): [number, number, number][] {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => {
+    const steps = [0, 1, 2].map((axis) => (corner & (1 << axis) ? (atlas.size[axis] ?? 1) - 1 : 0) * (atlas.spacing[axis] ?? 1));
+    const at = (row: number): number => (atlas.origin[row] ?? 0) + steps.reduce((sum, step, axis) => sum + (atlas.direction[row]?.[axis] ?? 0) * step, 0);
+    return [at(0), at(1), at(2)];
+  });
 }
 
 /** Gives the reader a file. */

@@ -1,63 +1,109 @@
-// The picture: meshes in a frame of physical units, turned with the mouse, a finger or keys. Drawn when something has changed.
+// The picture: meshes in a frame of physical units. Drawn when something has changed.
 import * as three from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { Clip, dispose } from "./clip";
+import { Eye } from "./eye";
 import type { Mesh } from "./wire";
+
+type Body = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
 
 export class Stage {
   readonly canvas: HTMLCanvasElement;
+  readonly eye: Eye;
   private readonly renderer: three.WebGLRenderer;
   private readonly scene = new three.Scene();
-  private readonly camera = new three.PerspectiveCamera(30, 1, 0.1, 1000);
-  private readonly controls: OrbitControls;
-  private readonly meshes = new Map<number, three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>>();
+  private readonly bodies = new Map<number, Body>();
+  /** over the left shoulder */
+  private readonly lamp = new three.DirectionalLight(0xffffff, 1.8);
+  private readonly clip = new Clip();
+  /** in which direction it is cut */
+  private readonly towards = new three.Vector3(0, 1, 0);
+  private caps: three.Group[] = [];
+  private box: three.LineSegments | null = null;
   private asked = false;
+  private readonly listeners: (() => void)[] = [];
 
-  /** moved: the camera has come to rest somewhere else */
-  constructor(moved: () => void) {
-    this.renderer = new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+  /** rested: the hand has let go after turning. */
+  constructor(rested: () => void) {
+    this.renderer = new three.WebGLRenderer({ antialias: true, alpha: true, stencil: true, preserveDrawingBuffer: true });
+    this.renderer.localClippingEnabled = true;
     this.canvas = this.renderer.domElement;
-    this.camera.up.set(0, 0, 1);
-    this.scene.add(new three.HemisphereLight(0xffffff, 0x667788, 1.6), this.camera);
-    const lamp = new three.DirectionalLight(0xffffff, 1.8);
-    lamp.position.set(-0.4, 0.6, 1);
-    this.camera.add(lamp);
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.addEventListener("change", () => this.draw());
-    this.controls.addEventListener("end", moved);
+    this.eye = new Eye(this.canvas, () => this.draw(), rested);
+    this.scene.add(new three.HemisphereLight(0xffffff, 0x667788, 1.6), this.lamp);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
-  /** Replaces what stands under this key. */
-  put(key: number, mesh: Mesh, colour: string, opacity: number): void {
+  /** Calls after every picture, with the length of its height in physical units. */
+  onDraw(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  /** Replaces what stands under this key. tau: on a cut, what has the higher isovalue is seen. */
+  put(key: number, mesh: Mesh, colour: string, opacity: number, tau: number): void {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(mesh.positions, 3));
     geometry.setAttribute("normal", new three.BufferAttribute(mesh.normals, 3, true));
     geometry.setIndex(new three.BufferAttribute(mesh.corners, 1));
-    this.remove(key);
-    const body = new three.Mesh(geometry, new three.MeshStandardMaterial({ color: colour, roughness: 0.55, side: three.DoubleSide }));
+    this.take(key);
+    const body: Body = new three.Mesh(geometry, new three.MeshStandardMaterial({ color: colour, roughness: 0.55, side: three.DoubleSide }));
     body.position.set(...mesh.origin);
     body.scale.setScalar(mesh.step);
-    this.meshes.set(key, body);
+    body.updateMatrixWorld();
+    body.userData = { tau };
+    this.bodies.set(key, body);
     this.scene.add(body);
     this.fade(key, opacity);
+    this.cut();
   }
 
   fade(key: number, opacity: number): void {
-    const material = this.meshes.get(key)?.material;
+    const material = this.bodies.get(key)?.material;
     if (!material) return;
     material.opacity = opacity;
     material.transparent = opacity < 1;
     material.depthWrite = opacity === 1;
-    this.draw();
+    this.cut();
   }
 
   remove(key: number): void {
-    const body = this.meshes.get(key);
-    if (!body) return;
-    this.scene.remove(body);
-    body.geometry.dispose();
-    body.material.dispose();
-    this.meshes.delete(key);
+    this.take(key);
+    this.cut();
+  }
+
+  /** All there is in the middle of the picture. */
+  fit(): void {
+    const ball = this.ball();
+    if (ball) this.eye.fit(ball);
+  }
+
+  /** Cuts everything open, from where one looks now, or closes it. */
+  open(on: boolean): void {
+    this.clip.on = on;
+    this.eye.camera.getWorldDirection(this.towards);
+    this.slide(0.5);
+  }
+  /** Moves the cut. share: of what stays, 0 to 1. */
+  slide(share: number): void {
+    const ball = this.ball();
+    if (ball) this.clip.set(ball, this.towards.clone().negate(), share);
+    this.cut();
+  }
+  get isOpen(): boolean {
+    return this.clip.on;
+  }
+
+  /** The edges of the volume, or not. corners: of the box, physical. */
+  frame(corners: [number, number, number][] | null): void {
+    if (this.box) {
+      this.scene.remove(this.box);
+      this.box.geometry.dispose();
+      this.box = null;
+    }
+    if (corners) {
+      const edges = [0, 1, 2].flatMap((axis) => [0, 1, 2, 3, 4, 5, 6, 7].filter((i) => !(i & (1 << axis))).map((i) => [i, i | (1 << axis)])).flat();
+      const geometry = new three.BufferGeometry().setFromPoints(edges.map((i) => new three.Vector3(...(corners[i] as [number, number, number]))));
+      this.box = new three.LineSegments(geometry, new three.LineBasicMaterial({ color: 0x888888 }));
+      this.scene.add(this.box);
+    }
     this.draw();
   }
 
@@ -65,60 +111,48 @@ export class Stage {
   pick(left: number, top: number): number | null {
     const { clientWidth, clientHeight } = this.canvas;
     const ray = new three.Raycaster();
-    ray.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.camera);
-    const hit = ray.intersectObjects([...this.meshes.values()], false)[0];
-    for (const [key, body] of this.meshes) if (body === hit?.object) return key;
+    ray.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.eye.camera);
+    const hits = ray.intersectObjects([...this.bodies.values()], false);
+    const hit = hits.find(({ point }) => !this.clip.on || this.clip.plane.distanceToPoint(point) >= 0);
+    for (const [key, body] of this.bodies) if (body === hit?.object) return key;
     return null;
   }
 
   /** The picture as it is, as a PNG. */
   picture(): Promise<Blob | null> {
-    this.renderer.render(this.scene, this.camera);
+    this.render();
     return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
   }
 
-  /** All there is in the middle of the picture. */
-  fit(): void {
+  private take(key: number): void {
+    const body = this.bodies.get(key);
+    if (!body) return;
+    this.scene.remove(body);
+    body.geometry.dispose();
+    body.material.dispose();
+    this.bodies.delete(key);
+  }
+
+  private ball(): three.Sphere | null {
     const box = new three.Box3();
-    for (const body of this.meshes.values()) {
-      body.updateMatrixWorld();
-      box.expandByObject(body);
+    for (const body of this.bodies.values()) box.expandByObject(body);
+    return box.isEmpty() ? null : box.getBoundingSphere(new three.Sphere());
+  }
+
+  /** Makes planes and cut faces what they must be. */
+  private cut(): void {
+    for (const cap of this.caps) {
+      this.scene.remove(cap);
+      dispose(cap);
     }
-    if (box.isEmpty()) return;
-    const ball = box.getBoundingSphere(new three.Sphere());
-    const away = (1.1 * ball.radius) / Math.sin((this.camera.fov * Math.PI) / 360);
-    const towards = this.camera.position.clone().sub(this.controls.target);
-    if (towards.lengthSq() === 0) towards.set(-0.5, -1, 0.5);
-    this.controls.target.copy(ball.center);
-    this.camera.position.copy(ball.center).addScaledVector(towards.normalize(), away);
-    this.camera.near = away / 100;
-    this.camera.far = away * 10;
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.draw();
-  }
-
-  /** Turns by angles in radians, around the vertical and towards it. */
-  turn(around: number, up: number): void {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const ball = new three.Spherical().setFromVector3(new three.Vector3(offset.x, offset.z, -offset.y));
-    ball.theta += around;
-    ball.phi = Math.min(Math.max(ball.phi - up, 0.01), Math.PI - 0.01);
-    const turned = new three.Vector3().setFromSpherical(ball);
-    this.camera.position.copy(this.controls.target).add(new three.Vector3(turned.x, -turned.z, turned.y));
-    this.controls.update();
-    this.draw();
-  }
-
-  /** Where the camera stands and what it looks at. */
-  get view(): number[] {
-    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
-  }
-
-  set view(numbers: number[]) {
-    this.camera.position.fromArray(numbers, 0);
-    this.controls.target.fromArray(numbers, 3);
-    this.controls.update();
+    this.caps = [];
+    let order = 1;
+    for (const body of [...this.bodies.values()].sort((a, b) => Number(a.userData.tau) - Number(b.userData.tau))) {
+      body.material.clippingPlanes = this.clip.planes;
+      body.renderOrder = this.clip.on ? 100 : 0;
+      if (this.clip.on) this.caps.push(this.clip.cap(body, order++));
+    }
+    for (const cap of this.caps) this.scene.add(cap);
     this.draw();
   }
 
@@ -127,9 +161,13 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    this.eye.resize(clientWidth / clientHeight);
     this.draw();
+  }
+
+  private render(): void {
+    this.lamp.position.set(-0.4, 0.6, 1).applyQuaternion(this.eye.camera.quaternion);
+    this.renderer.render(this.scene, this.eye.camera);
   }
 
   private draw(): void {
@@ -137,7 +175,8 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.renderer.render(this.scene, this.camera);
+      this.render();
+      for (const listener of this.listeners) listener();
     });
   }
 }
