@@ -23,7 +23,8 @@ struct AxisScale {
     }
 };
 
-/// Bent when 19 of 20 samples (the lowest value aside) lie in the lowest tenth of the range; the bend is their median. Looks at 10^5 samples.
+/// Bent when 19 of 20 samples (the lowest value aside) lie in the lowest tenth of the range; the bend is their median. Looks at 10^5
+/// samples.
 [[nodiscard]] AxisScale axis_scale(const Volume& volume, double low, double high);
 
 }  // namespace isoatlas::page

@@ -11,9 +11,9 @@
 namespace isoatlas::page {
 namespace {
 
-constexpr std::int64_t kColumns = 480;        // of the spectrum
-constexpr std::int64_t kShapeColumns = 120;   // of one object
-constexpr std::int64_t kOthers = 200;         // branches without a picture
+constexpr std::int64_t kColumns = 480;       // of the spectrum
+constexpr std::int64_t kShapeColumns = 120;  // of one object
+constexpr std::int64_t kOthers = 200;        // branches without a picture
 constexpr std::int64_t kCurvePoints = 160;
 
 class Gatherer {
@@ -34,7 +34,8 @@ public:
         contents_.bright = table.branches, contents_.noise = table.noise;
         contents_.bright_standing_out = static_cast<std::int64_t>(hierarchy_.essential().size());
         contents_.dark = dark.branches, contents_.dark_standing_out = static_cast<std::int64_t>(dark.entries.size());
-        if (static_cast<std::int64_t>(dark.entries.size()) > options_.top_dark) dark.entries.resize(static_cast<std::size_t>(options_.top_dark));
+        if (static_cast<std::int64_t>(dark.entries.size()) > options_.top_dark)
+            dark.entries.resize(static_cast<std::size_t>(options_.top_dark));
         add_bright_branches(table);
         add_bright_entries(table);
         add_dark(dark);
@@ -151,7 +152,8 @@ private:
                                          .tunnels = entry.tunnels,
                                          .cavities = entry.islands,
                                          .inside = inside < 0 ? -1 : first_entry + inside,
-                                         .around = entry_around(entry)});
+                                         .around = entry_around(entry),
+                                         .reason = entry.reason});
         }
     }
     /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.

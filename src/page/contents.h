@@ -24,9 +24,9 @@ struct PageBranch {
     double hypervolume = 0;
     std::int64_t voxels = 0;  ///< just before it merges
     double measure = 0;
-    std::int64_t joined = 0;         ///< objects that merge into it, those that are not on the page included
-    bool stands_out = false;         ///< noise does not explain it, and it is not tiny beside the largest
-    std::vector<CountColumn> shape{};  ///< what it is like over its isovalues; empty: not on the page
+    std::int64_t joined = 0;                       ///< objects that merge into it, those that are not on the page included
+    bool stands_out = false;                       ///< noise does not explain it, and it is not tiny beside the largest
+    std::vector<CountColumn> shape{};              ///< what it is like over its isovalues; empty: not on the page
     std::vector<RecommendedIsovalue> isovalues{};  ///< others that show it well, without an entry
 };
 
@@ -46,9 +46,9 @@ struct PageEntry {
 };
 
 struct PageContents {
-    std::vector<PageBranch> branches;  ///< bright ones by rank, then dark ones by rank
-    std::vector<PageEntry> entries;    ///< in the same order
-    std::int64_t bright = 0, dark = 0;                          ///< objects in all
+    std::vector<PageBranch> branches;                             ///< bright ones by rank, then dark ones by rank
+    std::vector<PageEntry> entries;                               ///< in the same order
+    std::int64_t bright = 0, dark = 0;                            ///< objects in all
     std::int64_t bright_standing_out = 0, dark_standing_out = 0;  ///< of these, what noise does not explain and is not tiny
     double noise = 0;
     AxisScale scale;

@@ -17,9 +17,9 @@ struct CountColumn {
     LevelCounts least, most, essential_least, essential_most;
 };
 
-/// Columns by ascending isovalue that cover the part of `intervals` (as in Spectrum) that lies in (low, scale.high]. When there are at most so
-/// many intervals, they are the columns and least equals most; else the columns are equally wide on the axis: drawn with a column a pixel
-/// they look as all intervals would (Jugel et al., M4, 2014). Cost: O(intervals + columns).
+/// Columns by ascending isovalue that cover the part of `intervals` (as in Spectrum) that lies in (low, scale.high]. When there are at most
+/// so many intervals, they are the columns and least equals most; else the columns are equally wide on the axis: drawn with a column a
+/// pixel they look as all intervals would (Jugel et al., M4, 2014). Cost: O(intervals + columns).
 [[nodiscard]] std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> intervals, double low, const AxisScale& scale,
                                                      std::int64_t columns);
 
