@@ -16,6 +16,7 @@ Json entry_json(const DarkEntry& entry, const VolumeInfo& info) {
     const Scale scale(info);
     Json json{{"id", entry.id}};
     add_isovalues(json, entry, scale);
+    json["reason"] = name_of(entry.reason);
     json["object"] = entry.object;
     json["tunnels"] = entry.tunnels;
     json["islands"] = entry.islands;
@@ -32,14 +33,14 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
     const Sizes sizes(info, largest_measure(table.entries));
     std::vector<Table::Column> columns{{"dark"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
     sizes.add_titles(columns, "islands");
-    columns.insert(columns.end(), {{"inside of"}, {"note", true}});
+    columns.insert(columns.end(), {{"inside of"}, {"why there", true}, {"note", true}});
     Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const DarkEntry& entry = table.entries[i];
         std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
                                      scale.brief(entry.merges), best_tau_text(entry, scale)};
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.islands);
-        row.insert(row.end(), {fmt::format("{}", entry.object), entry.note});
+        row.insert(row.end(), {fmt::format("{}", entry.object), name_of(entry.reason), entry.note});
         text.add(row);
     }
     terminal.say(fmt::format("{} in all; {} to look at", counted(table.branches, "cavity", "cavities"),

@@ -20,6 +20,7 @@ struct DarkEntry {
     double appears;                  ///< stored values: it is on its own for tau in (appears, merges]
     double merges;                   ///< with another dark object or the outside
     double best_tau;                 ///< stored value
+    IsovalueReason reason;           ///< why there: steady, outline (nearly where it merges) or merge
     std::int64_t voxels;             ///< below best_tau
     double measure;                  ///< physical volume (area in 2D) of these
     double hypervolume;              ///< sum over the object at `merges` of (merges - value); the rank

@@ -152,7 +152,8 @@ private:
                                          .tunnels = entry.tunnels,
                                          .cavities = entry.islands,
                                          .inside = inside < 0 ? -1 : first_entry + inside,
-                                         .around = entry_around(entry)});
+                                         .around = entry_around(entry),
+                                         .reason = entry.reason});
         }
     }
     /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.

@@ -1,6 +1,7 @@
 #include "page/count_columns.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace isoatlas::page {
 namespace {
@@ -19,8 +20,8 @@ CountColumn column_of(const SpectrumInterval& interval, double low, double high)
 /// Ascending, what is the same joined.
 std::vector<SpectrumInterval> clipped_intervals(std::span<const SpectrumInterval> intervals, double low, double high) {
     std::vector<SpectrumInterval> inside;
-    for (auto i = intervals.rbegin(); i != intervals.rend(); ++i) {
-        const SpectrumInterval clipped{std::max(i->low, low), std::min(i->high, high), i->all, i->essential};
+    for (const SpectrumInterval& whole : std::views::reverse(intervals)) {
+        const SpectrumInterval clipped{std::max(whole.low, low), std::min(whole.high, high), whole.all, whole.essential};
         if (!(clipped.high > clipped.low)) continue;
         if (!inside.empty() && inside.back().all == clipped.all && inside.back().essential == clipped.essential) {
             inside.back().high = clipped.high;

@@ -52,11 +52,14 @@ public:
         RankOptions with_outside = options;
         with_outside.top = 0;
         if (with_outside.selection && with_outside.selection->keep) ++*with_outside.selection->keep;
-        std::vector<BranchRow> rows = branch_rows(volume_, tree_, branches_, noise, with_outside).rows;
+        auto [rows, isovalues] = branch_rows(volume_, tree_, branches_, noise, with_outside);
         std::erase_if(rows, [](const BranchRow& row) { return row.branch == 0; });
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         const std::vector<std::int64_t> around = closest_around(tree_, rows);
-        for (std::size_t i = 0; i < rows.size(); ++i) table.entries.push_back(entry(rows[i], around[i]));
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            table.entries.push_back(entry(rows[i], around[i]));
+            table.entries.back().reason = std::ranges::find(isovalues, rows[i].branch, &BranchIsovalue::branch)->reason;  // it has one row
+        }
         return table;
     }
 

@@ -115,6 +115,20 @@ class Atlas(harness.CliTest):
         self.assertLessEqual(len(page["branches"]), 24 + 12 + 200)
         self.assertLessEqual(len(page["spectrum"]["edges"]), 481)
 
+    def test_the_figure_of_the_dissertation_through_noise(self):
+        """Figures 3.10 and 12.1: two rings, each of two sticks that become a plate, then one body, then around a cavity."""
+        self.run_ok("phantom", "figure-plateau", "--noise", "0.02", "-o", "figure.nrrd")
+        self.run_ok("figure.nrrd")
+        page = self.page("figure.atlas.html")[1]
+        bright = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "bright"]
+        self.assertEqual(len({entry["branch"] for entry in bright}), 4)  # the four sticks
+        sizes = sorted((entry["voxels"], entry["tunnels"], entry["cavities"]) for entry in bright)
+        sticks, plates, joined, around = [(72, 0, 0)] * 3, [(288, 0, 0)] * 2, [(768, 1, 0)], [(2784, 0, 1)]
+        self.assertEqual(sizes[:-1], sticks + plates + joined + around)  # the last one is the outline
+        (dark,) = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "dark"]
+        self.assertEqual((dark["voxels"], dark["tunnels"], dark["cavities"]), (288, 0, 0))
+        self.assertEqual(page["entries"][dark["around"]]["cavities"], 1)
+
     def test_volumes_with_nothing_in_them(self):
         self.run_ok("flat.nrrd")
         page = self.page("flat.atlas.html")[1]

@@ -4,7 +4,13 @@ import { html } from "./dom";
 import { count } from "./format";
 import type { Page } from "./page";
 
-export function controls(page: Page, changed: (choice: Choice) => void): HTMLElement {
+export interface Controls {
+  /** null: there is one object */
+  keep: HTMLElement | null;
+  filter: HTMLElement;
+}
+
+export function controls(page: Page, changed: (choice: Choice) => void): Controls {
   const first = firstChoice(page);
   const order = html("select", { name: "order" }, ...orders.map(([name]) => html("option", { value: name }, name)));
   const side = html("select", { name: "side" }, ...["all", "bright", "dark"].map((name) => html("option", { value: name }, name)));
@@ -24,12 +30,14 @@ export function controls(page: Page, changed: (choice: Choice) => void): HTMLEle
   });
   said.textContent = count(first.keep);
   const both = new Set(page.branches.map((branch) => branch.side)).size > 1;
-  return html(
-    "form",
-    { class: "controls", submit: (event) => event.preventDefault() },
-    page.branches.length > 1 ? html("div", { class: "keep" }, html("label", {}, html("span", {}, "Keep the ", said, " most important"), keep), reset) : null,
-    html("label", {}, "Sort by ", order),
-    both ? html("label", {}, "Show ", side) : null,
-    html("label", {}, "At least ", least, " voxels"),
-  );
+  return {
+    keep: page.branches.length > 1 ? html("div", { class: "keep" }, html("label", {}, html("span", {}, "Keep the ", said, " most important"), keep), reset) : null,
+    filter: html(
+      "form",
+      { class: "controls", submit: (event) => event.preventDefault() },
+      html("label", {}, "Sort by ", order),
+      both ? html("label", {}, "Show ", side) : null,
+      html("label", {}, "At least ", least, " voxels"),
+    ),
+  };
 }

@@ -48,7 +48,7 @@ function start(page: Page, main: HTMLElement): void {
   const dark = html("ol", { class: "cards" });
   const darkPart = html("section", { class: "dark-part" }, html("h2", {}, "Dark objects"), html("p", { class: "note" }, "What is darker than all around it: cavities and pores inside an object. Each is shown as the wall around it."), dark);
   const said = html("p", { class: "said", role: "status" });
-  const lanes = html("section", { class: "panel" });
+  const lanes = html("div", {});
   const rest = html("div", {});
   const counts = curve(page);
   const show = (choice: Choice): void => {
@@ -58,7 +58,7 @@ function start(page: Page, main: HTMLElement): void {
     dark.replaceChildren(...entries.filter((i) => isDark(page, i)).map((i) => items[i] as HTMLElement));
     darkPart.hidden = dark.children.length === 0;
     said.textContent = entries.length === items.length ? "" : `${count(entries.length)} of ${count(items.length)} pictures shown`;
-    lanes.replaceChildren(html("h2", {}, "Objects over the isovalue"), overview(page, kept, open));
+    lanes.replaceChildren(overview(page, kept, open));
     const pictured = new Set(page.entries.map((entry) => entry.branch));
     rest.replaceChildren(others(page, [...kept].filter((b) => !pictured.has(b))) ?? "");
     counts?.mark([...kept].filter((b) => page.branches[b]?.side === "bright").length);
@@ -67,7 +67,13 @@ function start(page: Page, main: HTMLElement): void {
   const constant = page.volume.low === page.volume.high;
   if (items.length > 0 && !constant) {
     show(firstChoice(page));
-    main.append(lanes, html("section", {}, html("h2", {}, "Objects"), controls(page, show), said, bright), darkPart, rest);
+    const { keep, filter } = controls(page, show);
+    main.append(
+      html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, lanes),
+      html("section", {}, html("h2", {}, "Objects"), filter, said, bright),
+      darkPart,
+      rest,
+    );
   }
   const last = html("footer", {}, `isoatlas ${page.version}, interpolant ${page.interpolant}. This page loads nothing from elsewhere.`);
   main.append(spectrum(page) ?? "", constant ? "" : (counts?.panel ?? ""), glossary(), last, detail.dialog);

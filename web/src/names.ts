@@ -53,7 +53,8 @@ const reasons: Record<string, string> = {
 
 /** Why its isovalue, in a few words. */
 export function reasonOf(page: Page, i: number): string {
-  return reasons[entryOf(page, i).reason] ?? "";
+  const { reason } = entryOf(page, i);
+  return isDark(page, i) && reason === "outline" ? reasons.merge! : (reasons[reason] ?? "");
 }
 
 /** Where it lies, in a few words; empty: nowhere that is on this page. */

@@ -30,7 +30,7 @@ function row(page: Page, branch: Branch): HTMLElement {
 export function others(page: Page, branches: number[]): HTMLElement | null {
   if (branches.length === 0) return null;
   const rows = branches.slice(0, mostRows).map((b) => row(page, branchOf(page, b)));
-  const heads = ["name", "on its own", "size", "contrast × size", "", "largest at"].map((head) => html("th", { scope: "col" }, head));
+  const heads = ["name", "on its own", "size", "contrast × size", "judged", "largest at"].map((head) => html("th", { scope: "col" }, head));
   const line = `isoatlas extract ${page.volume.name}.atlas --object NAME --tau LARGEST -o object.ply`;
   return html(
     "details",

@@ -37,17 +37,25 @@ export function overview(page: Page, kept: Set<number>, open: (i: number) => voi
   const width = drawingWidth();
   const axis = Axis.of(page, width, 14);
   const lane = lanesOf(page, kept);
-  const lanes = Math.max(-1, ...lane) + 1;
-  const laneHeight = Math.max(3, Math.min(22, 880 / Math.max(1, lanes)));
-  const bottom = head + lanes * laneHeight + 10;
-  const y = (b: number): number => head + ((lane[b] ?? 0) + 0.5) * laneHeight;
+  const heights = laneHeights(page, kept, lane);
+  const top = heights.reduce<number[]>((all, height) => [...all, (all.at(-1) ?? head) + height], [head]);
+  const bottom = (top.at(-1) ?? head) + 10;
+  const y = (b: number): number => ((top[lane[b] ?? 0] ?? 0) + (top[(lane[b] ?? 0) + 1] ?? 0)) / 2;
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${bottom + 36}`, class: "overview", role: "group", "aria-label": "Objects over the isovalue" });
   drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }), drawTicks(axis, bottom, width / 110));
   for (const b of kept) drawing.append(...branchLines(page, kept, b, axis, y));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(steadyLine(page, i, axis, y(b)));
-  for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), Math.min(9, laneHeight), open));
+  for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), open));
   drawing.append(svg("text", { class: "caption", x: width - 14, y: bottom + 32, "text-anchor": "end" }, axisName(page)));
   return drawing;
+}
+
+/** Of every lane; those without a picture share what is left of a tall page. */
+function laneHeights(page: Page, kept: Set<number>, lane: number[]): number[] {
+  const heights: number[] = [];
+  const thin = [...kept].filter((b) => entriesOf(page, b).length === 0).length;
+  for (const b of kept) heights[lane[b] ?? 0] = entriesOf(page, b).length > 0 ? 22 : Math.max(3, Math.min(12, 500 / thin));
+  return heights;
 }
 
 function branchLines(page: Page, kept: Set<number>, b: number, axis: Axis, y: (b: number) => number): SVGLineElement[] {
@@ -69,15 +77,15 @@ function steadyLine(page: Page, i: number, axis: Axis, y: number): SVGLineElemen
   return svg("line", { class: "steady", x1: left, x2: Math.max(right, left + 3), y1: y, y2: y, stroke: entry.colour });
 }
 
-function mark(page: Page, i: number, axis: Axis, y: number, radius: number, open: (i: number) => void): SVGGElement {
+function mark(page: Page, i: number, axis: Axis, y: number, open: (i: number) => void): SVGGElement {
+  const radius = 9;
   const entry = entryOf(page, i);
   const x = axis.x(entry.tau);
   const group = svg("g", { class: `mark ${isDark(page, i) ? "dark" : "bright"}`, tabindex: 0, role: "button", "aria-label": describe(page, i) });
   const shape = isDark(page, i)
     ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
     : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });
-  group.append(svg("title", {}, describe(page, i)), shape);
-  if (radius >= 7) group.append(svg("text", { class: isDeep(entry.colour) ? "on-deep" : undefined, x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
+  group.append(svg("title", {}, describe(page, i)), shape, svg("text", { class: isDeep(entry.colour) ? "on-deep" : undefined, x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
   group.addEventListener("click", () => open(i));
   group.addEventListener("keydown", (event) => {
     if (event.key !== "Enter" && event.key !== " ") return;
