@@ -160,10 +160,7 @@ int list_best(const Arguments& arguments, Terminal& terminal) {
         options.selection = source.selection();
         if (arguments.top == 0) options.top = 0;
     }
-    if (!arguments.curve.empty()) {
-        const Volume& volume = source.volume();
-        write_curves(arguments, source, volume, source.analysis(true));
-    }
+    if (!arguments.curve.empty()) write_curves(arguments, source);
     if (arguments.dark || arguments.both) return list_dark(arguments, terminal, source, options);
     const ObjectTable table = source.objects(options);
     if (arguments.json) {

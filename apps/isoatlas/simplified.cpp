@@ -66,8 +66,8 @@ std::string hidden_text(const Simplified& simplified, std::int64_t voxels) {
                        counted(kept + simplified.hidden, "object"), count_text(simplified.hidden), percent);
 }
 
-void write_curves(const Arguments& arguments, Source& source, const Volume& volume, const Analysis& analysis) {
-    const BranchHierarchy hierarchy(volume, analysis, source.context());
+void write_curves(const Arguments& arguments, Source& source) {
+    const BranchHierarchy hierarchy = source.hierarchy();
     const WritingGuard guard(arguments.curve);
     isoatlas::write_curves(arguments.curve, source.info(), hierarchy.curves());
 }
@@ -78,9 +78,7 @@ int run_simplified_tree(const Arguments& arguments, Terminal& terminal) {
                     {.what = "a simplified tree cannot be written with -o", .next = "print it with --json, or leave out the selection"});
     }
     Source source(arguments, terminal);
-    const Volume& volume = source.volume();
-    const Analysis analysis = source.analysis(true);
-    const BranchHierarchy hierarchy(volume, analysis, source.context());
+    const BranchHierarchy hierarchy = source.hierarchy();
     const Simplified simplified = hierarchy.simplify(source.selection());
     stop_if_interrupted();
     if (arguments.json) {

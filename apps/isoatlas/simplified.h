@@ -11,7 +11,7 @@ class Terminal;
 /// isoatlas tree with a selection.
 int run_simplified_tree(const Arguments& arguments, Terminal& terminal);
 /// Writes arguments.curve.
-void write_curves(const Arguments& arguments, Source& source, const Volume& volume, const Analysis& analysis);
+void write_curves(const Arguments& arguments, Source& source);
 /// "3 of 1,204 objects are shown; the others hold 2 % of the voxels"
 [[nodiscard]] std::string hidden_text(const Simplified& simplified, std::int64_t voxels);
 

@@ -93,6 +93,11 @@ ObjectTable Source::objects(const RankOptions& options) {
     return table;
 }
 
+BranchHierarchy Source::hierarchy() {
+    if (atlas_ && !arguments_.voxel_units) return atlas_->hierarchy(context());
+    return {volume(), analysis(true), context()};
+}
+
 Selection Source::selection() {
     Selection selection = arguments_.selection;
     const double slope = std::abs(info_.calibration.slope);

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] Surface extract(double tau, ExtractOptions options);
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
+    /// The branches that selections choose from.
+    [[nodiscard]] BranchHierarchy hierarchy();
     /// The selection of the command line, in stored values.
     [[nodiscard]] Selection selection();
     [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);

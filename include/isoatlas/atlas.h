@@ -12,6 +12,7 @@
 #include "isoatlas/cut.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/simplify.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
 
@@ -104,9 +105,15 @@ public:
     /// then O(bricks + objects log events).
     [[nodiscard]] SurfacePreview preview(double tau) const;
 
-    /// The table of objects, as from rank_objects(). Cost: reads the table, which is stored. Without the gate, with a selection, for more
-    /// than 1024 entries where there are so many, and for volumes of more than 2^24 voxels, the volume is read and analysed again.
+    /// The table of objects, as from rank_objects(). Cost: reads the table, which is stored; with a selection the trees too. Without the
+    /// gate, with a selection that keeps more than what passes the gate, for more than 1024 entries where there are so many, and for
+    /// volumes of more than 2^24 voxels, the volume is read and analysed again.
     [[nodiscard]] ObjectTable objects(const RankOptions& options = {}, const Context& context = {}) const;
+
+    /// The branches of the criticality tree, for selections and simplified trees. Cost: reads the trees and no sample. Of volumes with more
+    /// than one critical element for three voxels, of grids with uneven steps, and of stores of early versions, all samples are read and
+    /// analysed again.
+    [[nodiscard]] BranchHierarchy hierarchy(const Context& context = {}) const;
 
     /// The trees, without zones of voxels.
     [[nodiscard]] Analysis analysis() const;

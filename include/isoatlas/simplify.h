@@ -59,7 +59,7 @@ struct SelectionCurve {
 
 class BranchHierarchy {
 public:
-    /// analysis: of this volume, with zones; it must live as long as this. Throws Error{usage}. Cost: as rank_objects().
+    /// analysis: of this volume, with zones. Throws Error{usage}. Cost: as rank_objects().
     BranchHierarchy(const Volume& volume, const Analysis& analysis, const Context& context = {});
     BranchHierarchy(BranchHierarchy&&) noexcept;
     BranchHierarchy& operator=(BranchHierarchy&&) noexcept;
@@ -79,6 +79,7 @@ public:
     [[nodiscard]] std::vector<SelectionCurve> curves() const;
 
     struct Data;
+    explicit BranchHierarchy(std::unique_ptr<Data> data);
 
 private:
     std::unique_ptr<Data> data_;

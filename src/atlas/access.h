@@ -12,6 +12,7 @@ struct AtlasAccess {
     [[nodiscard]] static const LevelCensus& census(const Atlas& atlas);
     /// The trees, without zones of voxels; lives as long as the Atlas. Cost: the first call reads them.
     [[nodiscard]] static const Analysis& analysis(const Atlas& atlas);
+    [[nodiscard]] static const store::Container& store(const Atlas& atlas);
     [[nodiscard]] static StoredSamples& samples(const Atlas& atlas);
     /// Adds to what Atlas::reads() tells, and to `cost`.
     static void count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost);

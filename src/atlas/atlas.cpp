@@ -8,6 +8,7 @@
 #include "atlas/census_arrays.h"
 #include "atlas/object_arrays.h"
 #include "atlas/object_window.h"
+#include "atlas/stored_hierarchy.h"
 #include "base/lazy.h"
 #include "critical/bodies.h"
 #include "mesh/extract_level.h"
@@ -152,13 +153,24 @@ const ActiveIndex& Atlas::active_index() const {
 }
 
 ObjectTable Atlas::objects(const RankOptions& options, const Context& context) const {
-    if (options.gate && !options.selection && has_objects(data_->store)) {
+    if (has_objects(data_->store) && (options.gate || options.selection)) {
         const ObjectTable& stored = data_->objects.get([this] { return objects_of(data_->store); });
         const auto count = static_cast<std::int64_t>(stored.entries.size());
-        if (count < kStoredEntries || (options.top > 0 && options.top <= count)) return first_entries(stored, options.top);
+        const bool is_whole = count < kStoredEntries;
+        if (!options.selection && (is_whole || (options.top > 0 && options.top <= count))) return first_entries(stored, options.top);
+        if (options.selection && is_whole) {
+            if (std::optional<ObjectTable> selected = selected_entries(*this, stored, *options.selection))
+                return first_entries(std::move(*selected), options.top);
+        }
     }
     const Volume whole = volume(context);
     return rank_objects(whole, analyse(whole, {.interpolant = interpolant(), .tunnel_height = tunnel_height()}, context), options, context);
+}
+
+BranchHierarchy Atlas::hierarchy(const Context& context) const {
+    if (std::optional<BranchHierarchy> stored = stored_hierarchy(*this)) return std::move(*stored);
+    const Volume whole = volume(context);
+    return {whole, analyse(whole, {.interpolant = interpolant(), .tunnel_height = tunnel_height()}, context), context};
 }
 
 Analysis Atlas::analysis() const { return store::analysis_of(data_->store, 0); }
@@ -221,6 +233,7 @@ const Analysis& AtlasAccess::analysis(const Atlas& atlas) {
 const LevelCensus& AtlasAccess::census(const Atlas& atlas) {
     return atlas.data_->census.get([&] { return census_of(atlas.data_->store); });
 }
+const store::Container& AtlasAccess::store(const Atlas& atlas) { return atlas.data_->store; }
 StoredSamples& AtlasAccess::samples(const Atlas& atlas) { return *atlas.data_->samples; }
 void AtlasAccess::count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost) {
     atlas.data_->count(spent, active, cost);

@@ -19,6 +19,7 @@
 #include "store/pack.h"
 #include "store/tree_arrays.h"
 #include "zones/analyse.h"
+#include "zones/hierarchy.h"
 #include "zones/rank.h"
 
 namespace isoatlas {
@@ -116,12 +117,15 @@ public:
             const Context part = shifted(context_, 1, volume.info->extent);
             count_voxels(*analysis, volume, part);
             std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
+            ZoneSums sums;
             if (analysis->element_count() <= kTableElements) {
                 complete(*analysis, volume, part);
                 for (store::PackedArray& array : object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries})))
                     arrays.push_back(std::move(array));
                 if (store::stores_events(*analysis)) {
                     for (store::PackedArray& array : store::event_arrays(*analysis)) arrays.push_back(std::move(array));
+                    sums = sum_zones(volume, *analysis);
+                    arrays.push_back(store::event_sum_array(sums.height));
                 }
             }
             store::pack_store(folder_.file(kZones), contents, arrays);

@@ -47,11 +47,6 @@ store::PackedArray owned(const char* name, const char* type, std::vector<T> numb
     return array;
 }
 
-bool has_array(const store::Container& store, const std::string& name) {
-    const std::vector<store::StoredArray>& arrays = store.contents().arrays;
-    return std::any_of(arrays.begin(), arrays.end(), [&](const store::StoredArray& array) { return array.name == name; });
-}
-
 /// How a member lies in the file.
 template <class Member>
 using Stored = std::conditional_t<std::is_same_v<Member, bool> || std::is_enum_v<Member>, std::uint8_t, Member>;
@@ -75,7 +70,7 @@ void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vecto
 
 /// Not in the first stores of version 1.
 std::vector<RecommendedIsovalue> isovalues_of(const store::Container& store) {
-    if (!has_array(store, "isovalues/tau")) return {};
+    if (!store.contents().has_array("isovalues/tau")) return {};
     std::vector<RecommendedIsovalue> isovalues(static_cast<std::size_t>(store.contents().array("isovalues/tau", "float64").count()));
     for_isovalue_members([&]<class Member>(const char* name, const char* type, Member RecommendedIsovalue::* member) {
         const auto numbers = store.all<Stored<Member>>(name, type);
@@ -112,13 +107,13 @@ std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
     return arrays;
 }
 
-bool has_objects(const store::Container& store) { return has_array(store, "objects/id"); }
+bool has_objects(const store::Container& store) { return store.contents().has_array("objects/id"); }
 
 ObjectTable objects_of(const store::Container& store) {
     ObjectTable table;
     table.entries.resize(static_cast<std::size_t>(store.contents().array("objects/id", "int64").count()));
     for_members([&]<class Member>(const char* name, const char* type, Member ObjectEntry::* member) {
-        if (std::string_view(name) == kBranchTop && !has_array(store, name)) {
+        if (std::string_view(name) == kBranchTop && !store.contents().has_array(name)) {
             for (ObjectEntry& entry : table.entries) entry.*member = static_cast<Member>(-1);
             return;
         }

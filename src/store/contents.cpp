@@ -150,6 +150,8 @@ std::int64_t StoredArray::count() const {
 
 std::int64_t StoredArray::bytes() const { return count() * size_of_type(type); }
 
+bool Contents::has_array(std::string_view name) const { return std::ranges::find(arrays, name, &StoredArray::name) != arrays.end(); }
+
 const StoredArray& Contents::array(std::string_view name, std::string_view type) const {
     const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const StoredArray& a) { return a.name == name && a.type == type; });
     if (found != arrays.end()) return *found;

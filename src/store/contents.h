@@ -56,6 +56,7 @@ struct Contents {
 
     /// Throws Error{input} when there is none of that name and type.
     [[nodiscard]] const StoredArray& array(std::string_view name, std::string_view type) const;
+    [[nodiscard]] bool has_array(std::string_view name) const;
 };
 
 /// Bytes of one number of a type; 0: no such type.

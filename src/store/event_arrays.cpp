@@ -61,6 +61,20 @@ std::vector<PackedArray> event_arrays(const Analysis& analysis) {
     return packs;
 }
 
+PackedArray event_sum_array(std::span<const double> sums) { return packed_chunks<double>("events/sum", "float64", sums); }
+
+std::vector<double> event_sums_of(const Container& store, std::int64_t events) {
+    if (!store.contents().has_array("events/sum")) return {};
+    const auto numbers = store.all<double>("events/sum", "float64");
+    if (static_cast<std::int64_t>(numbers.size()) != events) {
+        throw Error(ErrorKind::input, {.file = store.path(),
+                                       .where = "events/sum",
+                                       .what = "there are not as many sums as events",
+                                       .next = "the store is damaged: build it again from the volume"});
+    }
+    return {numbers.begin(), numbers.end()};
+}
+
 std::string first_wrong_event(const Container& store, const Analysis& analysis) {
     std::string wrong;
     analysis.data().visit([&](const auto& held) {

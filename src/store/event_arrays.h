@@ -4,9 +4,11 @@
 //   events/parent                 the next event of the same object going down; of the root the root itself
 //   events/kind                   uint8: Criticality (isoatlas/analysis.h)
 //   events/lows_out, delta_chi    what happens: low components that leave just below, change of the Euler characteristic of the Highs
+//   events/sum                    float64: sum of the samples of the zone of the event
 //   events/chi, contours, voxels  of the object just below the event: Euler characteristic, contours; voxels of the zone of the event
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,12 @@ namespace isoatlas::store {
 
 /// analysis: with events and their voxels; it must live until the arrays are packed.
 [[nodiscard]] std::vector<PackedArray> event_arrays(const Analysis& analysis);
+
+/// events/sum: sum of the samples of the zone of each event, which hypervolumes are made of. Not in the first stores of version 1.
+[[nodiscard]] PackedArray event_sum_array(std::span<const double> sums);
+
+/// Nothing when they are not stored. Throws Error{input} when there are not as many as events.
+[[nodiscard]] std::vector<double> event_sums_of(const Container& store, std::int64_t events);
 
 /// Says which number of the stored events is not that of the analysis; "" when all are. Cost: reads them.
 [[nodiscard]] std::string first_wrong_event(const Container& store, const Analysis& analysis);

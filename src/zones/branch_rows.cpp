@@ -60,7 +60,7 @@ private:
         std::vector<std::int64_t> kept;
         if (options.selection) {
             const bool measured = options.selection->least_measure > 0;
-            const BigVector<double> measure = measured ? branch_measures(tree_, branches_, volume_) : BigVector<double>();
+            const BigVector<double> measure = measured ? branch_measures(tree_, branches_, *volume_.info) : BigVector<double>();
             kept = select_branches(branches_, measure, *options.selection);
         } else if (options.gate) {
             kept = essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);

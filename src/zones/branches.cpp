@@ -9,22 +9,17 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Sums of the zones of every object, and the lowest sample.
+/// Sums of the zones of every object.
 template <class Id>
-void sum_objects(const SideTree<Id>& tree, const VolumeView& volume, Branches& result) {
-    ObjectSums& sums = result.objects;
+ObjectSums sum_objects(const SideTree<Id>& tree, const ZoneSums& zones) {
+    ObjectSums sums{{}, zones.height};
     sums.voxels.assign(tree.voxels.begin(), tree.voxels.end());
-    sums.sum.assign(tree.size(), 0.0);
-    result.lowest = kInfinity;
-    tree.for_heights(volume, [&](std::size_t v, double height) {
-        sums.sum[tree.zone[v]] += height;
-        result.lowest = std::min(result.lowest, height);
-    });
     for (std::size_t e = 0; e < tree.size(); ++e) {
         if (tree.is_root(e)) continue;
         sums.voxels[tree.parent[e]] += sums.voxels[e];
         sums.sum[tree.parent[e]] += sums.sum[e];
     }
+    return sums;
 }
 
 /// Per event: the child that goes on, -1: there is none. Children come before their parents.
@@ -57,10 +52,21 @@ BigVector<std::int64_t> highest_events(const SideTree<Id>& tree) {
 }  // namespace
 
 template <class Id>
-Branches make_branches(const SideTree<Id>& tree, const VolumeView& volume) {
+ZoneSums sum_zones(const SideTree<Id>& tree, const VolumeView& volume) {
+    ZoneSums zones{BigVector<double>(tree.size(), 0.0), kInfinity};
+    tree.for_heights(volume, [&](std::size_t v, double height) {
+        zones.height[tree.zone[v]] += height;
+        zones.lowest = std::min(zones.lowest, height);
+    });
+    return zones;
+}
+
+template <class Id>
+Branches make_branches(const SideTree<Id>& tree, const ZoneSums& zones) {
     const std::size_t events = tree.size();
     Branches result;
-    sum_objects(tree, volume, result);
+    result.objects = sum_objects(tree, zones);
+    result.lowest = zones.lowest;
     BigVector<double> hypervolume(events);
     for (std::size_t e = 0; e < events; ++e) {
         const double base = tree.is_root(e) ? result.lowest : tree.height[tree.parent[e]];
@@ -94,7 +100,9 @@ Branches make_branches(const SideTree<Id>& tree, const VolumeView& volume) {
     return result;
 }
 
-template Branches make_branches(const SideTree<std::uint32_t>&, const VolumeView&);
-template Branches make_branches(const SideTree<std::uint64_t>&, const VolumeView&);
+template ZoneSums sum_zones(const SideTree<std::uint32_t>&, const VolumeView&);
+template ZoneSums sum_zones(const SideTree<std::uint64_t>&, const VolumeView&);
+template Branches make_branches(const SideTree<std::uint32_t>&, const ZoneSums&);
+template Branches make_branches(const SideTree<std::uint64_t>&, const ZoneSums&);
 
 }  // namespace isoatlas

@@ -37,8 +37,18 @@ struct Branches {
     double lowest = 0;  ///< height of the lowest sample
 };
 
-/// Cost: one pass over the samples, in order, so that sums do not depend on threads; O(events log events).
+/// Over the zone of each event.
+struct ZoneSums {
+    BigVector<double> height;
+    double lowest = 0;  ///< height of the lowest sample
+};
+
+/// Cost: one pass over the samples, in order, so that sums do not depend on threads.
 template <class Id>
-[[nodiscard]] Branches make_branches(const SideTree<Id>& tree, const VolumeView& volume);
+[[nodiscard]] ZoneSums sum_zones(const SideTree<Id>& tree, const VolumeView& volume);
+
+/// tree.zone may be empty. Cost: O(events log events).
+template <class Id>
+[[nodiscard]] Branches make_branches(const SideTree<Id>& tree, const ZoneSums& zones);
 
 }  // namespace isoatlas

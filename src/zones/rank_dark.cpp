@@ -41,7 +41,7 @@ template <class Id>
 class DarkRanking {
 public:
     DarkRanking(const Volume& volume, const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark)
-        : volume_(volume), arrays_(arrays), dark_(dark), tree_(dark.side()), branches_(make_branches(tree_, volume_)) {}
+        : volume_(volume), arrays_(arrays), dark_(dark), tree_(dark.side()), branches_(make_branches(tree_, sum_zones(tree_, volume_))) {}
 
     /// All but the outside.
     [[nodiscard]] DarkTable table(const RankOptions& options) const {

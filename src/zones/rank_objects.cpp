@@ -21,7 +21,7 @@ public:
           is_3d_(is_3d),
           values_(event_values(arrays)),
           tree_(bright_side<Id>(arrays, values_)),
-          branches_(make_branches(tree_, volume_)) {}
+          branches_(make_branches(tree_, sum_zones(tree_, volume_))) {}
 
     [[nodiscard]] ObjectTable table(const RankOptions& options) const {
         ObjectTable table;

@@ -22,8 +22,7 @@ std::int64_t most_of(const Selection& selection, std::int64_t branches) {
 }  // namespace
 
 template <class Id>
-BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& branches, const VolumeView& volume) {
-    const VolumeInfo& info = *volume.info;
+BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& branches, const VolumeInfo& info) {
     BigVector<double> measure(branches.branch.size());
     const bool uniform = std::ranges::all_of(info.geometry.coordinates, [](const auto& c) { return c.size() < 2; });
     if (uniform) {
@@ -82,7 +81,7 @@ std::vector<std::int64_t> essential_branches(const Branches& branches, std::int6
     return kept;
 }
 
-template BigVector<double> branch_measures(const SideTree<std::uint32_t>&, const Branches&, const VolumeView&);
-template BigVector<double> branch_measures(const SideTree<std::uint64_t>&, const Branches&, const VolumeView&);
+template BigVector<double> branch_measures(const SideTree<std::uint32_t>&, const Branches&, const VolumeInfo&);
+template BigVector<double> branch_measures(const SideTree<std::uint64_t>&, const Branches&, const VolumeInfo&);
 
 }  // namespace isoatlas

@@ -9,9 +9,10 @@
 
 namespace isoatlas {
 
-/// Physical volume of the object of every branch just before it merges. Cost: O(branches); on rectilinear grids one pass over the samples.
+/// Physical volume of the object of every branch just before it merges. Cost: O(branches); on rectilinear grids, where tree.zone is needed,
+/// one pass over the voxels.
 template <class Id>
-[[nodiscard]] BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& branches, const VolumeView& volume);
+[[nodiscard]] BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& branches, const VolumeInfo& info);
 
 /// Positions by rank, the trunk first. measure: of branch_measures(); empty when the selection does not ask for it. Cost: O(branches).
 [[nodiscard]] std::vector<std::int64_t> select_branches(const Branches& branches, std::span<const double> measure,

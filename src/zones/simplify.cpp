@@ -5,36 +5,24 @@
 #include <limits>
 
 #include "field/order.h"
+#include "zones/hierarchy.h"
 #include "zones/noise.h"
 #include "zones/select_branches.h"
 
 namespace isoatlas {
 
-struct BranchHierarchy::Data {
-    BigVector<std::int64_t> parent;  ///< per event: of the criticality tree
-    BigVector<double> value;         ///< per event
-    BigVector<std::int64_t> voxels;  ///< per event, of its zone
-    Branches branches;
-    std::vector<BranchInfo> info;
-    BigVector<double> measure;  ///< per branch
-    std::vector<std::int64_t> essential;
-
-    [[nodiscard]] bool is_root(std::int64_t e) const { return parent[e] == e; }
-};
-
 namespace {
 
 using Data = BranchHierarchy::Data;
 
+/// zone: of every voxel; of uniform grids it may be empty.
 template <class Id>
-void gather(const VolumeView& volume, const AnalysisArrays<Id>& arrays, Data& data) {
-    data.value = event_values(arrays);
+void gather(const VolumeInfo& info, const AnalysisArrays<Id>& arrays, const ZoneSums& zones, Data& data) {
     data.parent.assign(arrays.tree.parent.begin(), arrays.tree.parent.end());
     data.voxels.assign(arrays.voxels.begin(), arrays.voxels.end());
     const SideTree<Id> tree = bright_side<Id>(arrays, data.value);
-    data.branches = make_branches(tree, volume);
-    data.measure = branch_measures(tree, data.branches, volume);
-    data.essential = essential_branches(data.branches, volume.info->extent.voxels(), fit_noise(volume), tree.sign);
+    data.branches = make_branches(tree, zones);
+    data.measure = branch_measures(tree, data.branches, info);
     for (std::size_t i = 0; i < data.branches.branch.size(); ++i) {
         const Branch& b = data.branches.branch[i];
         const std::int64_t id = ElementCode{arrays.code[arrays.tree.top[b.highest]]}.index();
@@ -88,14 +76,36 @@ SelectionCurve curve_of(const Data& data, const std::string& size, const auto& s
 
 }  // namespace
 
+ZoneSums sum_zones(const VolumeView& volume, const Analysis& analysis) {
+    return analysis.data().visit([&](const auto& held) {
+        const BigVector<double> values = event_values(held.arrays);
+        return sum_zones(bright_side(held.arrays, std::span<const double>(values)), volume);
+    });
+}
+
+BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, const ZoneSums& zones, std::span<const std::int64_t> tops) {
+    auto data = std::make_unique<Data>();
+    analysis.data().visit([&](const auto& held) {
+        data->value = event_values(held.arrays);
+        gather(info, held.arrays, zones, *data);
+    });
+    for (std::size_t i = 0; i < data->info.size(); ++i) {
+        if (std::ranges::binary_search(tops, data->info[i].top)) data->essential.push_back(static_cast<std::int64_t>(i));
+    }
+    return BranchHierarchy(std::move(data));
+}
+
 BranchHierarchy::BranchHierarchy(const Volume& volume, const Analysis& analysis, const Context&) : data_(std::make_unique<Data>()) {
     if (volume.info.extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
     analysis.data().visit([&](const auto& held) {
         if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "simplifying needs an analysis with zones"});
-        gather(VolumeView(volume), held.arrays, *data_);
+        data_->value = event_values(held.arrays);
+        gather(volume.info, held.arrays, sum_zones(VolumeView(volume), analysis), *data_);
     });
+    data_->essential = essential_branches(data_->branches, volume.info.extent.voxels(), fit_noise(VolumeView(volume)), 1);
 }
+BranchHierarchy::BranchHierarchy(std::unique_ptr<Data> data) : data_(std::move(data)) {}
 BranchHierarchy::BranchHierarchy(BranchHierarchy&&) noexcept = default;
 BranchHierarchy& BranchHierarchy::operator=(BranchHierarchy&&) noexcept = default;
 BranchHierarchy::~BranchHierarchy() = default;

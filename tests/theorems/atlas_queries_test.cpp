@@ -120,6 +120,44 @@ std::string text(const isoatlas::ObjectTable& table) {
     return out.str();
 }
 
+isoatlas::Selection arbitrary_selection(const isoatlas::BranchHierarchy& hierarchy) {
+    const auto& some = hierarchy.branches()[*rc::gen::inRange<std::size_t>(0, hierarchy.branches().size())];
+    isoatlas::Selection selection;
+    switch (*rc::gen::inRange(0, 4)) {
+        case 0: selection.keep = *rc::gen::inRange<std::int64_t>(1, 9); break;
+        case 1: selection.least_persistence = some.persistence; break;
+        case 2: selection.least_hypervolume = some.hypervolume; break;
+        default: selection.least_measure = some.measure;
+    }
+    return selection;
+}
+
+std::string text(const isoatlas::BranchHierarchy& hierarchy, const isoatlas::Selection& selection) {
+    std::ostringstream out;
+    out.precision(17);
+    for (const isoatlas::BranchInfo& b : hierarchy.branches())
+        out << b.id << ' ' << b.top << ' ' << b.parent << ' ' << b.merges << ' ' << b.hypervolume << ' ' << b.voxels << ' ' << b.measure
+            << '\n';
+    out << join(hierarchy.essential()) << '\n' << join(hierarchy.simplify(selection).node_of_event);
+    return out.str();
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, SelectAsVolumesDo, ()) {
+    const Grid grid = arbitrary_volume();
+    Volume volume = to_volume(grid, arbitrary_type(grid));
+    volume.info.geometry = arbitrary_geometry(grid);
+    isoatlas::build_atlas(path_, volume);
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume);
+    const isoatlas::BranchHierarchy hierarchy(volume, analysis);
+    const isoatlas::Selection selection = arbitrary_selection(hierarchy);
+    const Atlas atlas(path_);
+    RC_ASSERT(text(atlas.hierarchy(), selection) == text(hierarchy, selection));
+    for (const std::int64_t top : {0, 3}) {
+        const isoatlas::RankOptions options{.top = top, .selection = selection};
+        RC_ASSERT(text(atlas.objects(options)) == text(isoatlas::rank_objects(volume, analysis, options)));
+    }
+}
+
 RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfObjects, ()) {
     const Grid grid = arbitrary_volume();
     Volume volume = to_volume(grid, arbitrary_type(grid));

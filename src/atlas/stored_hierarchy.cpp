@@ -1,0 +1,74 @@
+#include "atlas/stored_hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "atlas/access.h"
+#include "atlas/object_arrays.h"
+#include "store/event_arrays.h"
+#include "zones/hierarchy.h"
+
+namespace isoatlas {
+namespace {
+
+bool is_uniform(const Geometry& geometry) {
+    return std::ranges::all_of(geometry.coordinates, [](const auto& c) { return c.size() < 2; });
+}
+
+/// Of every event; nothing when the store does not have it.
+std::optional<ZoneSums> stored_sums(const Atlas& atlas, const Analysis& analysis) {
+    const store::Container& store = AtlasAccess::store(atlas);
+    const std::vector<double> sums = store::event_sums_of(store, analysis.event_count());
+    if (sums.empty() || !analysis.counts_voxels()) return std::nullopt;
+    if (!std::ranges::all_of(sums, [](double sum) { return std::isfinite(sum); })) {
+        throw Error(ErrorKind::input, {.file = store.path(),
+                                       .where = "events/sum",
+                                       .what = "a sum is not finite",
+                                       .next = "the store is damaged: build it again from the volume"});
+    }
+    ZoneSums zones{{}, atlas.range()[0]};
+    zones.height.assign(sums.begin(), sums.end());
+    return zones;
+}
+
+}  // namespace
+
+std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas) {
+    if (!is_uniform(atlas.info().geometry) || !has_objects(AtlasAccess::store(atlas))) return std::nullopt;
+    const ObjectTable table = objects_of(AtlasAccess::store(atlas));
+    if (static_cast<std::int64_t>(table.entries.size()) >= kStoredEntries) return std::nullopt;  // essential objects may be missing
+    const Analysis& analysis = AtlasAccess::analysis(atlas);
+    const std::optional<ZoneSums> zones = stored_sums(atlas, analysis);
+    if (!zones) return std::nullopt;
+    std::vector<std::int64_t> tops;
+    for (const ObjectEntry& entry : table.entries) tops.push_back(entry.branch_top);
+    std::ranges::sort(tops);
+    return hierarchy_of(atlas.info(), analysis, *zones, tops);
+}
+
+std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTable& stored, const Selection& selection) {
+    const std::optional<BranchHierarchy> hierarchy = stored_hierarchy(atlas);
+    if (!hierarchy) return std::nullopt;
+    std::set<std::int64_t> known, kept;
+    for (const ObjectEntry& entry : stored.entries) known.insert(entry.branch_top);
+    for (const std::int64_t branch : hierarchy->kept(selection)) kept.insert(hierarchy->branches()[static_cast<std::size_t>(branch)].top);
+    if (!std::ranges::includes(known, kept)) return std::nullopt;
+    ObjectTable table{{}, {}, stored.branches, stored.noise};
+    std::vector<std::int64_t> place(stored.entries.size(), -1);
+    for (std::size_t i = 0; i < stored.entries.size(); ++i) {
+        if (!kept.contains(stored.entries[i].branch_top)) continue;
+        place[i] = static_cast<std::int64_t>(table.entries.size());
+        table.entries.push_back(stored.entries[i]);
+    }
+    for (ObjectEntry& entry : table.entries) {  // as in first_entries()
+        while (entry.inside >= 0 && place[static_cast<std::size_t>(entry.inside)] < 0)
+            entry.inside = stored.entries[static_cast<std::size_t>(entry.inside)].inside;
+        if (entry.inside >= 0) entry.inside = place[static_cast<std::size_t>(entry.inside)];
+    }
+    std::ranges::copy_if(stored.isovalues, std::back_inserter(table.isovalues),
+                         [&](const RecommendedIsovalue& isovalue) { return kept.contains(isovalue.branch_top); });
+    return table;
+}
+
+}  // namespace isoatlas
