@@ -196,6 +196,20 @@ TEST(Slice, GreyValuesAndPlace) {
     EXPECT_THROW(static_cast<void>(slice_picture(volume, {.axis = 1, .index = 3})), Error);
 }
 
+TEST(Slice, LiesOnACutFace) {
+    const Volume volume = cone_volume(49);
+    Scene scene{.objects = {{.surface = test::ball({0, 0, 0}, 15, 1), .colour = {1, 0, 0}}}};
+    scene.slices.push_back(slice_picture(volume, {.axis = 2, .index = 12, .side = 100}));
+    scene.removed = {{.normal = {0, 0, 1}, .offset = scene.slices[0].corner[2]}};  // everything above the slice
+    const Camera camera{.target = {0, 0, 0}, .view = view_from(25, 50), .height = 40};
+    const Image image = render_scene(scene, camera, {.width = 60, .height = 60});
+    scene.objects.clear();
+    const Image slice = render_scene(scene, camera, {.width = 60, .height = 60});
+    for (std::int64_t y = 27; y < 33; ++y) {
+        for (std::int64_t x = 20; x < 40; ++x) ASSERT_EQ(image.at(x, y)[0], slice.at(x, y)[0]) << x << ' ' << y;
+    }
+}
+
 TEST(Slice, ContoursAreWhereTheSurfaceIs) {
     const Volume volume = cone_volume(49);
     const double tau = 8;
