@@ -139,7 +139,7 @@ ShadowGrid Medium::shadows(const RaySurfaces& solid, int threads) const {
                 const Ray ray{point, lights_->to_key({0, 0})};
                 if (solid.blocked(ray, 2 * step_, INFINITY)) return 0.0;
                 Gathered gathered;
-                go(ray, 2 * step_, INFINITY, 0, nullptr, gathered);  // only what is swallowed counts
+                go(ray, 0, INFINITY, 0, nullptr, gathered);  // only what is swallowed counts
                 return 1 - gathered.opacity;
             },
             threads};
