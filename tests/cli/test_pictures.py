@@ -75,6 +75,10 @@ class Pictures(CliTest):
         self.assert_schema(flat, "render")
         self.assertIsNone(flat["camera"])
         self.assertEqual((flat["width"], flat["height"]), (48, 48))
+        _, _, upwards = self.picture("figure.nrrd", "--slice", "y=12", "--flat")
+        _, _, downwards = self.picture("figure.nrrd", "--slice", "y=12", "--flat", "--up", "-z")
+        self.assertTrue(upwards != downwards)
+        self.assertTrue([row[::-1] for row in upwards[::-1]] == downwards)
 
     def test_materials(self):
         air, flesh = "air:0:8:#000000:0", "flesh:60:10:#FF0000:0.2"
