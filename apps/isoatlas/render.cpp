@@ -1,4 +1,6 @@
 // isoatlas render: a picture of objects, without a display.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "document.h"
@@ -56,6 +58,16 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
     return json;
 }
 
+/// A slice that has z in its plane shows it upwards; --up -z turns it around.
+Image upright(Image slice, const PictureArguments& picture) {
+    if (picture.slices[0].axis == 2 || picture.up[2] >= 0) return slice;
+    Image turned(slice.width, slice.height);
+    for (std::int64_t y = 0; y < slice.height; ++y) {
+        for (std::int64_t x = 0; x < slice.width; ++x) std::copy_n(slice.at(x, y), 4, turned.at(slice.width - 1 - x, slice.height - 1 - y));
+    }
+    return turned;
+}
+
 std::string contents_text(const Scene& scene) {
     std::string text;
     const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
@@ -76,7 +88,7 @@ int run_render(const Arguments& arguments, Terminal& terminal) {
     Camera camera;
     Image image;
     if (picture.flat) {
-        image = scene.slices[0].picture;
+        image = upright(scene.slices[0].picture, picture);
     } else {
         const View view = picture.view ? *picture.view : best_view(scene, picture.up, source.context());
         scene.removed = removed_part(picture, source.info(), view);

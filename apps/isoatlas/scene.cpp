@@ -131,7 +131,7 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     const ObjectTable table = source.objects({.top = 5});
     matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
     const Scale scale(source.info());
-    for (TransferBump& bump : matter.bumps) bump.name = "matter above " + scale.brief(bump.tau);
+    for (TransferBump& bump : matter.bumps) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
     return matter;
 }
 

@@ -8,6 +8,8 @@
 namespace isoatlas::render {
 namespace {
 
+constexpr double kTouching = 1e-5;  // a slice so close to an opaque surface, such as a cut face, lies on it
+
 /// Colour and opacity of a picture at (u, v) in the unit square, between its pixels.
 Layer look_up(const Image& picture, double u, double v) {
     const double x = std::clamp(u * static_cast<double>(picture.width) - 0.5, 0.0, static_cast<double>(picture.width - 1));
@@ -38,13 +40,13 @@ void RaySlices::add(const Ray& ray, double most, std::vector<Layer>& layers) con
         const double speed = dot(ray.direction, plane.normal);
         if (speed == 0) continue;
         const double t = dot(subtract(plane.corner, ray.origin), plane.normal) / speed;
-        if (!(t > 0 && t < most)) continue;
+        if (!(t > 0 && t < most + kTouching)) continue;
         const Vec3 from = subtract(along(ray.origin, t, ray.direction), plane.corner);
         const double square = dot(plane.normal, plane.normal);
         const double u = dot(cross(from, plane.down), plane.normal) / square, v = dot(cross(plane.across, from), plane.normal) / square;
         if (u < 0 || u > 1 || v < 0 || v > 1) continue;
         Layer layer = look_up(*plane.picture, u, v);
-        layer.t = t;
+        layer.t = std::min(t, most);
         layers.push_back(layer);
     }
 }

@@ -19,7 +19,7 @@ struct Layer {
 class RaySlices {
 public:
     RaySlices(const Scene& scene, const Frame& frame);
-    /// Adds a layer for every picture that the ray crosses before `most`.
+    /// Adds a layer for every picture that the ray crosses before `most`, or at it.
     void add(const Ray& ray, double most, std::vector<Layer>& layers) const;
 
 private:

@@ -40,6 +40,17 @@ BlockRanges ranges_of_regular(const Volume& volume, int threads) {
                                          .next = "draw its surfaces, or give it even spacing"});
 }
 
+/// A ray in pieces that end at whole numbers of steps plus a shift, the first and the last one shorter. A piece is looked at as a whole or
+/// not at all, so that what is leapt over changes nothing, nor does cutting a ray in two where there is nothing.
+struct Pieces {
+    double step, first;  ///< where the first one would begin, in steps
+    double begin, end;
+    [[nodiscard]] double end_of(std::int64_t piece) const {
+        return std::clamp((first + static_cast<double>(piece + 1)) * step, begin, end);
+    }
+    [[nodiscard]] std::int64_t number_at(double t) const { return static_cast<std::int64_t>(t / step - first); }
+};
+
 /// 1 - exp(-x) for x >= 0, to 1e-8.
 double swallowed(double x) {
     if (x > 0.125) return 1 - std::exp(-x);
@@ -103,22 +114,18 @@ void Medium::go_through(const Ray& ray, double begin, double end, double shift, 
     begin = std::max(begin, inside.begin), end = std::min(end, inside.end);
     if (!(begin < end)) return;
     const Trilinear<T> values(*volume_);
-    // Pieces end at whole numbers of steps along the ray, plus the shift, and are looked at as a whole or not at all: what is leapt over
-    // changes nothing, nor does cutting a ray in two where there is nothing.
-    const double first = std::floor(begin / step_ - shift) + shift;  // where the first piece begins, in steps
-    const auto end_of = [&](std::int64_t piece) { return std::clamp((first + static_cast<double>(piece + 1)) * step_, begin, end); };
+    const Pieces pieces{step_, std::floor(begin / step_ - shift) + shift, begin, end};
     const auto place_at = [&](double t) { return transfer_.place(values.value(along(origin, t, way))); };
     std::int64_t piece = -1;
     double t = begin, place = place_at(t);  // behind the pieces looked at so far
     blocks_.walk(origin, way, begin, end, 1e-7 * step_, [&](double from, double to) {
-        const auto next_piece = static_cast<std::int64_t>(from / step_ - first);
-        if (next_piece > piece + 1) {
-            piece = next_piece - 1;
-            t = end_of(piece), place = place_at(t);
+        if (const std::int64_t next = pieces.number_at(from); next > piece + 1) {
+            piece = next - 1;
+            t = pieces.end_of(piece), place = place_at(t);
         }
         while (t < to) {
             const double begin_place = place, begin_t = t;
-            t = end_of(++piece), place = place_at(t);
+            t = pieces.end_of(++piece), place = place_at(t);
             const Matter matter = transfer_.mean(begin_place, place);
             if (!(matter.extinction > 0)) continue;
             const double weight = (1 - gathered.opacity) * swallowed(matter.extinction * (t - begin_t));
@@ -139,7 +146,7 @@ ShadowGrid Medium::shadows(const RaySurfaces& solid, int threads) const {
                 const Ray ray{point, lights_->to_key({0, 0})};
                 if (solid.blocked(ray, 2 * step_, INFINITY)) return 0.0;
                 Gathered gathered;
-                go(ray, 2 * step_, INFINITY, 0, nullptr, gathered);  // only what is swallowed counts
+                go(ray, 0, INFINITY, 0, nullptr, gathered);  // only what is swallowed counts
                 return 1 - gathered.opacity;
             },
             threads};

@@ -31,7 +31,7 @@ struct Style {
 
 Style style_of(const RenderOptions& options) {
     const auto side = static_cast<double>(std::min(options.width, options.height));
-    const double size = options.text_size > 0 ? options.text_size : std::clamp(side / 55, 6.0, 64.0);
+    const double size = options.text_size > 0 ? options.text_size : std::clamp(side / 48, 6.0, 64.0);
     const bool dark = options.background == Background::dark;
     return {size, 1.6 * size, std::max(1.0, 0.18 * size), ink_of(options.background), dark ? Colour{0, 0, 0} : Colour{1, 1, 1}};
 }

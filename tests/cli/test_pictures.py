@@ -1,6 +1,7 @@
 """Pictures and animations: what is in them, how they are asked for, what goes wrong."""
 import shutil
 import struct
+import subprocess
 import zlib
 
 from harness import CliTest, main
@@ -74,6 +75,10 @@ class Pictures(CliTest):
         self.assert_schema(flat, "render")
         self.assertIsNone(flat["camera"])
         self.assertEqual((flat["width"], flat["height"]), (48, 48))
+        _, _, upwards = self.picture("figure.nrrd", "--slice", "y=12", "--flat")
+        _, _, downwards = self.picture("figure.nrrd", "--slice", "y=12", "--flat", "--up", "-z")
+        self.assertTrue(upwards != downwards)
+        self.assertTrue([row[::-1] for row in upwards[::-1]] == downwards)
 
     def test_materials(self):
         air, flesh = "air:0:8:#000000:0", "flesh:60:10:#FF0000:0.2"
@@ -123,6 +128,24 @@ class Pictures(CliTest):
         turn = self.run_json("animate", "figure.nrrd", "--tau", "60", "--steps", "3", *self.small, "-o", "t.gif")
         self.assertEqual((turn["frame_count"], turn["frames"]), (3, []))
 
+    def test_film(self):
+        if shutil.which("ffmpeg") is None:
+            self.run_error(4, "animate", "figure.nrrd", "-o", "p.mp4", says="ffmpeg")
+            self.skipTest("no ffmpeg here")
+        odd = ["--size", "65x49", "--samples", "1"]
+        document = self.run_json("animate", "figure.nrrd", "--from", "90", "--to", "10", "--steps", "5", "--fps", "10", *odd, "-o", "p.mp4")
+        self.assertEqual(document["frame_count"], 5)
+        self.assertEqual((self.folder / "p.mp4").read_bytes()[4:8], b"ftyp")
+        shown = subprocess.run(["ffmpeg", "-v", "error", "-i", "p.mp4", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+                               cwd=self.folder, capture_output=True, check=True).stdout
+        width, height = 66, 50  # sides of films are even
+        self.assertEqual(len(shown), 5 * 3 * width * height)
+        self.run_ok("animate", "figure.nrrd", "--from", "90", "--to", "10", "--steps", "5", *odd, "-o", "p.apng", "--quiet")
+        _, _, first = png_pixels((self.folder / "p.apng").read_bytes())
+        difference = [abs(shown[3 * (y * width + x) + c] - first[y][x][c]) for y in range(49) for x in range(65) for c in range(3)]
+        self.assertLess(sum(difference) / len(difference), 6)
+        self.assertEqual([path.name for path in self.folder.glob("p.mp4*")], ["p.mp4"])
+
     def test_what_goes_wrong(self):
         self.run_error(2, "render", "figure.nrrd", "-o", "p.bmp", says=".bmp")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--view", "above", says="--view")
@@ -137,8 +160,6 @@ class Pictures(CliTest):
         self.run_error(6, "render", "figure.nrrd", "-o", "p.png", "--tau", "1000", says="above every sample")
         self.run_error(6, "render", "figure.nrrd", "-o", "p.png", "--object", "999999", says="999999")
         self.run_error(2, "animate", "figure.nrrd", "-o", "p.gif", "--from", "3", says="--to")
-        if shutil.which("ffmpeg") is None:
-            self.run_error(4, "animate", "figure.nrrd", "-o", "p.mp4", says="ffmpeg")
         (self.folder / "flat.raw").write_bytes(bytes(range(64)))
         flat = ["flat.raw", "--dims", "8x8", "--type", "uint8"]
         self.run_error(2, "render", *flat, "--tau", "9", "-o", "p.png", says="2D")

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "isoatlas/render.h"
+#include "render/medium.h"
+#include "render/scene_box.h"
 #include "unit/render/shapes.h"
 
 namespace isoatlas {
@@ -177,6 +179,26 @@ TEST(Medium, ShadowsDarkenWhatLiesBehind) {
     EXPECT_LT(brightness(), 0.97 * lit);
 }
 
+TEST(Medium, LightComesAsFarAsTheIntegralSays) {
+    const Volume volume = cone_volume(97);
+    const double density = 0.05;
+    Scene scene;
+    scene.volume = {
+        .volume = &volume, .bumps = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = density, .ramp = 0}}, .shadows = true};
+    const render::SceneBox box = render::box_of(scene);
+    const render::Frame frame{box.centre(), box.radius()};
+    const render::CameraRays camera({.view = view_from(20, 30)}, 8, 8);
+    const render::Lights lights(camera);
+    const std::vector<HalfSpace> none;
+    const render::RaySurfaces nothing(scene, render::RaySurfaces::Which::opaque, frame, none, 1);
+    const render::Medium medium(scene, frame, &lights, nothing, 2);
+    const Vec3 key = lights.to_key({0, 0});
+    for (const double distance : {-15.0, -8.0, 0.0, 6.0, 14.0}) {  // from the centre towards the light
+        const Vec3 point = frame.inside(render::scale(key, distance));
+        EXPECT_NEAR(medium.lit(point), std::exp(-density * (kBall - distance)), 0.02) << distance;
+    }
+}
+
 TEST(Slice, GreyValuesAndPlace) {
     Geometry geometry;
     geometry.spacing = {1, 2, 3}, geometry.origin = {10, 20, 30};
@@ -194,6 +216,20 @@ TEST(Slice, GreyValuesAndPlace) {
     EXPECT_EQ(side.corner, (Vec3{13, 20, 33}));
     EXPECT_EQ(side.down, (Vec3{0, 0, -3}));
     EXPECT_THROW(static_cast<void>(slice_picture(volume, {.axis = 1, .index = 3})), Error);
+}
+
+TEST(Slice, LiesOnACutFace) {
+    const Volume volume = cone_volume(49);
+    Scene scene{.objects = {{.surface = test::ball({0, 0, 0}, 15, 1), .colour = {1, 0, 0}}}};
+    scene.slices.push_back(slice_picture(volume, {.axis = 2, .index = 12, .side = 100}));
+    scene.removed = {{.normal = {0, 0, 1}, .offset = scene.slices[0].corner[2]}};  // everything above the slice
+    const Camera camera{.target = {0, 0, 0}, .view = view_from(25, 50), .height = 40};
+    const Image image = render_scene(scene, camera, {.width = 60, .height = 60});
+    scene.objects.clear();
+    const Image slice = render_scene(scene, camera, {.width = 60, .height = 60});
+    for (std::int64_t y = 27; y < 33; ++y) {
+        for (std::int64_t x = 20; x < 40; ++x) ASSERT_EQ(image.at(x, y)[0], slice.at(x, y)[0]) << x << ' ' << y;
+    }
 }
 
 TEST(Slice, ContoursAreWhereTheSurfaceIs) {

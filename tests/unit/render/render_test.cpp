@@ -184,6 +184,29 @@ TEST(Render, ScaleBarsAreRoundAndTrue) {
     EXPECT_EQ(scale_bar(0.5, 640, "mm").text, "50 mm");
 }
 
+TEST(Render, TheDrawnScaleBarIsAsLongAsTheThingBesideIt) {
+    // A box of the bar's length: its silhouette is as wide as the bar between its ticks.
+    const double height = 70;
+    RenderOptions options = flat(400);
+    const ScaleBar bar = scale_bar(height / 400, 400, "mm");
+    Scene scene{.objects = {object(box({0, 0, 10}, {bar.length, 1, 12}, 1))}};
+    const Camera camera{.target = {bar.length / 2, 0, 0}, .view = {.toward = {0, -1, 0}, .up = {0, 0, 1}}, .height = height};
+    const auto width_of_row = [](const Image& image, std::int64_t y) {
+        std::int64_t first = image.width, last = -1;
+        for (std::int64_t x = 0; x < image.width; ++x) {
+            if (image.at(x, y)[3] > 127) first = std::min(first, x), last = x;
+        }
+        return last - first + 1;
+    };
+    const std::int64_t thing = width_of_row(render_scene(scene, camera, options), 400 / 2 - static_cast<std::int64_t>(11 / (height / 400)));
+    EXPECT_NEAR(static_cast<double>(thing), bar.pixels, 1);
+    options.scale_bar = true;
+    const Image image = render_scene(scene, camera, options);
+    std::int64_t widest = 0;  // the bar's own row; its ends are the ticks, as thick as the line
+    for (std::int64_t y = 360; y < 400; ++y) widest = std::max(widest, width_of_row(image, y));
+    EXPECT_NEAR(static_cast<double>(widest), bar.pixels, 4);
+}
+
 TEST(Render, RefusesWhatCannotBeDrawn) {
     EXPECT_THROW(static_cast<void>(best_view({})), Error);
     Scene scene{.objects = {object(ball({0, 0, 0}, 1, 1, 8))}};
