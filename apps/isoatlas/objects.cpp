@@ -131,14 +131,12 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
 
 /// Dark objects, after the bright ones when both are asked for.
 int list_dark(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
-    const Volume& volume = source.volume();
-    const Analysis analysis = source.analysis(true);
-    const DarkTable dark = rank_dark_objects(volume, analysis, options, source.context());
+    const DarkTable dark = source.dark_objects(options);
     if (!arguments.both) {
         print_dark(terminal, arguments, source, dark);
         return 0;
     }
-    const ObjectTable table = rank_objects(volume, analysis, options, source.context());
+    const ObjectTable table = source.objects(options);
     if (arguments.json) {
         print_table_json(terminal, source, table, &dark);
         return 0;

@@ -93,6 +93,11 @@ ObjectTable Source::objects(const RankOptions& options) {
     return table;
 }
 
+DarkTable Source::dark_objects(const RankOptions& options) {
+    if (!atlas_ || arguments_.voxel_units) return rank_dark_objects(volume(), analysis(false), options, context());
+    return atlas_->dark_objects(options, context());
+}
+
 BranchHierarchy Source::hierarchy() {
     if (atlas_ && !arguments_.voxel_units) return atlas_->hierarchy(context());
     return {volume(), analysis(true), context()};

@@ -36,6 +36,7 @@ public:
     [[nodiscard]] Surface extract(double tau, ExtractOptions options);
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
+    [[nodiscard]] DarkTable dark_objects(const RankOptions& options);
     /// The branches that selections choose from.
     [[nodiscard]] BranchHierarchy hierarchy();
     /// The selection of the command line, in stored values.

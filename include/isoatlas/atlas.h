@@ -10,6 +10,7 @@
 #include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/dark_objects.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/simplify.h"
@@ -109,6 +110,10 @@ public:
     /// gate, with a selection that keeps more than what passes the gate, for more than 1024 entries where there are so many, and for
     /// volumes of more than 2^24 voxels, the volume is read and analysed again.
     [[nodiscard]] ObjectTable objects(const RankOptions& options = {}, const Context& context = {}) const;
+
+    /// The table of dark objects, as from rank_dark_objects(). Cost: as objects(); with any selection the volume is read and analysed
+    /// again.
+    [[nodiscard]] DarkTable dark_objects(const RankOptions& options = {}, const Context& context = {}) const;
 
     /// The branches of the criticality tree, for selections and simplified trees. Cost: reads the trees and no sample. Of volumes with more
     /// than one critical element for three voxels, of grids with uneven steps, and of stores of early versions, all samples are read and

@@ -44,6 +44,9 @@ struct DarkTable {
 [[nodiscard]] DarkTable rank_dark_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                           const Context& context = {});
 
+/// The first entries alone (0: all): what rank_dark_objects() gives with that many at most.
+[[nodiscard]] DarkTable first_entries(DarkTable table, std::int64_t top);
+
 /// Per voxel: position (from 1) of the cavity that it lies in at tau, by descending voxels, then ascending id; 0: it is High, or outside.
 /// ids: receives the id of each. Throws Error: usage (tau is not finite), cancelled. Cost: as above.
 [[nodiscard]] std::vector<std::uint32_t> label_cavities(const Volume& volume, const Analysis& analysis, double tau,

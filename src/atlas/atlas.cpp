@@ -167,6 +167,16 @@ ObjectTable Atlas::objects(const RankOptions& options, const Context& context) c
     return rank_objects(whole, analyse(whole, {.interpolant = interpolant(), .tunnel_height = tunnel_height()}, context), options, context);
 }
 
+DarkTable Atlas::dark_objects(const RankOptions& options, const Context& context) const {
+    if (has_dark(data_->store) && options.gate && !options.selection) {
+        DarkTable stored = dark_of(data_->store);
+        const auto count = static_cast<std::int64_t>(stored.entries.size());
+        if (count < kStoredEntries || (options.top > 0 && options.top <= count)) return first_entries(std::move(stored), options.top);
+    }
+    const Volume whole = volume(context);
+    return rank_dark_objects(whole, analysis(), options, context);
+}
+
 BranchHierarchy Atlas::hierarchy(const Context& context) const {
     if (std::optional<BranchHierarchy> stored = stored_hierarchy(*this)) return std::move(*stored);
     const Volume whole = volume(context);

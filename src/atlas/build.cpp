@@ -123,6 +123,10 @@ public:
                 for (store::PackedArray& array : object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries})))
                     arrays.push_back(std::move(array));
                 if (store::stores_events(*analysis)) {
+                    Context quiet = part;
+                    quiet.progress = nullptr;
+                    for (store::PackedArray& array : dark_arrays(rank_dark_objects(volume, *analysis, {.top = kStoredEntries}, quiet)))
+                        arrays.push_back(std::move(array));
                     for (store::PackedArray& array : store::event_arrays(*analysis)) arrays.push_back(std::move(array));
                     sums = sum_zones(volume, *analysis);
                     arrays.push_back(store::event_sum_array(sums.height));

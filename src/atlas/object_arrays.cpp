@@ -29,6 +29,25 @@ void for_members(Visit&& visit) {
     visit("objects/trunk", "uint8", &ObjectEntry::trunk);
 }
 
+/// The same for DarkEntry.
+template <class Visit>
+void for_dark_members(Visit&& visit) {
+    visit("dark/id", "int64", &DarkEntry::id);
+    visit("dark/appears", "float64", &DarkEntry::appears);
+    visit("dark/merges", "float64", &DarkEntry::merges);
+    visit("dark/best_tau", "float64", &DarkEntry::best_tau);
+    visit("dark/tau_low", "float64", &DarkEntry::tau_low);
+    visit("dark/tau_high", "float64", &DarkEntry::tau_high);
+    visit("dark/voxels", "int64", &DarkEntry::voxels);
+    visit("dark/measure", "float64", &DarkEntry::measure);
+    visit("dark/hypervolume", "float64", &DarkEntry::hypervolume);
+    visit("dark/object", "int64", &DarkEntry::object);
+    visit("dark/tunnels", "int64", &DarkEntry::tunnels);
+    visit("dark/islands", "int64", &DarkEntry::islands);
+    visit("dark/inside", "int64", &DarkEntry::inside);
+    visit("dark/reason", "uint8", &DarkEntry::reason);
+}
+
 /// The same for RecommendedIsovalue.
 template <class Visit>
 void for_isovalue_members(Visit&& visit) {
@@ -68,16 +87,27 @@ void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vecto
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
+/// The lines of the arrays that for_each visits.
+template <class Line>
+std::vector<Line> lines_of(const store::Container& store, const char* first, const char* type, const auto& for_each) {
+    std::vector<Line> lines(static_cast<std::size_t>(store.contents().array(first, type).count()));
+    for_each([&]<class Member>(const char* name, const char* type_of_member, Member Line::* member) {
+        const auto numbers = store.all<Stored<Member>>(name, type_of_member);
+        if (numbers.size() != lines.size()) contradiction(store);
+        for (std::size_t i = 0; i < numbers.size(); ++i) lines[i].*member = static_cast<Member>(numbers[i]);
+    });
+    return lines;
+}
+
 /// Not in the first stores of version 1.
 std::vector<RecommendedIsovalue> isovalues_of(const store::Container& store) {
     if (!store.contents().has_array("isovalues/tau")) return {};
-    std::vector<RecommendedIsovalue> isovalues(static_cast<std::size_t>(store.contents().array("isovalues/tau", "float64").count()));
-    for_isovalue_members([&]<class Member>(const char* name, const char* type, Member RecommendedIsovalue::* member) {
-        const auto numbers = store.all<Stored<Member>>(name, type);
-        if (numbers.size() != isovalues.size()) contradiction(store);
-        for (std::size_t i = 0; i < numbers.size(); ++i) isovalues[i].*member = static_cast<Member>(numbers[i]);
-    });
-    return isovalues;
+    return lines_of<RecommendedIsovalue>(store, "isovalues/tau", "float64", [](const auto& visit) { for_isovalue_members(visit); });
+}
+
+std::array<double, 3> position_of(std::int64_t voxel, const Extent& extent) {
+    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
 }
 
 void check(const ObjectTable& table, const store::Container& store) {
@@ -128,9 +158,34 @@ ObjectTable objects_of(const store::Container& store) {
     table.isovalues = isovalues_of(store);
     check(table, store);
     const Extent& extent = store.contents().volume.extent;
-    for (ObjectEntry& entry : table.entries) {
-        const std::array<std::int64_t, 3> voxel = extent.voxel(entry.id);
-        for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
+    for (ObjectEntry& entry : table.entries) entry.position = position_of(entry.id, extent);
+    return table;
+}
+
+std::vector<store::PackedArray> dark_arrays(const DarkTable& table) {
+    std::vector<store::PackedArray> arrays;
+    add_arrays([](const auto& visit) { for_dark_members(visit); }, table.entries, arrays);
+    arrays.push_back(owned<std::int64_t>("dark/branches", "int64", {table.branches}));
+    arrays.push_back(owned<double>("dark/noise", "float64", {table.noise}));
+    return arrays;
+}
+
+bool has_dark(const store::Container& store) { return store.contents().has_array("dark/id"); }
+
+DarkTable dark_of(const store::Container& store) {
+    DarkTable table{lines_of<DarkEntry>(store, "dark/id", "int64", [](const auto& visit) { for_dark_members(visit); })};
+    const auto branches = store.all<std::int64_t>("dark/branches", "int64");
+    const auto noise = store.all<double>("dark/noise", "float64");
+    if (branches.size() != 1 || noise.size() != 1) contradiction(store);
+    table.branches = branches[0], table.noise = noise[0];
+    const Extent& extent = store.contents().volume.extent;
+    const auto count = static_cast<std::int64_t>(table.entries.size());
+    for (DarkEntry& entry : table.entries) {
+        if (entry.id < 0 || entry.id >= extent.voxels() || entry.inside < -1 || entry.inside >= count) contradiction(store);
+        if (entry.reason > IsovalueReason::middle) contradiction(store);
+        // What contains an entry has a higher isovalue: the way from one to the next ends.
+        if (entry.inside >= 0 && !(table.entries[static_cast<std::size_t>(entry.inside)].best_tau > entry.best_tau)) contradiction(store);
+        entry.position = position_of(entry.id, extent);
     }
     return table;
 }

@@ -5,12 +5,14 @@
 //   objects/appears, merges, best_tau, measure, hypervolume, tau_low, tau_high     float64
 //   objects/outline, trunk                                     uint8
 //   objects/branches, noise                                    one number each
+//   dark/...                                                   the table of dark objects
 //   isovalues/branch_top, cavity, tau, prominence, reason      int64, int64, float64, float64, uint8, per recommended isovalue
 #pragma once
 
 #include <functional>
 #include <vector>
 
+#include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
 #include "store/container.h"
 #include "store/pack.h"
@@ -29,5 +31,11 @@ inline constexpr std::int64_t kStoredEntries = 1024;
 [[nodiscard]] bool has_objects(const store::Container& store);
 /// Throws Error{input} when it contradicts itself.
 [[nodiscard]] ObjectTable objects_of(const store::Container& store);
+
+/// The table of dark objects, the same way: dark/id, ... as in DarkEntry, dark/branches, noise.
+[[nodiscard]] std::vector<store::PackedArray> dark_arrays(const DarkTable& table);
+[[nodiscard]] bool has_dark(const store::Container& store);
+/// Without notes. Throws Error{input} when it contradicts itself.
+[[nodiscard]] DarkTable dark_of(const store::Container& store);
 
 }  // namespace isoatlas

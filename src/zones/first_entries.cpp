@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
@@ -44,22 +45,37 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
     return own == table.isovalues.end() ? std::nullopt : std::optional(*own);
 }
 
-// What contains an entry lies in each other: when the closest one is gone, the one around it is the closest.
-ObjectTable first_entries(ObjectTable table, std::int64_t top) {
-    std::vector<ObjectEntry>& entries = table.entries;
+namespace {
+
+/// What contains an entry lies in each other: when the closest one is gone, the one around it is the closest.
+template <class Entry>
+void keep_first(std::vector<Entry>& entries, std::int64_t top) {
     const auto all = static_cast<std::int64_t>(entries.size()), count = top > 0 && top < all ? top : all;
     for (std::int64_t i = 0; i < count; ++i) {
-        ObjectEntry& entry = entries[static_cast<std::size_t>(i)];
-        while (entry.inside >= count) entry.inside = entries[static_cast<std::size_t>(entry.inside)].inside;
-        entry.note = entry.outline       ? "outline"
-                     : entry.inside >= 0 ? "inside " + std::to_string(entry.inside + 1)
-                     : entry.trunk       ? "largest"
-                                         : "";
+        std::int64_t& inside = entries[static_cast<std::size_t>(i)].inside;
+        while (inside >= count) inside = entries[static_cast<std::size_t>(inside)].inside;
     }
     entries.resize(static_cast<std::size_t>(count));
+}
+
+std::string inside_text(std::int64_t inside) { return "inside " + std::to_string(inside + 1); }
+
+}  // namespace
+
+ObjectTable first_entries(ObjectTable table, std::int64_t top) {
+    keep_first(table.entries, top);
     std::set<std::int64_t> tops;
-    for (const ObjectEntry& entry : entries) tops.insert(entry.branch_top);
+    for (ObjectEntry& entry : table.entries) {
+        entry.note = entry.outline ? "outline" : entry.inside >= 0 ? inside_text(entry.inside) : entry.trunk ? "largest" : "";
+        tops.insert(entry.branch_top);
+    }
     std::erase_if(table.isovalues, [&](const RecommendedIsovalue& isovalue) { return !tops.contains(isovalue.branch_top); });
+    return table;
+}
+
+DarkTable first_entries(DarkTable table, std::int64_t top) {
+    keep_first(table.entries, top);
+    for (DarkEntry& entry : table.entries) entry.note = entry.inside >= 0 ? inside_text(entry.inside) : "";
     return table;
 }
 

@@ -10,22 +10,23 @@
 #include "zones/branch_rows.h"
 #include "zones/dark_tree.h"
 #include "zones/noise.h"
+#include "zones/rank.h"
 
 namespace isoatlas {
 namespace {
 
-void require_same_volume(const Volume& volume, const Analysis& analysis) {
-    if (volume.info.extent != analysis.extent())
+void require_same_volume(const VolumeView& volume, const Analysis& analysis) {
+    if (volume.info->extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
 }
 
 /// Calls use(arrays, dark tree).
 template <class Use>
-auto with_dark_tree(const Volume& volume, const Analysis& analysis, const Context& context, const Use& use) {
+auto with_dark_tree(const VolumeView& volume, const Analysis& analysis, const Context& context, const Use& use) {
     require_same_volume(volume, analysis);
     return analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
         return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
-            return use(held.arrays, make_dark_tree(GridView<T>{samples.data(), volume.info.extent}, held.arrays, context));
+            return use(held.arrays, make_dark_tree(GridView<T>{samples.data(), volume.info->extent}, held.arrays, context));
         });
     });
 }
@@ -40,7 +41,7 @@ std::int64_t voxel_of(const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark
 template <class Id>
 class DarkRanking {
 public:
-    DarkRanking(const Volume& volume, const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark)
+    DarkRanking(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark)
         : volume_(volume), arrays_(arrays), dark_(dark), tree_(dark.side()), branches_(make_branches(tree_, sum_zones(tree_, volume_))) {}
 
     /// All but the outside.
@@ -60,7 +61,7 @@ public:
             table.entries.push_back(entry(rows[i], around[i]));
             table.entries.back().reason = std::ranges::find(isovalues, rows[i].branch, &BranchIsovalue::branch)->reason;  // it has one row
         }
-        return table;
+        return first_entries(std::move(table), 0);
     }
 
 private:
@@ -75,7 +76,6 @@ private:
         const std::array<std::int64_t, 3> voxel = volume_.info->extent.voxel(entry.id);
         for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
         entry.inside = inside;
-        entry.note = inside >= 0 ? "inside " + std::to_string(inside + 1) : "";
         return entry;
     }
 
@@ -100,7 +100,7 @@ void add_walls(const Analysis& analysis, DarkTable& table) {
 }
 
 template <class Id>
-std::vector<std::uint32_t> label(const Volume& volume, const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark, double tau,
+std::vector<std::uint32_t> label(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark, double tau,
                                  std::vector<std::int64_t>& ids) {
     const std::size_t events = dark.tree.size();
     // Parents before their children: the low component at tau that every Low event lies in.
@@ -141,6 +141,10 @@ std::vector<std::uint32_t> label(const Volume& volume, const AnalysisArrays<Id>&
 }  // namespace
 
 DarkTable rank_dark_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return rank_dark_objects(VolumeView(volume), analysis, options, context);
+}
+
+DarkTable rank_dark_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     DarkTable table = with_dark_tree(volume, analysis, context, [&]<class Id>(const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark) {
         return DarkRanking<Id>(volume, arrays, dark).table(options);
     });

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
@@ -156,6 +157,26 @@ RC_GTEST_FIXTURE_PROP(Stores, SelectAsVolumesDo, ()) {
         const isoatlas::RankOptions options{.top = top, .selection = selection};
         RC_ASSERT(text(atlas.objects(options)) == text(isoatlas::rank_objects(volume, analysis, options)));
     }
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
+    const Grid grid = arbitrary_volume();
+    const Volume volume = to_volume(grid, arbitrary_type(grid));
+    isoatlas::build_atlas(path_, volume);
+    const Atlas atlas(path_);
+    const auto text_of = [](const isoatlas::DarkTable& table) {
+        std::ostringstream out;
+        out.precision(17);
+        out << table.branches << ' ' << table.noise << '\n';
+        for (const auto& o : table.entries) {
+            out << o.id << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure << ' '
+                << o.hypervolume << ' ' << o.object << ' ' << o.tunnels << ' ' << o.islands << ' ' << join(o.position) << o.tau_low << ' '
+                << o.tau_high << ' ' << o.inside << ' ' << o.note << '\n';
+        }
+        return out.str();
+    };
+    for (const std::int64_t top : {0, 2})
+        RC_ASSERT(text_of(atlas.dark_objects({.top = top})) == text_of(rank_dark_objects(volume, isoatlas::analyse(volume), {.top = top})));
 }
 
 RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfObjects, ()) {
