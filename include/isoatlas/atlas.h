@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,10 @@ public:
     /// value in the ranges. Cost: memory for all samples; reads bricks with such samples and those around them, found by their lowest and
     /// highest samples.
     [[nodiscard]] Volume volume(const SamplesWanted& wanted, const Context& context = {}, QueryCost* cost = nullptr) const;
+
+    /// How many samples lie in [edges[i], edges[i + 1]); the last count includes its end. Stored values, ascending, two at least. Throws
+    /// Error{usage}. Cost: reads the bricks with samples on both sides of an edge.
+    [[nodiscard]] std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context = {}) const;
 
     /// Of all queries so far.
     [[nodiscard]] AtlasReads reads() const;

@@ -24,7 +24,8 @@ struct PageReport {
 };
 
 /// Ranks the bright and dark objects of a store, draws them and writes the page. Throws Error: usage (options), input (damaged store),
-/// resource (cannot be written), cancelled. Cost: reads the volume and analyses it, and draws objects * frames pictures.
+/// resource (cannot be written), cancelled. Cost: that of Atlas::hierarchy() and
+/// Atlas::histogram(), and draws objects * frames pictures.
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

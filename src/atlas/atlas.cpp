@@ -206,6 +206,17 @@ Volume Atlas::volume(const SamplesWanted& wanted, const Context& context, QueryC
     return volume;
 }
 
+std::vector<std::int64_t> Atlas::histogram(std::span<const double> edges, const Context& context) const {
+    if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end())) {
+        throw Error(ErrorKind::usage,
+                    {.where = "edges of a histogram", .what = "they do not ascend", .expected = "two or more, ascending"});
+    }
+    store::IoCounters counters;
+    std::vector<std::int64_t> counts = data_->samples->histogram(edges, context, counters);
+    data_->count(counters);
+    return counts;
+}
+
 std::array<double, 2> Atlas::range() const { return data_->samples->range(); }
 std::int64_t Atlas::file_bytes() const { return data_->store.file_size(); }
 

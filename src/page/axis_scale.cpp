@@ -1,24 +1,32 @@
 #include "page/axis_scale.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace isoatlas::page {
 
-AxisScale axis_scale(const Volume& volume, double low, double high) {
-    constexpr std::size_t kLooked = 100000;
-    std::vector<double> above;
-    visit_samples(volume, [&](auto samples) {
-        const std::size_t step = std::max<std::size_t>(1, samples.size() / kLooked);
-        for (std::size_t v = 0; v < samples.size(); v += step) {
-            if (static_cast<double>(samples[v]) > low) above.push_back(static_cast<double>(samples[v]) - low);
-        }
-    });
+AxisScale axis_scale(const Atlas& atlas, const Context& context) {
+    constexpr int kOctaves = 20, kSteps = 8;  // edges at the range / 2^(k/8)
+    const auto [low, high] = atlas.range();
     AxisScale scale{low, high, 0};
-    if (above.empty()) return scale;
-    std::ranges::sort(above);
-    const double most = above[above.size() * 19 / 20], middle = above[above.size() / 2];
-    if (most < (high - low) / 10 && std::isfinite(high - low)) scale.bend = middle;
+    const double range = high - low;
+    if (!(range > 0) || !std::isfinite(range)) return scale;
+    std::vector<double> above;
+    for (int k = kOctaves * kSteps; k >= 0; --k) above.push_back(range * std::exp2(-static_cast<double>(k) / kSteps));
+    above.back() = range;
+    std::vector<double> edges(above);
+    for (double& edge : edges) edge += low;
+    edges.back() = high;
+    const std::vector<std::int64_t> counts = atlas.histogram(edges, context);
+    const auto all = static_cast<double>(std::reduce(counts.begin(), counts.end()));
+    double seen = 0, in_lowest_tenth = 0, median = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        seen += static_cast<double>(counts[i]);
+        if (above[i + 1] <= range / 10) in_lowest_tenth = seen;
+        if (median == 0 && seen >= all / 2) median = above[i + 1];
+    }
+    if (all > 0 && in_lowest_tenth >= 0.95 * all) scale.bend = median;
     return scale;
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "isoatlas/volume.h"
+#include "isoatlas/atlas.h"
 
 namespace isoatlas::page {
 
@@ -23,8 +23,7 @@ struct AxisScale {
     }
 };
 
-/// Bent when 19 of 20 samples (the lowest value aside) lie in the lowest tenth of the range; the bend is their median. Looks at 10^5
-/// samples.
-[[nodiscard]] AxisScale axis_scale(const Volume& volume, double low, double high);
+/// Bent when 19 of 20 samples (those next to the lowest value aside) lie in the lowest tenth of the range; the bend is about their median.
+[[nodiscard]] AxisScale axis_scale(const Atlas& atlas, const Context& context = {});
 
 }  // namespace isoatlas::page

@@ -19,18 +19,13 @@ constexpr std::int64_t kCurvePoints = 160;
 class Gatherer {
 public:
     Gatherer(const Atlas& atlas, const PageOptions& options, const Context& context)
-        : atlas_(atlas),
-          options_(options),
-          volume_(atlas.volume(context)),
-          analysis_(analyse(volume_, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, quiet(context))),
-          hierarchy_(volume_, analysis_, context),
-          context_(context) {}
+        : atlas_(atlas), options_(options), analysis_(atlas.analysis()), hierarchy_(atlas.hierarchy(context)), context_(context) {}
 
     PageContents gather() && {
         const auto [low, high] = atlas_.range();
-        contents_.scale = axis_scale(volume_, low, high);
-        const ObjectTable table = rank_objects(volume_, analysis_, {.top = options_.top}, context_);
-        DarkTable dark = rank_dark_objects(volume_, analysis_, {.top = 0}, context_);
+        contents_.scale = axis_scale(atlas_, context_);
+        const ObjectTable table = atlas_.objects({.top = options_.top}, context_);
+        DarkTable dark = atlas_.dark_objects({.top = 0}, context_);
         contents_.bright = table.branches, contents_.noise = table.noise;
         contents_.bright_standing_out = static_cast<std::int64_t>(hierarchy_.essential().size());
         contents_.dark = dark.branches, contents_.dark_standing_out = static_cast<std::int64_t>(dark.entries.size());
@@ -40,7 +35,7 @@ public:
         add_bright_entries(table);
         add_dark(dark);
         contents_.spectrum = count_columns(spectrum(atlas_, {.samples = 0}, context_).intervals, low, contents_.scale, kColumns);
-        contents_.histogram = make_histogram(volume_, contents_.scale);
+        contents_.histogram = make_histogram(atlas_, contents_.scale, context_);
         contents_.curve = thin_curve(hierarchy_.curves().front(), kCurvePoints);
         draw();
         return std::move(contents_);
@@ -158,10 +153,10 @@ private:
     }
     /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.
     std::int64_t entry_around(const DarkEntry& dark) const {
-        std::int64_t event = analysis_.zone(dark.object);
-        for (std::int64_t next = event; next >= 0 && analysis_.event(next).value >= dark.best_tau; next = analysis_.event(next).parent)
-            event = next;
-        const std::int64_t branch = branch_of_event_[event];
+        const ActiveObjects there = atlas_.active(dark.best_tau, false);
+        const auto object = std::ranges::find(there.objects, dark.object, &ActiveObject::id);
+        if (object == there.objects.end()) return -1;
+        const std::int64_t branch = branch_of_event_[object->event];
         std::int64_t closest = -1;
         double distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < contents_.entries.size(); ++i) {
@@ -176,12 +171,14 @@ private:
     void draw() {
         const Context silent = quiet(context_);
         std::vector<PageEntry>& entries = contents_.entries;
+        std::optional<Volume> image;
+        if (atlas_.info().extent.rank == 2) image = atlas_.volume(silent);
         for (std::size_t i = 0; i < entries.size(); ++i) {
             PageEntry& entry = entries[i];
             entry.colour = palette(static_cast<std::int64_t>(i));
             context_.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
-            if (atlas_.info().extent.rank == 2) {
-                entry.picture = draw_still(volume_, entry.tau, entry.colour, options_, silent);
+            if (image) {
+                entry.picture = draw_still(*image, entry.tau, entry.colour, options_, silent);
                 continue;
             }
             ExtractOptions options;
@@ -192,7 +189,6 @@ private:
 
     const Atlas& atlas_;
     const PageOptions& options_;
-    Volume volume_;
     Analysis analysis_;
     BranchHierarchy hierarchy_;
     const Context& context_;

@@ -57,7 +57,7 @@ struct PageContents {
     Histogram histogram;
 };
 
-/// Throws as write_page(). Cost: an analysis, and a turntable for every entry.
+/// Throws as write_page(). Cost: Atlas::hierarchy(), Atlas::histogram(), and a turntable for every entry.
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context);
 
 }  // namespace isoatlas::page

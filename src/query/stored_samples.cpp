@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "isoatlas/error.h"
 #include "query/brick_classes.h"
+#include "query/brick_histogram.h"
 #include "query/brick_layout.h"
 #include "query/brick_part.h"
 #include "query/threshold.h"
@@ -132,6 +133,10 @@ public:
             if (bricks[b] == 0) fill_with(bricks_.low(b), grid_.box(b), whole);
         });
         counters += bricks_.read_into(whole, std::move(wanted), context.threads);
+    }
+
+    std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context, IoCounters& counters) override {
+        return brick_histogram(bricks_, edges, context.threads, counters);
     }
 
     void check(const Context& context) const override { bricks_.check(context.threads); }

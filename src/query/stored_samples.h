@@ -81,6 +81,9 @@ public:
     /// Those of the flagged bricks; all others are the lowest one of their brick.
     virtual void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
                            store::IoCounters& counters) = 0;
+    /// query/brick_histogram.h
+    [[nodiscard]] virtual std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context,
+                                                              store::IoCounters& counters) = 0;
     /// Reads all bricks; throws Error{input} where what is said about one is not so.
     virtual void check(const Context& context) const = 0;
     /// Forgets the samples that are present, but for those that queries hold.

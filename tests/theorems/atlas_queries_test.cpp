@@ -74,6 +74,24 @@ void check_bounds(const isoatlas::Bounds& bounds, Index number, bool exact) {
     RC_ASSERT(!exact || bounds.least == bounds.most);
 }
 
+RC_GTEST_FIXTURE_PROP(Stores, CountSamplesBetweenEdges, ()) {
+    const Grid grid = arbitrary_volume();
+    isoatlas::build_atlas(path_, to_volume(grid, arbitrary_type(grid)));
+    const Atlas atlas(path_);
+    auto edges = *rc::gen::container<std::vector<double>>(*rc::gen::inRange<std::size_t>(2, 6), rc::gen::elementOf(grid.value));
+    std::ranges::sort(edges);
+    if (*rc::gen::inRange(0, 2) == 0) edges.front() -= 0.5, edges.back() += 0.5;
+    const std::vector<std::int64_t> counts = atlas.histogram(edges);
+    RC_ASSERT(counts.size() + 1 == edges.size());
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const bool is_last = edges[i + 1] == edges.back() && i + 1 == counts.size();
+        const auto expected = std::ranges::count_if(
+            grid.value, [&](double value) { return value >= edges[i] && (value < edges[i + 1] || (is_last && value == edges[i + 1])); });
+        RC_ASSERT(counts[i] == expected);
+    }
+    RC_ASSERT_THROWS_AS((void)atlas.histogram(std::vector<double>{2, 1}), isoatlas::Error);
+}
+
 RC_GTEST_FIXTURE_PROP(Stores, ForeseeWhatAQueryFindsAndCosts, ()) {
     const Grid grid = arbitrary_volume();
     const Volume volume = to_volume(grid, arbitrary_type(grid));

@@ -1,0 +1,50 @@
+#include "query/brick_histogram.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace isoatlas {
+namespace {
+
+/// Which of the parts between edges a value lies in: 0 before the first edge, edges.size() behind the last.
+std::size_t part_of(std::span<const double> edges, double value) {
+    if (value == edges.back()) return edges.size() - 1;
+    return static_cast<std::size_t>(std::ranges::upper_bound(edges, value) - edges.begin());
+}
+
+}  // namespace
+
+template <class T>
+std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, std::span<const double> edges, int threads,
+                                          store::IoCounters& counters) {
+    std::vector<std::int64_t> counts(edges.size() + 1), wanted;
+    for (std::int64_t b = 0; b < bricks.grid().count(); ++b) {
+        const std::size_t part = part_of(edges, static_cast<double>(bricks.low(b)));
+        if (part == part_of(edges, static_cast<double>(bricks.high(b))))
+            counts[part] += bricks.grid().box(b).count();
+        else
+            wanted.push_back(b);
+    }
+    std::mutex mutex;
+    counters += bricks.read(std::move(wanted), threads, [&](std::int64_t, std::span<const T> samples) {
+        std::vector<std::int64_t> own(counts.size());
+        for (const T sample : samples) ++own[part_of(edges, static_cast<double>(sample))];
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < own.size(); ++i) counts[i] += own[i];
+    });
+    return {counts.begin() + 1, counts.end() - 1};
+}
+
+#define ISOATLAS_INSTANTIATE(T) \
+    template std::vector<std::int64_t> brick_histogram<T>(const store::BrickReader<T>&, std::span<const double>, int, store::IoCounters&)
+ISOATLAS_INSTANTIATE(std::uint8_t);
+ISOATLAS_INSTANTIATE(std::int8_t);
+ISOATLAS_INSTANTIATE(std::uint16_t);
+ISOATLAS_INSTANTIATE(std::int16_t);
+ISOATLAS_INSTANTIATE(std::uint32_t);
+ISOATLAS_INSTANTIATE(std::int32_t);
+ISOATLAS_INSTANTIATE(float);
+ISOATLAS_INSTANTIATE(double);
+#undef ISOATLAS_INSTANTIATE
+
+}  // namespace isoatlas
