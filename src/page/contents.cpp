@@ -23,14 +23,14 @@ public:
           options_(options),
           volume_(atlas.volume(context)),
           analysis_(analyse(volume_, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, quiet(context))),
-          hierarchy_(volume_, analysis_, context),
+          hierarchy_(atlas.hierarchy(context)),
           context_(context) {}
 
     PageContents gather() && {
         const auto [low, high] = atlas_.range();
         contents_.scale = axis_scale(volume_, low, high);
-        const ObjectTable table = rank_objects(volume_, analysis_, {.top = options_.top}, context_);
-        DarkTable dark = rank_dark_objects(volume_, analysis_, {.top = 0}, context_);
+        const ObjectTable table = atlas_.objects({.top = options_.top}, context_);
+        DarkTable dark = atlas_.dark_objects({.top = 0}, context_);
         contents_.bright = table.branches, contents_.noise = table.noise;
         contents_.bright_standing_out = static_cast<std::int64_t>(hierarchy_.essential().size());
         contents_.dark = dark.branches, contents_.dark_standing_out = static_cast<std::int64_t>(dark.entries.size());
