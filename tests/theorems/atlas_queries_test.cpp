@@ -189,7 +189,7 @@ RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
         for (const auto& o : table.entries) {
             out << o.id << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure << ' '
                 << o.hypervolume << ' ' << o.object << ' ' << o.tunnels << ' ' << o.islands << ' ' << join(o.position) << o.tau_low << ' '
-                << o.tau_high << ' ' << o.inside << ' ' << o.note << '\n';
+                << o.tau_high << ' ' << o.inside << ' ' << name_of(o.reason) << ' ' << o.note << '\n';
         }
         return out.str();
     };
