@@ -37,17 +37,11 @@ public:
         contents_.spectrum = count_columns(spectrum(atlas_, {.samples = 0}, context_).intervals, low, contents_.scale, kColumns);
         contents_.histogram = make_histogram(atlas_, contents_.scale, context_);
         contents_.curve = thin_curve(hierarchy_.curves().front(), kCurvePoints);
-        draw();
+        for (std::size_t i = 0; i < contents_.entries.size(); ++i) contents_.entries[i].colour = palette(static_cast<std::int64_t>(i));
         return std::move(contents_);
     }
 
 private:
-    static Context quiet(const Context& context) {
-        Context part = context;
-        part.progress = nullptr;
-        return part;
-    }
-
     /// Those of the table, and the first ones by rank.
     void add_bright_branches(const ObjectTable& table) {
         const std::span<const BranchInfo> all = hierarchy_.branches();
@@ -168,25 +162,6 @@ private:
         return closest;
     }
 
-    void draw() {
-        const Context silent = quiet(context_);
-        std::vector<PageEntry>& entries = contents_.entries;
-        std::optional<Volume> image;
-        if (atlas_.info().extent.rank == 2) image = atlas_.volume(silent);
-        for (std::size_t i = 0; i < entries.size(); ++i) {
-            PageEntry& entry = entries[i];
-            entry.colour = palette(static_cast<std::int64_t>(i));
-            context_.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
-            if (image) {
-                entry.picture = draw_still(*image, entry.tau, entry.colour, options_, silent);
-                continue;
-            }
-            ExtractOptions options;
-            (contents_.branches[entry.branch].dark ? options.contours : options.objects) = {entry.id};
-            entry.picture = draw_turntable(atlas_.extract(entry.tau, options, silent), entry.colour, options_, silent);
-        }
-    }
-
     const Atlas& atlas_;
     const PageOptions& options_;
     Analysis analysis_;
@@ -201,6 +176,25 @@ private:
 
 PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context) {
     return Gatherer(atlas, options, context).gather();
+}
+
+void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context) {
+    Context silent = context;
+    silent.progress = nullptr;
+    std::vector<PageEntry>& entries = contents.entries;
+    std::optional<Volume> image;
+    if (atlas.info().extent.rank == 2) image = atlas.volume(silent);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        PageEntry& entry = entries[i];
+        context.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
+        if (image) {
+            entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
+            continue;
+        }
+        ExtractOptions chosen;
+        (contents.branches[entry.branch].dark ? chosen.contours : chosen.objects) = {entry.id};
+        entry.picture = draw_turntable(atlas.extract(entry.tau, chosen, silent), entry.colour, options, silent);
+    }
 }
 
 }  // namespace isoatlas::page

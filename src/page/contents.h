@@ -57,7 +57,9 @@ struct PageContents {
     Histogram histogram;
 };
 
-/// Throws as write_page(). Cost: Atlas::hierarchy(), Atlas::histogram(), and a turntable for every entry.
+/// Without pictures. Throws as write_page(). Cost: Atlas::hierarchy() and Atlas::histogram().
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context);
+/// Cost: options.frames pictures for every entry.
+void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);
 
 }  // namespace isoatlas::page

@@ -47,7 +47,8 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
         throw Error(ErrorKind::unsupported,
                     {.what = "this isoatlas was built without pages", .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
     }
-    const page::PageContents contents = page::page_contents(atlas, options, context);
+    page::PageContents contents = page::page_contents(atlas, options, context);
+    page::draw_pictures(contents, atlas, options, context);
     std::string json;
     output::JsonStream stream([&json](std::string_view text) { json += text; });
     write_page_json(stream, atlas, contents, options.source.empty() ? atlas.info().path : options.source);

@@ -79,6 +79,9 @@ private:
         json_.key("size").begin_array();
         for (int a = 0; a < info.extent.rank; ++a) json_.value(info.extent.size[a]);
         json_.end_array().key("type").value(name_of(info.type)).key("spacing").value(info.geometry.spacing);
+        json_.key("origin").value(info.geometry.origin).key("direction").begin_array();
+        for (const Vec3& row : info.geometry.direction) json_.value(row);
+        json_.end_array();
         put_text(json_.key("unit"), unit_of(info.geometry));
         put_text(json_.key("valueUnit"), info.value_unit);
         put_value("low", contents_.scale.low);

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "output/json_stream.h"
+#include "page/contents.h"
+#include "page/page_json.h"
 
 namespace isoatlas::server {
 namespace {
@@ -23,49 +25,13 @@ void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
     json.key(name).begin_array().value(bounds.least).value(bounds.most).end_array();
 }
 
-void put_text(JsonStream& json, const char* name, const std::string& text) {
-    json.key(name);
-    if (text.empty()) {
-        json.null();
-    } else {
-        json.value(text);
-    }
-}
-
-void put_entry(JsonStream& json, const ObjectEntry& entry, const VolumeInfo& info, double lowest) {
-    const Calibration& scale = info.calibration;
-    json.line().begin_object().key("id").value(entry.id);
-    json.key("appears").value(scale.reported(entry.appears)).key("merges").value(scale.reported(entry.merges));
-    json.key("best").value(scale.reported(entry.best_tau));
-    json.key("low").value(scale.reported(std::max(entry.tau_low, lowest))).key("high").value(scale.reported(entry.tau_high));
-    json.key("voxels").value(entry.voxels).key("measure").value(entry.measure);
-    json.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
-    json.key("position").value(to_physical(info.geometry, entry.position));
-    json.key("inside").value(entry.inside).key("trunk").value(entry.trunk).key("note").value(entry.note).end_object();
-}
-
 }  // namespace
 
-std::string atlas_json(const Atlas& atlas) {
-    const VolumeInfo& info = atlas.info();
-    const auto [low, high] = atlas.range();
-    const double first = info.calibration.reported(low), last = info.calibration.reported(high);
-    const ObjectTable table = atlas.objects();
-    return document("atlas", [&](JsonStream& json) {
-        json.key("name").value(info.path.substr(info.path.rfind('/') + 1)).key("size").begin_array();
-        for (int axis = 0; axis < info.extent.rank; ++axis) json.value(info.extent.size[axis]);
-        json.end_array().key("type").value(name_of(info.type)).key("spacing").value(info.geometry.spacing);
-        json.key("origin").value(info.geometry.origin).key("direction").begin_array();
-        for (const Vec3& row : info.geometry.direction) json.value(row);
-        json.end_array();
-        put_text(json, "unit", info.geometry.unit);
-        put_text(json, "valueUnit", info.value_unit);
-        json.key("low").value(std::min(first, last)).key("high").value(std::max(first, last));
-        json.key("noise").value(info.calibration.reported_difference(table.noise)).key("branches").value(table.branches);
-        json.line().key("objects").begin_array();
-        for (const ObjectEntry& entry : table.entries) put_entry(json, entry, info, low);
-        json.end_array();
-    });
+std::string atlas_json(const Atlas& atlas, const Context& context) {
+    std::string text;
+    JsonStream json([&text](std::string_view piece) { text += piece; });
+    page::write_page_json(json, atlas, page::page_contents(atlas, {}, context), atlas.info().path);
+    return text;
 }
 
 std::string preview_json(const SurfacePreview& preview, double tau) {

@@ -8,8 +8,8 @@
 
 namespace isoatlas::server {
 
-/// Cost: reads the table of objects.
-[[nodiscard]] std::string atlas_json(const Atlas& atlas);
+/// What `isoatlas FILE` puts into a page, without pictures. Cost: reads the trees and some samples.
+[[nodiscard]] std::string atlas_json(const Atlas& atlas, const Context& context);
 [[nodiscard]] std::string preview_json(const SurfacePreview& preview, double tau);
 /// The first `top` objects.
 [[nodiscard]] std::string active_json(const ActiveObjects& active, double tau, std::int64_t top);

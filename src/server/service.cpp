@@ -80,7 +80,9 @@ Answer Service::answer_known(const Question& question) {
                                        .expected = "/api/atlas, /api/preview, /api/objects or /api/surface"});
 }
 
-Answer Service::atlas_answer() { return {200, "application/json", atlas_json(atlas_), {}}; }
+Answer Service::atlas_answer() {
+    return {200, "application/json", atlas_json_.get([this] { return atlas_json(atlas_, context_); }), {}};
+}
 
 Answer Service::preview_answer(const Question& question) const {
     Words words(question.words);
@@ -105,6 +107,7 @@ Answer Service::surface_answer(const Question& question) {
     const double tau = required_tau(words);
     ExtractOptions options;
     options.objects = words.list("object", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
+    options.contours = words.list("contour", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
     options.ids = format.has_value();
     const std::int64_t most = words.whole("most", 1, kMostTriangles).value_or(kMostTriangles);

@@ -1,16 +1,17 @@
 // What the server knows: answers to the questions of a viewer, from a store. Any question is safe; refusals are answers.
 //
-//   /api/atlas                              the volume, the objects that matter, a histogram: docs/schema/server_atlas.schema.json
+//   /api/atlas                              what a page shows, without pictures: docs/schema/page.schema.json
 //   /api/preview?tau=T                      what the surface at T is and costs, before it is made
 //   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
-//   /api/surface?tau=T[&object=ID,...][&most=N]       a mesh (server/wire_mesh.h)
-//   /api/surface?tau=T[&object=ID,...]&format=stl     the file that `isoatlas extract` writes
+//   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&most=N]   a mesh (server/wire_mesh.h)
+//   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
 //
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
 #pragma once
 
-#include <atomic>
+#include <string>
 
+#include "base/lazy.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
 #include "server/question.h"
@@ -41,6 +42,7 @@ private:
     std::string token_;
     Context context_;
     Turns turns_;
+    Lazy<std::string> atlas_json_;
 };
 
 }  // namespace isoatlas::server

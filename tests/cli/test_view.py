@@ -59,11 +59,12 @@ class View(harness.CliTest):
     def test_story(self):
         self.assert_schema(self.document, "view")
         atlas = self.json_of("/api/atlas")
-        self.assert_schema(atlas, "server-atlas")
+        self.assert_schema(atlas, "page")
         table = self.run_json("objects", "field.atlas")
-        self.assertEqual([entry["id"] for entry in atlas["objects"]], [entry["id"] for entry in table["objects"]])
-        for entry in atlas["objects"][:3]:
-            tau = entry["best"]
+        bright = [entry for entry in atlas["entries"] if atlas["branches"][entry["branch"]]["side"] == "bright"]
+        self.assertEqual([entry["id"] for entry in bright], [entry["id"] for entry in table["objects"]])
+        for entry in bright[:3]:
+            tau = entry["tau"]
             extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x.ply")
             status, headers, body = self.ask(f"/api/surface?tau={tau!r}&object={entry['id']}")
             self.assertEqual(status, 200, body)
@@ -110,7 +111,7 @@ class View(harness.CliTest):
 
     def test_many_clients(self):
         atlas = self.json_of("/api/atlas")
-        taus = [atlas["low"] + (atlas["high"] - atlas["low"]) * i / 13 for i in range(1, 13)]
+        taus = [atlas["volume"]["low"] + (atlas["volume"]["high"] - atlas["volume"]["low"]) * i / 13 for i in range(1, 13)]
         expected = {tau: self.ask(f"/api/surface?tau={tau!r}")[2] for tau in taus}
 
         def step(client):

@@ -108,6 +108,10 @@ export interface Page {
     size: number[];
     type: string;
     spacing: number[] | null;
+    /** of the first sample, physical */
+    origin: [number, number, number];
+    /** rows; column a: unit vector of axis a */
+    direction: [number, number, number][];
     /** of lengths; null: not known, measures are voxels */
     unit: string | null;
     valueUnit: string | null;

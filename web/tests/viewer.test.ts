@@ -58,9 +58,9 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
     const { tab, problems } = await open();
     await tab.waitForFunction(() => document.querySelector(".badge")?.textContent?.includes("triangles"));
     const listed = (JSON.parse(isoatlas("objects", "demo.atlas", "--json")) as { objects: Listed[] }).objects;
-    expect(await tab.locator(".objects li").count()).toBe(listed.length + 1);
+    expect(await tab.locator(".objects ol").first().locator("li").count()).toBe(listed.length + 1);
     const seen = meshes(tab);
-    await tab.getByRole("button", { name: "Object 2" }).click();
+    await tab.getByRole("button", { name: /^Object 2/ }).click();
     await expect.poll(() => seen.filter((mesh) => !mesh.coarse).length).toBeGreaterThan(0);
     const last = seen[seen.length - 1];
     const object = listed[1] as Listed;
@@ -73,7 +73,7 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
 
   it("evolves one object, undoes it, and restores it from its link", async () => {
     const { tab } = await open();
-    await tab.getByRole("button", { name: "Object 1" }).click();
+    await tab.getByRole("button", { name: /^Object 1/ }).click();
     const box = tab.getByRole("textbox", { name: "isovalue" });
     const before = await box.inputValue();
     await box.fill("100");
@@ -95,12 +95,26 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
 
   it("adds objects, each at its own isovalue, and takes them out", async () => {
     const { tab } = await open();
-    await tab.getByRole("button", { name: "Object 4" }).click();
-    await tab.getByRole("button", { name: "Object 5" }).click({ modifiers: ["Shift"] });
+    await tab.getByRole("button", { name: /^Object 4/ }).click();
+    await tab.getByRole("button", { name: /^Object 5/ }).click({ modifiers: ["Shift"] });
     expect(await tab.locator(".objects input:checked").count()).toBe(2);
     await tab.getByRole("button", { name: "Hide" }).click();
     expect(await tab.locator(".objects input:checked").count()).toBe(1);
     expect(await tab.locator(".object h2").textContent()).toBe("Object 4");
+    await tab.close();
+  });
+
+  it("shows a dark object as the wall around it, and finds objects in their tree", async () => {
+    const { tab, problems } = await open();
+    const seen = meshes(tab);
+    await tab.getByRole("button", { name: /^Dark object 1/ }).click();
+    await expect.poll(() => seen.length).toBeGreaterThan(0);
+    expect(seen[0]?.asked.has("contour")).toBe(true);
+    expect(await tab.locator(".object code").textContent()).toContain("--contour");
+    await tab.keyboard.press("t");
+    await tab.locator(".tree .mark").nth(3).click();
+    expect(await tab.locator(".object h2").textContent()).toMatch(/^Object/);
+    expect(problems).toEqual([]);
     await tab.close();
   });
 

@@ -1,39 +1,9 @@
 // Questions to `isoatlas view`: docs/server.md. A question for a surface ends the one before it of the same lane.
+import { readPage, type Page } from "../page";
 import { decodeMesh, type Mesh } from "./wire";
 
-export interface Entry {
-  id: number;
-  /** null: beyond all samples */
-  appears: number | null;
-  merges: number | null;
-  best: number;
-  low: number;
-  high: number;
-  voxels: number;
-  measure: number;
-  tunnels: number;
-  cavities: number;
-  position: [number, number, number];
-  inside: number;
-  trunk: boolean;
-  note: string;
-}
-
-export interface Atlas {
-  name: string;
-  size: number[];
-  type: string;
-  spacing: [number, number, number];
-  origin: [number, number, number];
-  direction: [number, number, number][];
-  unit: string | null;
-  valueUnit: string | null;
-  low: number;
-  high: number;
-  noise: number;
-  branches: number;
-  objects: Entry[];
-}
+/** What a surface is of: an object that holds a voxel, the wall of a cavity, or all there is. */
+export type Which = { object: number } | { contour: number } | null;
 
 export interface Preview {
   tau: number;
@@ -65,25 +35,25 @@ export class Api {
     private readonly base = "",
   ) {}
 
-  atlas(): Promise<Atlas> {
-    return this.ask("/api/atlas", "atlas").then((answer) => answer.json() as Promise<Atlas>);
+  async page(): Promise<Page> {
+    const page = readPage(await (await this.ask("/api/atlas", "atlas")).text());
+    if (page === null) throw new Error("the server sent no atlas");
+    return page;
   }
 
   preview(tau: number): Promise<Preview> {
     return this.ask(`/api/preview?tau=${tau}`, "preview").then((answer) => answer.json() as Promise<Preview>);
   }
 
-  /** object: a voxel in it; null: all there is. most: triangles; fewer come where there are more. */
-  async surface(lane: string, tau: number, object: number | null, most: number): Promise<Mesh> {
-    const which = object === null ? "" : `&object=${object}`;
-    const answer = await this.ask(`/api/surface?tau=${tau}${which}&most=${most}`, lane);
+  /** most: triangles; fewer come where there are more. */
+  async surface(lane: string, tau: number, which: Which, most: number): Promise<Mesh> {
+    const answer = await this.ask(`/api/surface?tau=${tau}${words(which)}&most=${most}`, lane);
     return decodeMesh(await answer.arrayBuffer(), answer.headers.get("X-Coarse") === "1");
   }
 
   /** The file that `isoatlas extract` writes. */
-  async file(tau: number, object: number | null, format: string): Promise<Blob> {
-    const which = object === null ? "" : `&object=${object}`;
-    return (await this.ask(`/api/surface?tau=${tau}${which}&format=${format}`, "file")).blob();
+  async file(tau: number, which: Which, format: string): Promise<Blob> {
+    return (await this.ask(`/api/surface?tau=${tau}${words(which)}&format=${format}`, "file")).blob();
   }
 
   /** Ends what a lane is waiting for. */
@@ -101,6 +71,12 @@ export class Api {
     if (!answer.ok) throw new Refusal(answer.status, await messageOf(answer));
     return answer;
   }
+}
+
+function words(which: Which): string {
+  return Object.entries(which ?? {})
+    .map(([name, id]) => `&${name}=${id}`)
+    .join("");
 }
 
 async function messageOf(answer: Response): Promise<string> {

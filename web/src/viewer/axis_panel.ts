@@ -1,56 +1,56 @@
 // The isovalue of what is selected: dragged, typed, stepped; and what its surface will be before it is made.
-import { Axis, drawTicks } from "../axis";
+import { Axis, drawTicks, histogramPath } from "../axis";
 import { html, svg } from "../dom";
 import { count, plural, value } from "../format";
-import type { Atlas, Preview } from "./api";
+import type { Page } from "../page";
+import type { Preview } from "./api";
+import { eventsOf } from "./shown";
 
 const WIDTH = 800;
-const HEIGHT = 54;
-
-/** The values at which an object that matters begins, or ends in another one. */
-export function eventsOf(atlas: Atlas): number[] {
-  const values = atlas.objects.flatMap((entry) => [entry.appears, entry.merges]);
-  return [...new Set(values.filter((value): value is number => value !== null))].sort((a, b) => a - b);
-}
+const HEIGHT = 66;
+const LINE = 42;
+/** of the slider */
+const STEPS = 10_000;
 
 export class AxisPanel {
   readonly element: HTMLElement;
   private readonly axis: Axis;
-  private readonly mark = svg("line", { class: "mark", y1: 0, y2: 30 });
-  private readonly range = svg("rect", { class: "range", y: 12, height: 8 });
+  private readonly mark = svg("line", { class: "mark", y1: 0, y2: LINE });
+  private readonly range = svg("rect", { class: "range", y: 24, height: 8 });
   private readonly box = html("input", { type: "text", inputmode: "decimal", "aria-label": "isovalue" });
   private readonly badge = html("output", { class: "badge" });
-  private readonly slider: HTMLInputElement;
+  private readonly slider = html("input", { type: "range", min: 0, max: STEPS, "aria-label": "isovalue" });
 
   /** moved(tau, transient): transient while it is dragged */
   constructor(
-    private readonly atlas: Atlas,
+    private readonly page: Page,
     private readonly moved: (tau: number, transient: boolean) => void,
   ) {
-    this.axis = new Axis(atlas.low, atlas.high, WIDTH, 12);
+    this.axis = Axis.of(page, WIDTH, 12);
     const events = svg("g", { class: "events" });
-    for (const tau of eventsOf(atlas)) {
+    for (const tau of eventsOf(page)) {
       const x = this.axis.x(tau);
-      events.append(svg("line", { x1: x, x2: x, y1: 24, y2: 30 }));
+      events.append(svg("line", { x1: x, x2: x, y1: LINE - 6, y2: LINE }));
     }
-    const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, "aria-hidden": "true" }, this.range, events, drawTicks(this.axis, 30, 8), this.mark);
-    this.slider = html("input", { type: "range", min: atlas.low, max: atlas.high, step: "any", "aria-label": "isovalue" });
-    this.slider.addEventListener("input", () => this.moved(Number(this.slider.value), true));
-    this.slider.addEventListener("change", () => this.moved(Number(this.slider.value), false));
+    const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" });
+    drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, this.axis, 2, LINE) }), this.range, events, drawTicks(this.axis, LINE, 8), this.mark);
+    this.slider.addEventListener("input", () => this.moved(this.tauOf(Number(this.slider.value)), true));
+    this.slider.addEventListener("change", () => this.moved(this.tauOf(Number(this.slider.value)), false));
     this.box.addEventListener("change", () => this.commit());
-    const label = html("label", {}, "isovalue ", this.box, atlas.valueUnit ? ` ${atlas.valueUnit}` : "");
+    const label = html("label", {}, "isovalue ", this.box, page.volume.valueUnit ? ` ${page.volume.valueUnit}` : "");
     this.element = html("section", { class: "axis", "aria-label": "isovalue" }, html("div", { class: "line" }, label, this.badge), html("div", { class: "drawn" }, drawing, this.slider));
   }
 
-  /** low, high: between these the object keeps its form. */
-  show(tau: number, low: number, high: number): void {
+  /** low, high: between these the object is on its own. */
+  show(tau: number, [low, high]: [number, number]): void {
     const x = this.axis.x(tau);
     this.mark.setAttribute("x1", String(x));
     this.mark.setAttribute("x2", String(x));
     this.range.setAttribute("x", String(this.axis.x(low)));
     this.range.setAttribute("width", String(Math.max(1, this.axis.x(high) - this.axis.x(low))));
     this.box.value = String(Number(tau.toPrecision(7)));
-    this.slider.value = String(tau);
+    this.slider.value = String(Math.round(((x - 12) / (WIDTH - 24)) * STEPS));
+    this.slider.setAttribute("aria-valuetext", value(tau));
   }
 
   tell(preview: Preview): void {
@@ -59,8 +59,12 @@ export class AxisPanel {
     this.badge.textContent = `${plural(preview.objects, "object")}, ${plural(preview.cavities, "cavity", "cavities")}, ${plural(preview.tunnels, "tunnel")}, ${triangles} triangles in all at ${value(preview.tau)}`;
   }
 
+  private tauOf(step: number): number {
+    return Number(this.axis.tau(12 + (step / STEPS) * (WIDTH - 24)).toPrecision(7));
+  }
+
   private commit(): void {
     const tau = Number(this.box.value);
-    if (this.box.value.trim() !== "" && Number.isFinite(tau)) this.moved(Math.min(Math.max(tau, this.atlas.low), this.atlas.high), false);
+    if (this.box.value.trim() !== "" && Number.isFinite(tau)) this.moved(Math.min(Math.max(tau, this.page.axis.low), this.page.axis.high), false);
   }
 }

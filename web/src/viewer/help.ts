@@ -9,6 +9,7 @@ const KEYS: [string, string][] = [
   ["o", "with perspective or without"],
   ["c", "cut everything open, from where you look"],
   ["b", "edges of the volume"],
+  ["t", "all objects over the isovalue: choose one"],
   ["f", "all that is shown in the middle"],
   ["Delete", "hide what is selected"],
   ["Ctrl Z, Ctrl Shift Z", "undo, redo"],

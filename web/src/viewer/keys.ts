@@ -13,6 +13,8 @@ export interface Actions {
   /** takes what is selected out of the scene */
   hide(): void;
   help(): void;
+  /** shows all objects over the isovalue */
+  tree(): void;
   /** cuts everything open, or closes it */
   cut(): void;
   /** shows the edges of the volume, or not */
@@ -32,6 +34,7 @@ export function keys(stage: Stage, actions: Actions): void {
     o: () => stage.eye.toggleFlat(),
     b: () => actions.box(),
     c: () => actions.cut(),
+    t: () => actions.tree(),
     Delete: () => actions.hide(),
     "?": () => actions.help(),
     ArrowLeft: () => stage.eye.turn(-ANGLE, 0),

@@ -1,32 +1,33 @@
 // The objects that matter, and which of them are shown. A click isolates, with shift or the box it adds.
 import { html } from "../dom";
 import { plural, value, volume } from "../format";
-import type { Atlas, Entry } from "./api";
+import { isDark, placeOf, reasonOf, shapeOf } from "../names";
+import { entryOf, type Page } from "../page";
+import { colourOf, EVERYTHING, titleOf } from "./shown";
 import type { State } from "./state";
-import { colourOf } from "./colours";
 
 export class ListPanel {
   readonly element: HTMLElement;
   private readonly rows: { entry: number; row: HTMLElement; box: HTMLInputElement }[] = [];
 
   constructor(
-    atlas: Atlas,
-    isolate: (entry: number) => void,
-    toggle: (entry: number) => void,
+    private readonly page: Page,
+    private readonly isolate: (entry: number) => void,
+    private readonly toggle: (entry: number) => void,
   ) {
-    const list = html("ol", {});
-    const put = (entry: number, name: string, text: string): void => {
-      const box = html("input", { type: "checkbox", "aria-label": `show ${name.toLowerCase()}`, change: () => toggle(entry) });
-      const swatch = html("span", { class: "swatch", style: `background:${colourOf(entry)}` });
-      const chosen = (event: Event): void => ((event as MouseEvent).shiftKey ? toggle(entry) : isolate(entry));
-      const button = html("button", { type: "button", click: chosen }, swatch, html("span", {}, html("b", {}, name), ` ${text}`));
-      const row = html("li", {}, box, button);
-      this.rows.push({ entry, row, box });
-      list.append(row);
-    };
-    atlas.objects.forEach((entry, i) => put(i, `Object ${i + 1}`, about(entry, atlas)));
-    put(-1, "All there is", "at one isovalue");
-    this.element = html("nav", { class: "objects", "aria-label": "objects" }, html("h1", {}, atlas.name), html("p", {}, `${plural(atlas.objects.length, "object")} of ${plural(atlas.branches, "object")} stand out.`), list);
+    const entries = page.entries.map((_, i) => i);
+    const bright = entries.filter((i) => !isDark(page, i));
+    const dark = entries.filter((i) => isDark(page, i));
+    const { all } = page.objects.bright;
+    this.element = html(
+      "nav",
+      { class: "objects", "aria-label": "objects" },
+      html("h1", {}, page.volume.name),
+      html("p", {}, `${plural(page.objects.bright.standingOut, "object")} of ${plural(all, "object")} stand out.`),
+      this.listOf([...bright, EVERYTHING]),
+      dark.length > 0 && html("h2", {}, "Dark objects"),
+      dark.length > 0 && this.listOf(dark),
+    );
   }
 
   show(state: State): void {
@@ -36,12 +37,26 @@ export class ListPanel {
       row.classList.toggle("selected", at >= 0 && at === state.selected);
     }
   }
-}
 
-function about(entry: Entry, atlas: Atlas): string {
-  const parts = [`at ${value(entry.best)}`, volume(entry.measure, atlas.unit)];
-  if (entry.tunnels > 0) parts.push(plural(entry.tunnels, "tunnel"));
-  if (entry.cavities > 0) parts.push(plural(entry.cavities, "cavity", "cavities"));
-  if (entry.note) parts.push(entry.note);
-  return parts.join(", ");
+  private listOf(entries: number[]): HTMLElement {
+    return html("ol", {}, ...entries.map((i) => this.row(i)));
+  }
+
+  private row(i: number): HTMLElement {
+    const title = titleOf(this.page, i);
+    const box = html("input", { type: "checkbox", "aria-label": `show ${title.toLowerCase()}`, change: () => this.toggle(i) });
+    const swatch = html("span", { class: "swatch", style: `background:${colourOf(this.page, i)}` });
+    const chosen = (event: Event): void => ((event as MouseEvent).shiftKey ? this.toggle(i) : this.isolate(i));
+    const button = html("button", { type: "button", click: chosen }, swatch, html("span", {}, html("b", {}, title), ` ${this.about(i)}`));
+    const row = html("li", {}, box, button);
+    this.rows.push({ entry: i, row, box });
+    return row;
+  }
+
+  private about(i: number): string {
+    if (i === EVERYTHING) return "at one isovalue";
+    const entry = entryOf(this.page, i);
+    const parts = [`at ${value(entry.tau)}`, volume(entry.measure, this.page.volume.unit), shapeOf(this.page, i), reasonOf(this.page, i), placeOf(this.page, i)];
+    return parts.filter((part) => part !== "").join(", ");
+  }
 }

@@ -1,13 +1,15 @@
 // The viewer: a list of objects, a picture of those shown, and the isovalue of the one selected.
 import { html } from "../dom";
-import { Api, isOvertaken, type Atlas } from "./api";
-import { AxisPanel, eventsOf } from "./axis_panel";
-import { colourOf } from "./colours";
+import { overview } from "../overview";
+import type { Page } from "../page";
+import { Api, isOvertaken } from "./api";
+import { AxisPanel } from "./axis_panel";
 import { help } from "./help";
 import { keys } from "./keys";
 import { ListPanel } from "./list_panel";
 import { ObjectPanel } from "./object_panel";
 import { ScaleBar } from "./scale_bar";
+import { bestOf, colourOf, eventsOf, ownRange, titleOf, whichOf } from "./shown";
 import { Stage } from "./stage";
 import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type Shown, type State } from "./state";
 import "./viewer.css";
@@ -27,23 +29,24 @@ class Viewer {
   /** per entry: the isovalue of what the picture shows of it, or soon will */
   private readonly drawn = new Map<number, number>();
   private readonly help = help();
+  private readonly tree = html("dialog", { class: "tree", "aria-label": "all objects over the isovalue" });
   private framed = false;
   private readonly cut = html("input", { class: "cut", type: "range", min: 0, max: 1, step: 0.01, hidden: true, "aria-label": "where it is cut open" });
 
   constructor(
     private readonly api: Api,
-    private readonly atlas: Atlas,
+    private readonly page: Page,
     main: HTMLElement,
   ) {
-    const asked = fromHash(location.hash, atlas.objects.length);
+    const asked = fromHash(location.hash, page.entries.length);
     this.history = new History(asked ?? NOTHING);
-    this.axis = new AxisPanel(atlas, (tau, transient) => this.move(tau, transient));
+    this.axis = new AxisPanel(page, (tau, transient) => this.move(tau, transient));
     this.list = new ListPanel(
-      atlas,
+      page,
       (entry) => this.go(isolate(this.now, entry, this.best(entry))),
       (entry) => this.toggle(entry),
     );
-    this.panel = new ObjectPanel(atlas, atlas.name, {
+    this.panel = new ObjectPanel(page, {
       fade: (opacity, transient) => this.go(change(this.now, this.now.selected, { opacity }), transient),
       hide: () => this.hide(),
       save: (format) => void this.save(format),
@@ -51,15 +54,16 @@ class Viewer {
       link: () => void navigator.clipboard.writeText(location.href).then(() => this.say("the link is in the clipboard")),
     });
     const side = html("div", { class: "side" }, this.list.element, this.panel.element);
-    const bar = new ScaleBar(atlas.unit);
+    const bar = new ScaleBar(page.volume.unit);
     this.stage.onDraw(() => bar.show(this.stage.eye.height, this.stage.canvas.clientHeight));
     this.cut.addEventListener("input", () => this.stage.slide(Number(this.cut.value)));
-    main.append(side, html("div", { class: "stage" }, this.stage.canvas, this.said, bar.element, this.cut), this.axis.element, this.help);
+    main.append(side, html("div", { class: "stage" }, this.stage.canvas, this.said, bar.element, this.cut), this.axis.element, this.help, this.tree);
+    this.growTree();
     this.history.listen((state, before) => this.show(state, before));
     this.listenToKeys();
     this.listenToClicks();
     if (asked) this.show(asked, NOTHING);
-    else if (atlas.objects.length > 0) this.go(isolate(NOTHING, 0, this.best(0)));
+    else if (page.entries.length > 0) this.go(isolate(NOTHING, 0, this.best(0)));
     else this.say("There is nothing to show: noise explains all there is.");
   }
 
@@ -72,7 +76,7 @@ class Viewer {
   }
 
   private best(entry: number): number {
-    return this.atlas.objects[entry]?.best ?? (this.atlas.low + this.atlas.high) / 2;
+    return bestOf(this.page, entry);
   }
 
   private go(state: State, transient = false): void {
@@ -93,14 +97,24 @@ class Viewer {
   }
 
   private move(tau: number, transient = false): void {
-    const inside = Math.min(Math.max(tau, this.atlas.low), this.atlas.high);
+    const inside = Math.min(Math.max(tau, this.page.axis.low), this.page.axis.high);
     if (this.selected) this.go(change(this.now, this.now.selected, { tau: inside }), transient);
   }
 
+  /** The objects over the isovalue, as on the page; what is chosen there is isolated. */
+  private growTree(): void {
+    const choose = (entry: number): void => {
+      this.tree.close();
+      this.go(isolate(this.now, entry, this.best(entry)));
+    };
+    const drawing = overview(this.page, new Set(this.page.entries.map((entry) => entry.branch)), choose);
+    this.tree.append(html("h2", {}, "Objects over the isovalue"), drawing, html("button", { type: "button", click: () => this.tree.close() }, "Close"));
+  }
+
   private listenToKeys(): void {
-    const events = eventsOf(this.atlas);
+    const events = eventsOf(this.page);
     keys(this.stage, {
-      step: (by) => this.selected && this.move(this.selected.tau + by * (this.atlas.high - this.atlas.low)),
+      step: (by) => this.selected && this.move(this.selected.tau + by * (this.page.axis.high - this.page.axis.low)),
       event: (up) => {
         const tau = this.selected && nextEvent(events, this.selected.tau, up);
         if (typeof tau === "number") this.move(tau);
@@ -115,9 +129,10 @@ class Viewer {
         this.cut.hidden = !this.stage.isOpen;
         this.cut.value = "0.5";
       },
+      tree: () => this.tree.showModal(),
       box: () => {
         this.framed = !this.framed;
-        this.stage.frame(this.framed ? cornersOf(this.atlas) : null);
+        this.stage.frame(this.framed ? cornersOf(this.page) : null);
       },
     });
   }
@@ -140,8 +155,7 @@ class Viewer {
     this.list.show(state);
     this.panel.show(this.selected);
     if (this.selected) {
-      const entry = this.atlas.objects[this.selected.entry];
-      this.axis.show(this.selected.tau, entry?.merges ?? this.atlas.low, entry?.appears ?? this.atlas.high);
+      this.axis.show(this.selected.tau, ownRange(this.page, this.selected.entry));
       void this.foresee(this.selected.tau);
     }
     for (const old of before.shown) if (!state.shown.some((shown) => shown.entry === old.entry)) this.forget(old.entry);
@@ -171,9 +185,9 @@ class Viewer {
     this.drawn.set(entry, tau);
     try {
       for (const most of [COARSE, WHOLE]) {
-        const mesh = await this.api.surface(`surface ${entry}`, tau, this.atlas.objects[entry]?.id ?? null, most);
+        const mesh = await this.api.surface(`surface ${entry}`, tau, whichOf(this.page, entry), most);
         if (this.drawn.get(entry) !== tau) return;
-        this.stage.put(entry, mesh, colourOf(entry), opacity, tau);
+        this.stage.put(entry, mesh, colourOf(this.page, entry), opacity, tau);
         if (first && most === COARSE) this.stage.fit();
         this.say(mesh.coarse ? "coarse preview" : "");
         if (!mesh.coarse) break;
@@ -191,7 +205,7 @@ class Viewer {
     if (!shown) return;
     try {
       this.say("the surface is being written");
-      keep(await this.api.file(shown.tau, this.atlas.objects[shown.entry]?.id ?? null, format), `object-${shown.entry + 1}.${format}`);
+      keep(await this.api.file(shown.tau, whichOf(this.page, shown.entry), format), `${titleOf(this.page, shown.entry).toLowerCase().replaceAll(" ", "-")}.${format}`);
       this.say("");
     } catch (error) {
       this.fail(error);
@@ -204,10 +218,10 @@ class Viewer {
 }
 
 /** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */
-function cornersOf(atlas: Atlas): [number, number, number][] {
+function cornersOf({ volume }: Page): [number, number, number][] {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => {
-    const steps = [0, 1, 2].map((axis) => (corner & (1 << axis) ? (atlas.size[axis] ?? 1) - 1 : 0) * (atlas.spacing[axis] ?? 1));
-    const at = (row: number): number => (atlas.origin[row] ?? 0) + steps.reduce((sum, step, axis) => sum + (atlas.direction[row]?.[axis] ?? 0) * step, 0);
+    const steps = [0, 1, 2].map((axis) => (corner & (1 << axis) ? (volume.size[axis] ?? 1) - 1 : 0) * (volume.spacing?.[axis] ?? 1));
+    const at = (row: number): number => (volume.origin[row] ?? 0) + steps.reduce((sum, step, axis) => sum + (volume.direction[row]?.[axis] ?? 0) * step, 0);
     return [at(0), at(1), at(2)];
   });
 }
@@ -222,10 +236,10 @@ function keep(blob: Blob, name: string): void {
 async function start(main: HTMLElement): Promise<void> {
   const api = new Api(new URLSearchParams(location.search).get("token") ?? "");
   try {
-    const atlas = await api.atlas();
-    document.title = `${atlas.name} – isoatlas`;
-    if (atlas.size.length !== 3) throw new Error("The viewer shows volumes; isoatlas atlas makes a page of an image.");
-    new Viewer(api, atlas, main);
+    const page = await api.page();
+    document.title = `${page.volume.name} – isoatlas`;
+    if (page.volume.size.length !== 3) throw new Error("The viewer shows volumes; isoatlas atlas makes a page of an image.");
+    new Viewer(api, page, main);
   } catch (error) {
     main.append(html("p", { role: "alert" }, error instanceof Error ? error.message : String(error)));
   }

@@ -1,7 +1,9 @@
 // What is selected: what it is, how it is drawn, and what can be taken away.
 import { html } from "../dom";
-import { count, plural, value, volume } from "../format";
-import type { Atlas } from "./api";
+import { count, value, volume } from "../format";
+import { placeOf, rangeOf, shapeOf } from "../names";
+import { entryOf, type Page } from "../page";
+import { branchOfShown, EVERYTHING, titleOf } from "./shown";
 import type { Shown } from "./state";
 
 export interface Wishes {
@@ -22,8 +24,7 @@ export class ObjectPanel {
   private readonly opacity: HTMLInputElement;
 
   constructor(
-    private readonly atlas: Atlas,
-    private readonly file: string,
+    private readonly page: Page,
     wishes: Wishes,
   ) {
     this.opacity = html("input", { type: "range", min: 0.1, max: 1, step: 0.05, "aria-label": "opacity" });
@@ -52,22 +53,33 @@ export class ObjectPanel {
   show(shown: Shown | undefined): void {
     this.element.hidden = !shown;
     if (!shown) return;
-    const entry = this.atlas.objects[shown.entry];
-    this.title.textContent = entry ? `Object ${shown.entry + 1}` : "All there is";
+    this.title.textContent = titleOf(this.page, shown.entry);
     this.opacity.value = String(shown.opacity);
-    const tau = Number(shown.tau.toPrecision(7));
-    this.command.textContent = `isoatlas extract ${this.file}${entry ? ` --object ${entry.id}` : ""} --tau ${tau} -o object.stl`;
-    const facts: [string, string][] = entry
-      ? [
-          ["appears at", entry.appears === null ? "the highest value" : value(entry.appears)],
-          ["merges at", entry.merges === null ? "never" : value(entry.merges)],
-          ["best seen at", value(entry.best)],
-          ["size there", volume(entry.measure, this.atlas.unit)],
-          ["voxels there", count(entry.voxels)],
-          ["form there", `${plural(entry.tunnels, "tunnel")}, ${plural(entry.cavities, "cavity", "cavities")}`],
-          ...(entry.inside >= 0 ? [["lies in", `object ${entry.inside + 1}`] as [string, string]] : []),
-        ]
-      : [];
+    this.command.textContent = this.commandOf(shown);
+    const facts: [string, string][] = shown.entry === EVERYTHING ? [] : this.factsOf(shown.entry);
     this.facts.replaceChildren(...facts.flatMap(([name, text]) => [html("dt", {}, name), html("dd", {}, text)]));
+  }
+
+  private factsOf(i: number): [string, string][] {
+    const entry = entryOf(this.page, i);
+    const branch = branchOfShown(this.page, i);
+    const facts: [string, string][] = [
+      ["on its own", branch ? rangeOf(branch) : ""],
+      ["best seen at", value(entry.tau)],
+      ["because", entry.why],
+      ["size there", volume(entry.measure, this.page.volume.unit)],
+      ["voxels there", count(entry.voxels)],
+      ["shape there", shapeOf(this.page, i)],
+      ["lies", placeOf(this.page, i)],
+    ];
+    return facts.filter(([, text]) => text !== "");
+  }
+
+  /** The command of the page that writes its surface, at the isovalue it is shown at. */
+  private commandOf(shown: Shown): string {
+    const tau = Number(shown.tau.toPrecision(7));
+    if (shown.entry === EVERYTHING) return `isoatlas extract ${this.page.volume.name}.atlas --tau ${tau} -o surface.stl`;
+    const line = entryOf(this.page, shown.entry).commands.find((command) => command.line.startsWith("isoatlas extract"))?.line ?? "";
+    return line.replace(/--tau \S+/, `--tau ${tau}`);
   }
 }
