@@ -1,0 +1,64 @@
+// Questions to the server: "path?name=text&...", a '^' before them for a wrong token. Any of them gets an answer of a known status, and a
+// refusal says why.
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <unistd.h>
+
+#include "base/check.h"
+#include "isoatlas/build.h"
+#include "isoatlas/phantom.h"
+#include "server/service.h"
+
+namespace {
+
+using namespace isoatlas;
+
+/// A small store for all questions; its file is removed once it is open.
+const Atlas& small_atlas() {
+    static const Atlas atlas = [] {
+        const std::string path = (std::filesystem::temp_directory_path() / ("question_fuzz_" + std::to_string(::getpid()))).string();
+        build_atlas(path, make_phantom("noise", {.size = 8, .quantise = 8}));
+        Atlas opened(path);
+        std::filesystem::remove(path);
+        return opened;
+    }();
+    return atlas;
+}
+
+server::Question question_of(std::string_view text) {
+    server::Question question;
+    question.token = "right";
+    question.client = "fuzz";
+    if (text.starts_with('^')) question.token = "wrong", text.remove_prefix(1);
+    const std::size_t mark = text.find('?');
+    question.path = text.substr(0, mark);
+    while (mark != std::string_view::npos) {
+        text.remove_prefix(text.find_first_of("?&") + 1);
+        const std::string_view word = text.substr(0, text.find('&'));
+        const std::size_t equal = word.find('=');
+        question.words.emplace(word.substr(0, equal), equal == std::string_view::npos ? std::string_view() : word.substr(equal + 1));
+        if (word.size() == text.size()) break;
+    }
+    return question;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size > 8192) return 0;  // what HTTP lets through
+    static server::Service service(small_atlas(), "right", [] {
+        Context context;
+        context.threads = 1;
+        return context;
+    }());
+    const server::Question question = question_of({reinterpret_cast<const char*>(data), size});
+    const server::Answer answer = service.answer(question);
+    ISOATLAS_CHECK(answer.status == 200 || answer.status == 400 || answer.status == 403 || answer.status == 404);
+    ISOATLAS_CHECK(answer.status == 403 || question.token == "right" || question.path == "/");
+    ISOATLAS_CHECK(answer.status == 200 || answer.bytes.find("\"message\":\"") != std::string::npos);
+    return 0;
+}
