@@ -24,16 +24,17 @@ Turns::Turn::~Turn() {
 
 std::unique_ptr<Turns::Turn> Turns::take(const std::string& client) {
     std::unique_lock lock(mutex_);
-    if (waiting_ >= most_waiting_) {
+    if (static_cast<int>(waiting_.size()) >= most_waiting_) {
         throw Error(ErrorKind::resource, {.what = "too many questions wait for an answer", .next = "ask again later"});
     }
     const std::uint64_t number = ++questions_;
     if (!client.empty()) newest_[client] = number;
     std::unique_ptr<Turn> turn(new Turn(*this, client, number));  // the constructor is private
     changed_.notify_all();                                        // an older question that waits
-    ++waiting_;
-    changed_.wait(lock, [&] { return running_ < at_once_ || is_over(client, number); });
-    --waiting_;
+    waiting_.insert(number);
+    changed_.wait(lock, [&] { return (running_ < at_once_ && *waiting_.begin() == number) || is_over(client, number); });
+    waiting_.erase(number);
+    changed_.notify_all();  // the next one
     if (is_over(client, number)) {
         lock.unlock();  // the turn ends
         throw Error(ErrorKind::cancelled, {.what = "a newer question came"});
@@ -41,6 +42,11 @@ std::unique_ptr<Turns::Turn> Turns::take(const std::string& client) {
     ++running_;
     turn->running_ = true;
     return turn;
+}
+
+int Turns::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(waiting_.size());
 }
 
 void Turns::end() {

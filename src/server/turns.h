@@ -1,4 +1,5 @@
-// Whose turn it is: a few surfaces are made at a time, others wait; a newer question of the same client ends an older one.
+// Whose turn it is: a few surfaces are made at a time, others wait in the order in which they came; a newer question of the same client ends
+// an older one.
 #pragma once
 
 #include <condition_variable>
@@ -6,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 namespace isoatlas::server {
@@ -36,6 +38,8 @@ public:
     /// Waits until it is this client's turn. Throws Error: cancelled (a newer question came, or the server ends), resource (too many wait).
     /// An empty client is one of its own each time.
     [[nodiscard]] std::unique_ptr<Turn> take(const std::string& client);
+    /// How many wait.
+    [[nodiscard]] int waiting() const;
     /// Ends all turns; take() refuses from now on.
     void end();
 
@@ -47,7 +51,8 @@ private:
     std::condition_variable changed_;
     std::map<std::string, std::uint64_t> newest_;  ///< per client that has a question
     std::uint64_t questions_ = 0;
-    int running_ = 0, waiting_ = 0;
+    std::set<std::uint64_t> waiting_;  ///< numbers of questions
+    int running_ = 0;
     bool ended_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -77,6 +78,23 @@ TEST(Turns, NeverMoreAtOnceThanAllowed) {
     for (std::thread& asker : askers) asker.join();
     EXPECT_LE(most, 2);
     EXPECT_EQ(served, 24);
+}
+
+TEST(Turns, ComeInTheOrderOfTheQuestions) {
+    Turns turns(1, 100);
+    auto holder = turns.take("first");
+    std::vector<int> served;
+    std::vector<std::thread> askers;
+    for (int i = 0; i < 8; ++i) {
+        askers.emplace_back([&turns, &served, i] {
+            const auto turn = turns.take("client " + std::to_string(i));
+            served.push_back(i);  // one at a time
+        });
+        while (turns.waiting() <= i) std::this_thread::yield();
+    }
+    holder.reset();
+    for (std::thread& asker : askers) asker.join();
+    EXPECT_EQ(served, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
 TEST(Turns, TooManyAreRefused) {
