@@ -4,37 +4,15 @@
 
 #include <fmt/format.h>
 
-#include "document.h"
 #include "interrupt.h"
 #include "source.h"
 #include "table.h"
 #include "terminal.h"
+#include "tree_document.h"
 #include "values.h"
 
 namespace isoatlas::cli {
 namespace {
-
-Json node_json(const SimplifiedNode& node, const BranchHierarchy& hierarchy, const Scale& scale) {
-    Json json{{"event", node.event}, {"object", hierarchy.branches()[static_cast<std::size_t>(node.branch)].id}};
-    json["kind"] = node.is_maximum ? "maximum" : "merge";
-    json["parent"] = node.parent < 0 ? Json(nullptr) : Json(node.parent);
-    json["tau_low"] = number(scale.reported(node.tau_low));
-    json["tau_high"] = scale.reported(node.tau_high);
-    json["voxels"] = node.voxels;
-    json["object_voxels"] = node.object_voxels;
-    return json;
-}
-
-void print_json(Terminal& terminal, Source& source, const BranchHierarchy& hierarchy, const Simplified& simplified) {
-    const Scale scale(source.info());
-    Json head = document("simplified-tree", source.info(), source.interpolant(), source.tunnel_height());
-    head["objects"] = hierarchy.branches().size();
-    head["kept"] = simplified.kept.size();
-    head["hidden"] = simplified.hidden;
-    head["hidden_voxels"] = simplified.hidden_voxels;
-    print(terminal, head, "nodes", static_cast<std::int64_t>(simplified.nodes.size()),
-          [&](std::int64_t i) { return node_json(simplified.nodes[static_cast<std::size_t>(i)], hierarchy, scale); });
-}
 
 void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarchy& hierarchy, const Simplified& simplified) {
     const Scale scale(info);
@@ -57,6 +35,25 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarch
     terminal.out() << '\n' << hidden_text(simplified, info.extent.voxels()) << '\n';
 }
 
+void write_file(const Arguments& arguments, Terminal& terminal, Source& source, const SimplifiedTree& tree) {
+    {
+        const WritingGuard guard(arguments.output);
+        write_simplified_tree(arguments.output, tree);
+    }
+    if (!arguments.json) {
+        terminal.out() << fmt::format("{}: {}; {}\n", arguments.output,
+                                      counted(static_cast<std::int64_t>(tree.simplified.nodes.size()), "node"),
+                                      hidden_text(tree.simplified, source.info().extent.voxels()));
+        return;
+    }
+    Json json = tree_file_document(arguments, source.info(), tree.analysis);
+    json["nodes"] = tree.simplified.nodes.size();
+    json["kept"] = tree.simplified.kept.size();
+    json["hidden"] = tree.simplified.hidden;
+    json["hidden_voxels"] = tree.simplified.hidden_voxels;
+    print(terminal, json);
+}
+
 }  // namespace
 
 std::string hidden_text(const Simplified& simplified, std::int64_t voxels) {
@@ -73,16 +70,19 @@ void write_curves(const Arguments& arguments, Source& source) {
 }
 
 int run_simplified_tree(const Arguments& arguments, Terminal& terminal) {
-    if (!arguments.output.empty()) {
+    if (arguments.detail != TreeDetail::events) {
         throw Error(ErrorKind::usage,
-                    {.what = "a simplified tree cannot be written with -o", .next = "print it with --json, or leave out the selection"});
+                    {.what = "a simplified tree has events, no other detail", .next = "leave out --detail, or the selection"});
     }
     Source source(arguments, terminal);
-    const BranchHierarchy hierarchy = source.hierarchy();
+    const auto [analysis, hierarchy] = source.analysis_and_hierarchy();
     const Simplified simplified = hierarchy.simplify(source.selection());
+    const SimplifiedTree tree{source.info(), analysis, hierarchy, simplified};
     stop_if_interrupted();
-    if (arguments.json) {
-        print_json(terminal, source, hierarchy, simplified);
+    if (!arguments.output.empty()) {
+        write_file(arguments, terminal, source, tree);
+    } else if (arguments.json) {
+        write_simplified_tree_json(terminal.out(), tree);
     } else {
         print_text(terminal, source.info(), hierarchy, simplified);
     }

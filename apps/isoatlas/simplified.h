@@ -1,4 +1,4 @@
-// The simplified tree, as text and as JSON, and what a selection hides.
+// The simplified tree, as text, as JSON and as a file, and what a selection hides.
 #pragma once
 
 #include "arguments.h"

@@ -103,6 +103,13 @@ BranchHierarchy Source::hierarchy() {
     return {volume(), analysis(true), context()};
 }
 
+std::pair<Analysis, BranchHierarchy> Source::analysis_and_hierarchy() {
+    if (atlas_ && !arguments_.voxel_units) return {atlas_->analysis(), atlas_->hierarchy(context())};
+    Analysis made = analysis(true);
+    BranchHierarchy hierarchy(volume(), made, context());
+    return {std::move(made), std::move(hierarchy)};
+}
+
 Selection Source::selection() {
     Selection selection = arguments_.selection;
     const double slope = std::abs(info_.calibration.slope);

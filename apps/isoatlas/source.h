@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <isoatlas/isoatlas.h>
 
@@ -39,6 +40,8 @@ public:
     [[nodiscard]] DarkTable dark_objects(const RankOptions& options);
     /// The branches that selections choose from.
     [[nodiscard]] BranchHierarchy hierarchy();
+    /// The same, with the trees that its events belong to.
+    [[nodiscard]] std::pair<Analysis, BranchHierarchy> analysis_and_hierarchy();
     /// The selection of the command line, in stored values.
     [[nodiscard]] Selection selection();
     [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);

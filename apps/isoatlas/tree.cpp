@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "document.h"
 #include "interrupt.h"
 #include "simplified.h"
 #include "source.h"
 #include "table.h"
 #include "terminal.h"
+#include "tree_document.h"
 #include "values.h"
 #include "verbs.h"
 
@@ -134,16 +134,6 @@ void print_summary(Terminal& terminal, const Arguments& arguments, const Volume&
     terminal.next("isoatlas tree " + file + " -o tree.json    # also .graphml .csv .vtu");
 }
 
-const char* detail_name(TreeDetail detail) {
-    switch (detail) {
-        case TreeDetail::events: return "events";
-        case TreeDetail::levels: return "levels";
-        case TreeDetail::elements: return "elements";
-        case TreeDetail::contours: return "contours";
-    }
-    return "events";
-}
-
 void write_file(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
     {
         const WritingGuard guard(arguments.output);
@@ -154,21 +144,14 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
                        << detail_name(arguments.detail) << ", " << interpolant_of(volume, analysis) << '\n';
         return;
     }
-    Json json = document("tree-file", volume.info, analysis.interpolant(), analysis.tunnel_height());
-    json["output"] = arguments.output;
-    json["detail"] = detail_name(arguments.detail);
-    json["events"] = analysis.event_count();
-    json["levels"] = analysis.level_count();
-    json["elements"] = analysis.element_count();
-    json["contours"] = analysis.contour_arc_count();
-    print(terminal, json);
+    print(terminal, tree_file_document(arguments, volume.info, analysis));
 }
 
 }  // namespace
 
 int run_tree(const Arguments& arguments, Terminal& terminal) {
-    if (arguments.selects) return run_simplified_tree(arguments, terminal);
     if (!arguments.output.empty()) check_output(arguments, {".json", ".graphml", ".csv", ".vtu"});
+    if (arguments.selects) return run_simplified_tree(arguments, terminal);
     Source source(arguments, terminal);
     const Analysis analysis = source.analysis(false);
     Volume volume;  // what is written needs its header only

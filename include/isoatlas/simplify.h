@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -88,5 +89,19 @@ private:
 /// The format follows the name: .csv, .svg (plots), .json (docs/schema/curves). Written to a temporary name and renamed. Throws Error:
 /// usage (unknown extension), resource.
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves);
+
+/// What a file of a simplified tree is made from; all of the same volume.
+struct SimplifiedTree {
+    const VolumeInfo& info;
+    const Analysis& analysis;
+    const BranchHierarchy& hierarchy;
+    const Simplified& simplified;
+};
+/// A node for each SimplifiedNode, an edge to its parent. The format follows the name: .json (docs/schema/simplified-tree), .graphml, .csv,
+/// .vtu (points and lines, TTK array names). Values are reported values. Written to a temporary name and renamed. Throws Error: usage
+/// (unknown extension), resource.
+void write_simplified_tree(const std::string& path, const SimplifiedTree& tree);
+/// The same JSON document on a stream.
+void write_simplified_tree_json(std::ostream& out, const SimplifiedTree& tree);
 
 }  // namespace isoatlas

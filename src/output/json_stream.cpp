@@ -1,5 +1,9 @@
 #include "output/json_stream.h"
 
+#include <ostream>
+
+#include "isoatlas/error.h"
+
 namespace isoatlas::output {
 
 namespace {
@@ -45,6 +49,14 @@ void JsonStream::quote(std::string_view text) {
         text.remove_prefix(length == 0 ? 1 : length);
     }
     text_ += '"';
+}
+
+JsonStream::Sink stream_sink(std::ostream& out, const char* what) {
+    return [&out, what](std::string_view text) {
+        if (out.write(text.data(), static_cast<std::streamsize>(text.size()))) return;
+        throw Error(ErrorKind::resource,
+                    {.what = std::string(what) + " cannot be written to its stream", .next = "free some space, or write it to a file"});
+    };
 }
 
 }  // namespace isoatlas::output

@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -114,5 +115,8 @@ private:
     std::vector<bool> is_first_;  ///< of each open object or array: nothing written into it yet
     bool after_key_ = false, new_line_ = false;
 };
+
+/// Writes to a stream. `what`: "the tree"; for the message of the Error{resource} that is thrown when the stream takes no more.
+[[nodiscard]] JsonStream::Sink stream_sink(std::ostream& out, const char* what);
 
 }  // namespace isoatlas::output

@@ -1,4 +1,4 @@
-// The formats behind write_curves and write_simplified: one function each.
+// The formats behind write_curves: one function each.
 #pragma once
 
 #include "base/atomic_file.h"

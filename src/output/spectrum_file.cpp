@@ -1,6 +1,4 @@
 // write_spectrum: the extension chooses the format.
-#include <ostream>
-
 #include "isoatlas/error.h"
 #include "output/connectivity.h"
 #include "output/file_extension.h"
@@ -81,13 +79,7 @@ void write_spectrum(const std::string& path, const VolumeInfo& info, const Spect
 }
 
 void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum) {
-    output::write_spectrum(
-        [&](std::string_view text) {
-            if (out.write(text.data(), static_cast<std::streamsize>(text.size()))) return;
-            throw Error(ErrorKind::resource,
-                        {.what = "the spectrum cannot be written to its stream", .next = "free some space, or write it to a file"});
-        },
-        info, spectrum);
+    output::write_spectrum(output::stream_sink(out, "the spectrum"), info, spectrum);
 }
 
 }  // namespace isoatlas

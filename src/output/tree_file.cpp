@@ -1,6 +1,4 @@
 // write_tree and write_tree_json: the extension chooses the format.
-#include <ostream>
-
 #include "output/byte_writer.h"
 #include "output/file_extension.h"
 #include "output/tree_formats.h"
@@ -90,12 +88,7 @@ void write_tree(const std::string& path, const Volume& volume, const Analysis& a
 }
 
 void write_tree_json(std::ostream& out, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
-    const output::TreeView tree(volume, analysis, options);
-    output::write_json(tree, [&](std::string_view text) {
-        if (out.write(text.data(), static_cast<std::streamsize>(text.size()))) return;
-        throw Error(ErrorKind::resource,
-                    {.what = "the tree cannot be written to its stream", .next = "free some space, or write it to a file"});
-    });
+    output::write_json({volume, analysis, options}, output::stream_sink(out, "the tree"));
 }
 
 }  // namespace isoatlas

@@ -1,7 +1,16 @@
 """Selections: what the table, the simplified tree and the labels show, and what they say is hidden."""
 import csv
+import json
+import re
+import struct
+import unittest
 
 import harness
+
+try:
+    import networkx
+except ImportError:
+    networkx = None
 
 
 class Selection(harness.CliTest):
@@ -29,6 +38,45 @@ class Selection(harness.CliTest):
         whole = self.run_json("tree", "figure.nrrd", "--keep", "99")
         self.assertEqual((whole["kept"], whole["hidden"], whole["hidden_voxels"]), (4, 0, 0))
 
+    def written_tree(self, suffix, *source):
+        done = self.run_json("tree", *source, "-o", "t" + suffix)
+        self.assert_schema(done, "tree-file")
+        return self.folder / ("t" + suffix), done
+
+    def test_the_simplified_tree_as_files(self):
+        self.run_ok("build", "noise.nrrd", "-o", "tree.atlas", "--quiet")
+        for source in (["figure.nrrd", "--keep", "2"], ["noise.nrrd", "--top", "30%"], ["tree.atlas", "--persistence", "40%"], ["one.npy", "--keep", "1"]):
+            told = self.run_json("tree", *source)
+            path, done = self.written_tree(".json", *source)
+            self.assertEqual(json.loads(path.read_text()), told)
+            self.assertEqual((done["nodes"], done["hidden"]), (len(told["nodes"]), told["hidden"]))
+            with open(self.written_tree(".csv", *source)[0], newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([(int(r["event"]), r["parent"], float(r["tau_high"]), int(r["voxels"])) for r in rows],
+                             [(n["event"], "" if n["parent"] is None else str(n["parent"]), n["tau_high"], n["voxels"]) for n in told["nodes"]])
+            self.assertEqual(self.lines_of_vtu(self.written_tree(".vtu", *source)[0]), [n["parent"] for n in told["nodes"] if n["parent"] is not None])
+        self.assert_no_partial()
+
+    def lines_of_vtu(self, path):
+        """The array downNodeId of the lines."""
+        before, after = path.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+        found = re.search(rb'Name="downNodeId" format="appended" offset="(\d+)"', before)
+        if found is None:
+            return []
+        offset = int(found[1])
+        length = struct.unpack_from("<Q", after, offset)[0]
+        return list(struct.unpack_from(f"<{length // 8}q", after, offset + 8))
+
+    @unittest.skipUnless(networkx, "networkx is not installed")
+    def test_networkx_reads_the_simplified_tree(self):
+        for source in (["figure.nrrd", "--keep", "2"], ["noise.nrrd", "--top", "30%"]):
+            told = self.run_json("tree", *source)
+            graph = networkx.read_graphml(self.written_tree(".graphml", *source)[0])
+            self.assertEqual({(int(a[1:]), int(b[1:])) for a, b in graph.edges},
+                             {(i, n["parent"]) for i, n in enumerate(told["nodes"]) if n["parent"] is not None})
+            self.assertEqual([graph.nodes[f"n{i}"]["voxels"] for i in range(len(graph))], [n["voxels"] for n in told["nodes"]])
+            self.assertTrue(networkx.is_arborescence(graph.reverse()))
+
     def test_labels(self):
         label = self.run_json("label", "figure.nrrd", "--zones", "--keep", "2", "-o", "z.nrrd")
         self.assertEqual((label["labels"], label["labels_are"]), (3, "zones"))
@@ -52,7 +100,6 @@ class Selection(harness.CliTest):
         self.assert_no_partial()
 
     def load(self, name):
-        import json
         return json.loads((self.folder / name).read_text())
 
     def test_errors(self):
@@ -64,7 +111,8 @@ class Selection(harness.CliTest):
         self.run_error(2, "objects", "noise.nrrd", "--keep", "3", "--all", says="--all")
         self.run_error(2, "objects", "noise.nrrd", "--keep", "3", "--tau", "5", says="selection")
         self.run_error(2, "objects", "noise.nrrd", "--curve", "c.png", says=".png")
-        self.run_error(2, "tree", "noise.nrrd", "--keep", "3", "-o", "x.json", says="-o")
+        self.run_error(2, "tree", "noise.nrrd", "--keep", "3", "-o", "x.xyz", says=".xyz")
+        self.run_error(2, "tree", "noise.nrrd", "--keep", "3", "--detail", "levels", says="detail")
         self.run_error(2, "label", "noise.nrrd", "--tau", "5", "--keep", "3", "-o", "x.nrrd", says="--zones")
 
 
