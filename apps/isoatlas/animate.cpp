@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "document.h"
+#include "evolution.h"
 #include "interrupt.h"
 #include "movie.h"
 #include "picture.h"
@@ -16,13 +17,7 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr Colour kSmall{0.62, 0.64, 0.66};  // of what is too small for a colour of its own
-constexpr double kSmallPart = 2e-4;         // of all triangles at the last isovalue
-
-struct Frame {
-    double tau = 0;  ///< stored
-    std::int64_t objects = 0, tunnels = 0, cavities = 0, appeared = 0, merged = 0, events = 0;
-};
+constexpr Colour kRest{0.62, 0.64, 0.66};  // of what is not kept
 
 struct Made {
     Animation animation;
@@ -51,82 +46,50 @@ std::map<std::int64_t, Surface> parts_of(const Surface& whole) {
     return parts;
 }
 
-/// Colours that stay with an object while the isovalue moves: its id is that of its highest voxel.
-class ObjectColours {
-public:
-    explicit ObjectColours(std::int64_t least_triangles) : least_(least_triangles) {}
+void append(Surface& to, const Surface& from) {
+    const auto shift = static_cast<std::int64_t>(to.points.size());
+    to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+    to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
+    for (const auto& t : from.triangles) to.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    to.tau = from.tau, to.unit = from.unit;
+}
 
-    Scene scene(const Surface& surface, const std::string& unit) {
-        Scene scene;
-        scene.unit = unit;
-        SceneObject rest{.surface = {}, .colour = kSmall};
-        for (auto& [id, part] : parts_of(surface)) {
-            const bool known = colours_.count(id) > 0;
-            if (!known && static_cast<std::int64_t>(part.triangles.size()) < least_) {
-                append(rest.surface, part);
-                continue;
-            }
-            const auto next = static_cast<std::int64_t>(colours_.size());
-            const std::int64_t colour = colours_.try_emplace(id, next).first->second;
-            scene.objects.push_back({.surface = std::move(part), .colour = palette(colour)});
-        }
-        if (!rest.surface.triangles.empty()) scene.objects.push_back(std::move(rest));
-        return scene;
+/// Kept objects in the colours of their ranks, which stay with them while the isovalue moves; the others grey, unless they were asked away.
+Scene scene_at(const Surface& surface, const std::map<std::int64_t, std::int64_t>& kept, bool others, const std::string& unit) {
+    Scene scene;
+    scene.unit = unit;
+    SceneObject rest{.surface = {}, .colour = kRest};
+    for (auto& [id, part] : parts_of(surface)) {
+        const auto rank = kept.find(id);
+        if (rank != kept.end())
+            scene.objects.push_back({.surface = std::move(part), .colour = palette(rank->second)});
+        else if (others)
+            append(rest.surface, part);
     }
+    if (!rest.surface.triangles.empty()) scene.objects.push_back(std::move(rest));
+    return scene;
+}
 
-private:
-    static void append(Surface& to, const Surface& from) {
-        const auto shift = static_cast<std::int64_t>(to.points.size());
-        to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-        to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
-        for (const auto& t : from.triangles) to.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-        to.tau = from.tau, to.unit = from.unit;
-    }
-    std::int64_t least_;
-    std::map<std::int64_t, std::int64_t> colours_;
-};
+/// "3 objects"; "3 of 1,204 objects" when only some are kept.
+std::string part_text(std::int64_t kept, std::int64_t all, const std::string& one, const std::string& many) {
+    return kept == all ? counted(all, one, many) : fmt::format("{} of {}", count_text(kept), counted(all, one, many));
+}
 
-/// Who answers questions about isovalues: the store's own index, or one made from the volume.
-class Index {
-public:
-    explicit Index(Source& source) {
-        if (source.is_store()) {
-            index_ = &source.atlas().active_index();
-            return;
-        }
-        analysis_.emplace(source.analysis(false));
-        made_.emplace(*analysis_);
-        index_ = &*made_;
-    }
-    [[nodiscard]] Frame at(double tau, const std::optional<double>& before) const {
-        Frame frame{.tau = tau};
-        for (const ActiveObject& object : index_->at(tau, {.contours = false}).objects) {
-            ++frame.objects;
-            frame.tunnels += object.b1, frame.cavities += object.b2;
-        }
-        if (!before) return frame;
-        const ObjectChanges changes = index_->changes(*before, tau);
-        frame.appeared = changes.appeared, frame.merged = changes.merged, frame.events = changes.events;
-        return frame;
-    }
-
-private:
-    std::optional<Analysis> analysis_;
-    std::optional<ActiveIndex> made_;
-    const ActiveIndex* index_ = nullptr;
-};
-
+/// What happened is told of what is kept: with noise, something happens to everything else at every isovalue.
 std::vector<std::string> caption(const Frame& frame, const Frame* before, const Scale& scale) {
     std::string happened;
     const auto add = [&](const std::string& what) { happened += (happened.empty() ? "" : ", ") + what; };
     const bool falling = before == nullptr || frame.tau <= before->tau;
-    if (frame.appeared > 0) add(fmt::format("{} {}", count_text(frame.appeared), falling ? "appeared" : "vanished"));
-    if (frame.merged > 0) add(fmt::format("{} {}", count_text(frame.merged), falling ? "merged" : "split off"));
-    if (before != nullptr && frame.tunnels != before->tunnels) add(fmt::format("tunnels {:+}", frame.tunnels - before->tunnels));
-    if (before != nullptr && frame.cavities != before->cavities) add(fmt::format("cavities {:+}", frame.cavities - before->cavities));
+    const Census& kept = frame.kept;
+    if (kept.appeared > 0) add(fmt::format("{} {}", count_text(kept.appeared), falling ? "appeared" : "vanished"));
+    if (kept.merged > 0) add(fmt::format("{} {}", count_text(kept.merged), falling ? "merged" : "split off"));
+    if (before != nullptr && kept.tunnels != before->kept.tunnels) add(fmt::format("tunnels {:+}", kept.tunnels - before->kept.tunnels));
+    if (before != nullptr && kept.cavities != before->kept.cavities)
+        add(fmt::format("cavities {:+}", kept.cavities - before->kept.cavities));
     return {happened,
-            fmt::format("{}, {}, {}", counted(frame.objects, "object"), counted(frame.tunnels, "tunnel"),
-                        counted(frame.cavities, "cavity", "cavities")),
+            part_text(kept.objects, frame.all.objects, "object", "objects") + ", " +
+                part_text(kept.tunnels, frame.all.tunnels, "tunnel", "tunnels") + ", " +
+                part_text(kept.cavities, frame.all.cavities, "cavity", "cavities"),
             "isovalue " + scale.brief(frame.tau)};
 }
 
@@ -147,26 +110,26 @@ void refuse_flat(const Arguments& arguments, Source& source) {
                                    .next = "isoatlas extract " + shell_word(arguments.file) + " --tau T -o curves.vtp writes its curves"});
 }
 
-Made evolution(const Arguments& arguments, Source& source, RenderOptions options) {
+Made evolve(const Arguments& arguments, Source& source, RenderOptions options) {
     refuse_flat(arguments, source);
     const PictureArguments& picture = arguments.picture;
     const std::vector<double> taus = isovalues(arguments, source);
     const Scale scale(source.info());
-    const Index index(source);
+    const Evolution evolution(arguments, source);
     // The camera stays where it sees the largest surface best.
     Scene largest;
     largest.objects.push_back({.surface = source.extract(*std::min_element(taus.begin(), taus.end()), {}), .colour = palette(0)});
     const View view = picture.view ? *picture.view : best_view(largest, picture.up, source.context());
     const Camera camera = fit_camera(largest, view, options);
-    ObjectColours colours(static_cast<std::int64_t>(kSmallPart * static_cast<double>(largest.objects[0].surface.triangles.size())) + 20);
     largest = {};
     Made made;
     for (std::size_t i = 0; i < taus.size(); ++i) {
         stop_if_interrupted();
-        made.frames.push_back(index.at(taus[i], i > 0 ? std::optional(taus[i - 1]) : std::nullopt));
+        made.frames.push_back(evolution.at(taus[i], i > 0 ? std::optional(taus[i - 1]) : std::nullopt));
         options.caption =
             picture.plain ? std::vector<std::string>{} : caption(made.frames[i], i > 0 ? &made.frames[i - 1] : nullptr, scale);
-        Scene scene = colours.scene(source.extract(taus[i], {}), length_unit(source.info()));
+        Scene scene =
+            scene_at(source.extract(taus[i], {}), evolution.kept_objects(taus[i]), !arguments.selects, length_unit(source.info()));
         scene.removed = removed_part(picture, source.info(), view);
         made.animation.frames.push_back(scene.objects.empty() ? blank_picture(options)
                                                               : render_scene(scene, camera, options, source.context()));
@@ -189,6 +152,14 @@ Made turntable(const Arguments& arguments, Source& source, const RenderOptions& 
     return made;
 }
 
+Json census_json(const Census& census) {
+    return {{"objects", census.objects},
+            {"tunnels", census.tunnels},
+            {"cavities", census.cavities},
+            {"appeared", census.appeared},
+            {"merged", census.merged}};
+}
+
 void print_json(const Arguments& arguments, Terminal& terminal, Source& source, const Made& made) {
     Json head = document("animate", source.info(), source.interpolant(), source.tunnel_height());
     head["output"] = arguments.output;
@@ -200,8 +171,10 @@ void print_json(const Arguments& arguments, Terminal& terminal, Source& source, 
     const Scale scale(source.info());
     print(terminal, head, "frames", static_cast<std::int64_t>(made.frames.size()), [&](std::int64_t i) -> Json {
         const Frame& frame = made.frames[static_cast<std::size_t>(i)];
-        return {{"tau", scale.reported(frame.tau)}, {"objects", frame.objects}, {"tunnels", frame.tunnels}, {"cavities", frame.cavities},
-                {"appeared", frame.appeared},       {"merged", frame.merged},   {"events", frame.events}};
+        Json json{{"tau", scale.reported(frame.tau)}, {"events", frame.events}};
+        json.update(census_json(frame.all));
+        json["essential"] = census_json(frame.kept);
+        return json;
     });
 }
 
@@ -215,9 +188,12 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
         throw Error(ErrorKind::usage, {.what = "--from and --to belong together",
                                        .next = "give both isovalues; or leave both out: then the objects turn around"});
     }
+    if (arguments.selects && !wanted.from)
+        throw Error(ErrorKind::usage,
+                    {.what = "a selection is for an evolution", .next = "give --from and --to, or leave out the selection"});
     Source source(arguments, terminal);
     RenderOptions options = options_of_picture(arguments.picture);
-    Made made = wanted.from ? evolution(arguments, source, options) : turntable(arguments, source, options);
+    Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, source, options);
     made.animation.frames_per_second = wanted.frames_per_second;
     {
         const WritingGuard guard(arguments.output);

@@ -135,6 +135,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".png .webp", true);
     } else if (verb == "animate") {
         add_animation(app, arguments);
+        add_selection(app, typed.selection, false);
         add_picture(app, arguments, typed.picture);
         add_output(app, arguments, ".gif .webp .png .apng .mp4", true);
     } else if (verb == "label") {

@@ -73,6 +73,10 @@ struct RankOptions {
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
 
+/// How far noise of that standard deviation rises above its surroundings in a volume of so many voxels: what rises higher is no noise
+/// (essential.md section 2). In units of `noise`.
+[[nodiscard]] double noise_height(double noise, std::int64_t voxels);
+
 /// Those of one object, given by ObjectEntry::branch_top.
 [[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(const ObjectTable& table, std::int64_t branch_top);
 /// That of the line's own isovalue; nothing when it is not known.

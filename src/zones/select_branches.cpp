@@ -65,9 +65,10 @@ std::int64_t least_voxels(std::int64_t voxels) {
     return static_cast<std::int64_t>(std::clamp(static_cast<double>(voxels) / 2000, 1.0, 27.0));
 }
 
+double noise_height(double noise, std::int64_t voxels) { return 1.1 * std::sqrt(2 * std::log(static_cast<double>(voxels))) * noise; }
+
 std::vector<std::int64_t> essential_branches(const Branches& branches, std::int64_t voxels, const NoiseModel& noise, double sign) {
-    const auto n = static_cast<double>(voxels);
-    const double heights = 1.1 * std::sqrt(2 * std::log(n)), hypervolumes = 2 * std::pow(n, 2.0 / 3);  // in standard deviations
+    const double hypervolumes = 2 * std::pow(static_cast<double>(voxels), 2.0 / 3);  // in standard deviations
     const std::int64_t least = least_voxels(voxels);
     std::vector<std::int64_t> kept{0};
     const BigVector<Branch>& all = branches.branch;
@@ -75,7 +76,7 @@ std::vector<std::int64_t> essential_branches(const Branches& branches, std::int6
         const Branch& b = all[i];
         if (b.hypervolume < kRelativeSize * all[1].hypervolume) break;  // sorted by hypervolume
         const double sigma = noise.at(sign * b.merges);
-        if ((b.persistence > heights * sigma && b.voxels >= least) || b.hypervolume > hypervolumes * sigma)
+        if ((b.persistence > noise_height(sigma, voxels) && b.voxels >= least) || b.hypervolume > hypervolumes * sigma)
             kept.push_back(static_cast<std::int64_t>(i));
     }
     return kept;

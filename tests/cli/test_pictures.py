@@ -112,6 +112,36 @@ class Pictures(CliTest):
             self.assertEqual(*seen)
         self.assertLess(document["reads"]["cells_loaded"], 32 ** 3 / 3)
 
+    def events_of(self, name, *selection, taus=("95", "5", "10")):
+        """What the labels of an evolution say: essential counts of every frame."""
+        document = self.run_json("animate", name, "--from", taus[0], "--to", taus[1], "--steps", taus[2], *selection, *self.small, "-o", "e.gif")
+        self.assert_schema(document, "animate")
+        return [frame["essential"] for frame in document["frames"]], document["frames"]
+
+    def test_labels_of_a_noisy_evolution_are_those_of_the_clean_one(self):
+        clean, frames = self.events_of("figure.nrrd")
+        for essential, frame in zip(clean, frames):  # nothing of the clean figure is noise
+            self.assertEqual(essential, {name: frame[name] for name in essential})
+        self.assertEqual([(e["appeared"], e["merged"]) for e in clean], [(0, 0)] + 3 * [(1, 0)] + 3 * [(0, 1)] + 3 * [(0, 0)])
+        for seed in ("1", "2"):
+            self.run_ok("phantom", "figure-plateau", "--noise", "0.02", "--seed", seed, "-o", "noisy.nrrd")
+            noisy, frames = self.events_of("noisy.nrrd")
+            self.assertEqual(noisy, clean)
+            self.assertGreater(sum(frame["tunnels"] for frame in frames), sum(e["tunnels"] for e in noisy))
+            _, frames = self.events_of("noisy.nrrd", taus=("100", "0", "11"))  # in the plateaus, where noise makes hundreds
+            self.assertGreater(max(frame["tunnels"] for frame in frames), 100)
+            self.assertEqual([sum(frame["essential"][name] for frame in frames) for name in ("appeared", "merged")], [3, 3])
+        self.run_ok("build", "noisy.nrrd", "-o", "noisy.atlas")
+        self.assertEqual(self.events_of("noisy.atlas")[0], clean)
+
+    def test_an_evolution_of_a_selection(self):
+        kept, frames = self.events_of("figure.nrrd", "--keep", "2")
+        self.assertEqual([e["objects"] for e in kept], [1, 1, 2, 2, 2, 2, 1, 1, 1, 1])
+        self.assertEqual(max(frame["objects"] for frame in frames), 4)
+        self.assertEqual([(e["appeared"], e["merged"]) for e in self.events_of("figure.nrrd", "--keep", "2", taus=("5", "95", "2"))[0]],
+                         [(0, 0), (1, 1)])
+        self.run_error(2, "animate", "figure.nrrd", "--keep", "2", "-o", "e.gif", says="selection", next_says="--from")
+
     def test_animations(self):
         for name, begin in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.apng", b"\x89PNG"), ("a.webp", b"RIFF")):
             document = self.run_json("animate", "figure.nrrd", "--from", "90", "--to", "10", "--steps", "4", *self.small, "-o", name)
