@@ -168,6 +168,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
             ->check(in_range(std::int64_t{0}, std::int64_t{100000}))
             ->type_name("N");
+        add_selection(app, typed.selection, true);
         add_output(app, arguments, ".csv .svg .json", false);
     } else if (verb == "table131") {
         add_shape(app, typed);

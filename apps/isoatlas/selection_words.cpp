@@ -9,7 +9,7 @@ namespace {
 /// A number of lines, or a part of all objects: a tree has no lines, tunnels are no objects.
 void take_top(const std::string& word, Arguments& arguments) {
     const bool is_part = word.ends_with('%');
-    if (!is_part && (arguments.verb == "tree" || arguments.verb == "label")) {
+    if (!is_part && (arguments.verb != "objects" && arguments.verb != "handles")) {
         throw Error(ErrorKind::usage,
                     {.what = "--top needs a percent sign here", .next = "--top 5% keeps a part of all objects, --keep N so many of them"});
     }

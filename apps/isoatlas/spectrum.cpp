@@ -26,7 +26,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Spectrum& spec
     const Scale scale(info);
     Table table({{"tau"},
                  {"objects"},
-                 {"essential"},
+                 {spectrum.selected ? "selected" : "essential"},
                  {"contours"},
                  {flat ? "holes" : "tunnels"},
                  {"cavities"},
@@ -52,7 +52,9 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Spectrum& spec
 int run_spectrum(const Arguments& arguments, Terminal& terminal) {
     if (!arguments.output.empty()) check_output(arguments, {".csv", ".svg", ".json"});
     Source source(arguments, terminal);
-    const Spectrum spectrum = source.spectrum({.samples = arguments.samples.value_or(kDefaultSamples)});
+    SpectrumOptions options{.samples = arguments.samples.value_or(kDefaultSamples)};
+    if (arguments.selects) options.selection = source.selection();
+    const Spectrum spectrum = source.spectrum(options);
     stop_if_interrupted();
     if (!arguments.output.empty()) {
         const WritingGuard guard(arguments.output);

@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "isoatlas/analysis.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/selection.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -50,10 +52,12 @@ struct Spectrum {
     std::vector<SpectrumAdvice> advice;       ///< by rank
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
+    bool selected = false;     ///< essential is what SpectrumOptions::selection keeps
 };
 
 struct SpectrumOptions {
-    std::int64_t samples = 24;  ///< isovalues that are measured: the middles of so many equal parts of the range; 0: none
+    std::int64_t samples = 24;             ///< isovalues that are measured: the middles of so many equal parts of the range; 0: none
+    std::optional<Selection> selection{};  ///< says what is essential; none: what noise does not explain
 };
 
 /// analysis: of this volume, with zones. Cost: O(events) and rank_objects(), and for every measured isovalue that of extract().

@@ -27,6 +27,8 @@ Spectrum count(const Analysis& analysis, const ObjectTable& table) {
     return spectrum;
 }
 
+RankOptions ranking(const SpectrumOptions& options) { return {.top = 0, .selection = options.selection}; }
+
 /// Middles of equal parts of the range, descending.
 std::vector<double> isovalues(double low, double high, std::int64_t count) {
     std::vector<double> taus;
@@ -89,7 +91,8 @@ bool knows_branches(const ObjectTable& table) {
 }  // namespace
 
 Spectrum spectrum(const Volume& volume, const Analysis& analysis, const SpectrumOptions& options, const Context& context) {
-    Spectrum spectrum = count(analysis, rank_objects(volume, analysis, {.top = 0}, context));
+    Spectrum spectrum = count(analysis, rank_objects(volume, analysis, ranking(options), context));
+    spectrum.selected = options.selection.has_value();
     const auto [low, high] = visit_samples(volume, [](auto samples) {
         const auto [least, most] = std::ranges::minmax(samples);
         return std::pair(static_cast<double>(least), static_cast<double>(most));
@@ -108,13 +111,14 @@ Spectrum spectrum(const Volume& volume, const Analysis& analysis, const Spectrum
 }
 
 Spectrum spectrum(const Atlas& atlas, const SpectrumOptions& options, const Context& context) {
-    ObjectTable table = atlas.objects({.top = 0}, context);
+    ObjectTable table = atlas.objects(ranking(options), context);
     if (!knows_branches(table)) {
         const Volume volume = atlas.volume(context);
         table = rank_objects(volume, analyse(volume, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, context),
-                             {.top = 0}, context);
+                             ranking(options), context);
     }
     Spectrum spectrum = count(AtlasAccess::analysis(atlas), table);
+    spectrum.selected = options.selection.has_value();
     const auto [low, high] = atlas.range();
     Navigator navigator(atlas, bare(atlas.interpolant(), atlas.tunnel_height()));
     spectrum.sizes = measure_all(isovalues(low, high, options.samples), context, [&](double tau) {

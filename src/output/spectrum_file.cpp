@@ -54,6 +54,7 @@ void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const 
     put_members(json.line(), {spectrum.interpolant, info.calibration.reported_difference(spectrum.tunnel_height)});
     json.key("boundary").value("closed");
     put_volume(json, info);
+    json.line().key("selected").value(spectrum.selected);
     put_advice(json, info, spectrum);
     put_sizes(json, info, spectrum);
     put_intervals(json, info, spectrum);

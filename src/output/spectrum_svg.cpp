@@ -1,4 +1,4 @@
-// The spectrum as a plot: counts above, sizes below, over one axis of isovalues.
+// The spectrum as a plot: counts of all, counts of what is essential, and sizes below, over one axis of isovalues.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -73,18 +73,19 @@ Plot plot_of(const std::string& title, const VolumeInfo& info, const Spectrum& s
     return plot;
 }
 
-Plot plot_of_counts(const VolumeInfo& info, const Spectrum& spectrum, const Range& range) {
+Plot plot_of_counts(const std::string& title, const VolumeInfo& info, const Spectrum& spectrum, const Range& range,
+                    LevelCounts SpectrumInterval::* counts) {
     const bool flat = info.extent.rank == 2;
-    Plot plot = plot_of("How many there are at each isovalue", info, spectrum, range);
+    Plot plot = plot_of(title, info, spectrum, range);
     plot.logarithmic = true;
-    const auto add = [&](const char* name, const char* colour, bool thick, auto&& number) {
-        plot.curves.push_back(count_curve(name, colour, thick, info, spectrum, range, number));
+    const auto add = [&](const char* name, const char* colour, bool thick, std::int64_t LevelCounts::* number) {
+        plot.curves.push_back(count_curve(name, colour, thick, info, spectrum, range,
+                                          [=](const SpectrumInterval& interval) { return interval.*counts.*number; }));
     };
-    add("objects", "#1f77b4", false, [](const SpectrumInterval& i) { return i.all.objects; });
-    add("contours", "#7f7f7f", false, [](const SpectrumInterval& i) { return i.all.contours; });
-    add(flat ? "holes" : "tunnels", "#d62728", false, [](const SpectrumInterval& i) { return i.all.tunnels; });
-    if (!flat) add("cavities", "#2ca02c", false, [](const SpectrumInterval& i) { return i.all.cavities; });
-    add("essential objects", "#1f77b4", true, [](const SpectrumInterval& i) { return i.essential.objects; });
+    add("contours", "#7f7f7f", false, &LevelCounts::contours);
+    add(flat ? "holes" : "tunnels", "#d62728", false, &LevelCounts::tunnels);
+    if (!flat) add("cavities", "#2ca02c", false, &LevelCounts::cavities);
+    add("objects", "#1f77b4", true, &LevelCounts::objects);
     return plot;
 }
 
@@ -104,7 +105,9 @@ Plot plot_of_sizes(const VolumeInfo& info, const Spectrum& spectrum, const Range
 
 void write_spectrum_svg(AtomicFile& file, const VolumeInfo& info, const Spectrum& spectrum) {
     const Range range = range_of(info, spectrum);
-    std::vector<Plot> plots{plot_of_counts(info, spectrum, range)};
+    const std::string some = spectrum.selected ? "the selected objects" : "the essential objects, which noise does not explain";
+    std::vector<Plot> plots{plot_of_counts("How many there are at each isovalue", info, spectrum, range, &SpectrumInterval::all),
+                            plot_of_counts("Of " + some, info, spectrum, range, &SpectrumInterval::essential)};
     if (!spectrum.sizes.empty()) plots.push_back(plot_of_sizes(info, spectrum, range));
     file.write(svg_of(plots));
     file.commit();

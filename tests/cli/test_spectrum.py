@@ -43,6 +43,22 @@ class Spectrum(harness.CliTest):
         self.assertIn("tunnels", (self.folder / "x.svg").read_text())
         self.assert_no_partial()
 
+    def test_a_selection_says_what_is_essential(self):
+        self.run_ok("build", "noise.nrrd", "-o", "noise.atlas")
+        whole = self.run_json("spectrum", "noise.nrrd", "--top", "100%", "--samples", "0")
+        self.assertTrue(whole["selected"])
+        for interval in whole["intervals"]:
+            self.assertEqual(interval["all"], interval["essential"])
+        for source in ("noise.nrrd", "noise.atlas"):
+            kept = self.run_json("spectrum", source, "--keep", "3", "--samples", "0")
+            self.assert_schema(kept, "spectrum")
+            self.assertEqual(max(i["essential"]["objects"] for i in kept["intervals"]), 3)
+            self.assertEqual([i["all"] for i in kept["intervals"]], [i["all"] for i in whole["intervals"]])
+        self.run_ok("spectrum", "noise.nrrd", "--keep", "3", "-o", "k.svg")
+        self.assertIn("Of the selected objects", (self.folder / "k.svg").read_text())
+        self.assertIn("selected", self.run_ok("spectrum", "noise.nrrd", "--keep", "3").stdout)
+        self.run_error(2, "spectrum", "noise.nrrd", "--top", "5", says="--top")
+
     def test_text_and_edges(self):
         text = self.run_ok("spectrum", "noise.nrrd", "--samples", "5").stdout
         self.assertIn("essential", text)

@@ -70,9 +70,12 @@ RC_GTEST_PROP(TheSpectrum, IsWhatACutFindsAtEveryIsovalue, ()) {
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant});
-    const Spectrum spectrum = isoatlas::spectrum(volume, analysis, {.samples = 0});
-    const isoatlas::ObjectTable table = isoatlas::rank_objects(volume, analysis, {.top = 0});
+    std::optional<isoatlas::Selection> selection;
+    if (*rc::gen::arbitrary<bool>()) selection = isoatlas::Selection{.keep = *rc::gen::inRange<std::int64_t>(1, 6)};
+    const Spectrum spectrum = isoatlas::spectrum(volume, analysis, {.samples = 0, .selection = selection});
+    const isoatlas::ObjectTable table = isoatlas::rank_objects(volume, analysis, {.top = 0, .selection = selection});
     RC_ASSERT(spectrum.sizes.empty());
+    RC_ASSERT(spectrum.selected == selection.has_value());
     RC_ASSERT(spectrum.advice.size() == table.entries.size());
     check_intervals(spectrum);
     for (const double tau : interesting_values(elements_of(grid, interpolant))) {
