@@ -49,6 +49,15 @@ void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& 
     }
 }
 
+/// The first lines of the table that show more than background, if there are any.
+ObjectTable first_objects(Source& source, std::int64_t count) {
+    ObjectTable table = source.objects({.top = count + 1});
+    const Extent& extent = source.info().extent;
+    if (table.entries.size() > 1) std::erase_if(table.entries, [&](const ObjectEntry& e) { return is_background(e, extent); });
+    if (std::ssize(table.entries) > count) table.entries.resize(static_cast<std::size_t>(count));
+    return table;
+}
+
 std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
     const Scale scale(source.info());
     std::vector<Wanted> wanted;
@@ -59,7 +68,7 @@ std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
     add_shown(arguments, source, wanted);
     const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
     if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
-    const ObjectTable table = source.objects({.top = std::max<std::int64_t>(1, arguments.top)});
+    const ObjectTable table = first_objects(source, std::max<std::int64_t>(1, arguments.top));
     if (table.entries.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
     for (const ObjectEntry& entry : table.entries) wanted.push_back(wanted_entry(entry, scale));
     return wanted;
@@ -131,7 +140,11 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     const ObjectTable table = source.objects({.top = 5});
     matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
     const Scale scale(source.info());
-    for (TransferBump& bump : matter.bumps) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
+    for (std::size_t i = 0; i < matter.bumps.size(); ++i) {
+        TransferBump& bump = matter.bumps[i];
+        const bool body = i > 0 && bump.tau == matter.bumps[i - 1].tau;
+        if (!body) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
+    }
     return matter;
 }
 
