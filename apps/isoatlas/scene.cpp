@@ -11,7 +11,8 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr double kGlass = 0.28;  // opacity of what would hide others
+constexpr double kGlass = 0.28;        // opacity of what would hide others
+constexpr std::int64_t kLines = 1000;  // of the table, at most, in which --object looks for an id
 
 [[noreturn]] void nothing_there(const Arguments& arguments, const std::string& what) {
     throw Error(ErrorKind::not_found, {.file = arguments.file,
@@ -31,6 +32,12 @@ Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
         entry.best_tau, {entry.id}, fmt::format("{}  at {}", entry.id, scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high))};
 }
 
+/// Where --object looks. The lines of what may be noise take long where it is many.
+ObjectTable lines_by_id(Source& source) {
+    ObjectTable table = source.objects({.top = kLines});
+    return table.branches > kLines ? table : source.objects({.top = 0, .gate = false});
+}
+
 void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& wanted) {
     const Scale scale(source.info());
     std::optional<ObjectTable> table;
@@ -41,10 +48,16 @@ void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& 
             wanted.push_back({scale.stored(*shown.tau), {shown.id}, fmt::format("{}  at {}", shown.id, *shown.tau)});
             continue;
         }
-        if (!table) table = source.objects({.top = 0, .gate = false});
+        if (!table) table = lines_by_id(source);
         const auto entry =
             std::find_if(table->entries.begin(), table->entries.end(), [&](const ObjectEntry& e) { return e.id == shown.id; });
-        if (entry == table->entries.end()) nothing_there(arguments, fmt::format("no object of the table has the id {}", shown.id));
+        if (entry == table->entries.end()) {
+            throw Error(ErrorKind::not_found,
+                        {.file = arguments.file,
+                         .what = fmt::format("no object of the table has the id {}", shown.id),
+                         .next = fmt::format("isoatlas objects {} lists them; --object {}@T shows any object that holds this voxel",
+                                             shell_word(arguments.file), shown.id)});
+        }
         wanted.push_back(wanted_entry(*entry, scale));
     }
 }
