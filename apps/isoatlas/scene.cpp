@@ -11,7 +11,8 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr double kGlass = 0.28;  // opacity of what would hide others
+constexpr double kGlass = 0.28;        // opacity of what would hide others
+constexpr std::int64_t kLines = 1000;  // of the table, at most, in which --object looks for an id
 
 [[noreturn]] void nothing_there(const Arguments& arguments, const std::string& what) {
     throw Error(ErrorKind::not_found, {.file = arguments.file,
@@ -31,6 +32,12 @@ Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
         entry.best_tau, {entry.id}, fmt::format("{}  at {}", entry.id, scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high))};
 }
 
+/// Where --object looks. The lines of what may be noise take long where it is many.
+ObjectTable lines_by_id(Source& source) {
+    ObjectTable table = source.objects({.top = kLines});
+    return table.branches > kLines ? table : source.objects({.top = 0, .gate = false});
+}
+
 void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& wanted) {
     const Scale scale(source.info());
     std::optional<ObjectTable> table;
@@ -41,12 +48,27 @@ void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& 
             wanted.push_back({scale.stored(*shown.tau), {shown.id}, fmt::format("{}  at {}", shown.id, *shown.tau)});
             continue;
         }
-        if (!table) table = source.objects({.top = 0, .gate = false});
+        if (!table) table = lines_by_id(source);
         const auto entry =
             std::find_if(table->entries.begin(), table->entries.end(), [&](const ObjectEntry& e) { return e.id == shown.id; });
-        if (entry == table->entries.end()) nothing_there(arguments, fmt::format("no object of the table has the id {}", shown.id));
+        if (entry == table->entries.end()) {
+            throw Error(ErrorKind::not_found,
+                        {.file = arguments.file,
+                         .what = fmt::format("no object of the table has the id {}", shown.id),
+                         .next = fmt::format("isoatlas objects {} lists them; --object {}@T shows any object that holds this voxel",
+                                             shell_word(arguments.file), shown.id)});
+        }
         wanted.push_back(wanted_entry(*entry, scale));
     }
+}
+
+/// The first lines of the table that show more than background, if there are any.
+ObjectTable first_objects(Source& source, std::int64_t count) {
+    ObjectTable table = source.objects({.top = count + 1});
+    const Extent& extent = source.info().extent;
+    if (table.entries.size() > 1) std::erase_if(table.entries, [&](const ObjectEntry& e) { return is_background(e, extent); });
+    if (std::ssize(table.entries) > count) table.entries.resize(static_cast<std::size_t>(count));
+    return table;
 }
 
 std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
@@ -59,7 +81,7 @@ std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
     add_shown(arguments, source, wanted);
     const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
     if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
-    const ObjectTable table = source.objects({.top = std::max<std::int64_t>(1, arguments.top)});
+    const ObjectTable table = first_objects(source, std::max<std::int64_t>(1, arguments.top));
     if (table.entries.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
     for (const ObjectEntry& entry : table.entries) wanted.push_back(wanted_entry(entry, scale));
     return wanted;
@@ -131,7 +153,11 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     const ObjectTable table = source.objects({.top = 5});
     matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
     const Scale scale(source.info());
-    for (TransferBump& bump : matter.bumps) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
+    for (std::size_t i = 0; i < matter.bumps.size(); ++i) {
+        TransferBump& bump = matter.bumps[i];
+        const bool body = i > 0 && bump.tau == matter.bumps[i - 1].tau;
+        if (!body) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
+    }
     return matter;
 }
 

@@ -82,6 +82,9 @@ struct RankOptions {
 /// That of the line's own isovalue; nothing when it is not known.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
+/// Does it show the box of the volume more than what is in it? An outline of more than two thirds of all voxels. Pictures leave it out.
+[[nodiscard]] bool is_background(const ObjectEntry& entry, const Extent& extent);
+
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.
 [[nodiscard]] ObjectTable first_entries(ObjectTable table, std::int64_t top);
 

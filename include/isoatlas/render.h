@@ -182,8 +182,9 @@ struct SliceOptions {
 /// Throws Error: usage (axis, index, side). Cost: O(slice + pixels).
 [[nodiscard]] SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, const Context& context = {});
 
-/// Bumps around the best isovalues of the objects of a table, one colour each (from palette(first_colour) on), outer matter thinner. range:
-/// lowest and highest sample.
+/// Bumps for the objects of a table at their best isovalues, in ascending order, one colour each (from palette(first_colour) on), outer
+/// matter thinner: a skin at the isovalue, and a thin body up to where another object, another recommended isovalue of its own or its top
+/// comes; the last one is solid. Background (is_background()) only if there is nothing else. range: lowest and highest sample.
 [[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
                                                          std::int64_t first_colour = 0);
 

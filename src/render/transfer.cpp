@@ -78,32 +78,6 @@ Matter Transfer::mean_between(double low, double high) const {
 
 }  // namespace render
 
-namespace {
-
-constexpr double kWidth = 0.10;                     // of a bump, in parts of the range
-constexpr double kBefore = 0.15;                    // of it lies below the isovalue: an object is what is at or above its isovalue
-constexpr double kMostVoxels = 0.5;                 // of the volume: what takes more is the background
-constexpr double kThinnest = 0.05, kDensest = 1.0;  // extinction per voxel of the lowest and the highest isovalue
-
-struct Best {
-    double tau;
-    std::int64_t rank;
-};
-
-std::vector<Best> best_isovalues(const ObjectTable& table, const VolumeInfo& info, double range) {
-    std::vector<Best> best;
-    for (const ObjectEntry& entry : table.entries) {
-        const bool background = static_cast<double>(entry.voxels) > kMostVoxels * static_cast<double>(info.extent.voxels());
-        const bool known =
-            std::any_of(best.begin(), best.end(), [&](const Best& b) { return std::abs(b.tau - entry.best_tau) < kWidth / 2 * range; });
-        if (!background && !known) best.push_back({entry.best_tau, static_cast<std::int64_t>(best.size())});
-    }
-    std::sort(best.begin(), best.end(), [](const Best& a, const Best& b) { return a.tau < b.tau; });
-    return best;
-}
-
-}  // namespace
-
 std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
     std::vector<std::array<double, 2>> values;
     // What stands in one place of a table with something visible is visible.
@@ -122,27 +96,6 @@ std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
     }
     for (auto& [low, high] : values) low -= 2 * place, high += 2 * place;
     return values;
-}
-
-std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
-                                           std::int64_t first_colour) {
-    const double width = kWidth * (range[1] - range[0]);
-    const std::vector<Best> best = best_isovalues(table, info, range[1] - range[0]);
-    const double voxel = std::min({info.geometry.spacing[0], info.geometry.spacing[1], info.geometry.spacing[2]});
-    std::vector<TransferBump> bumps;
-    for (std::size_t i = 0; i < best.size(); ++i) {
-        const bool last = i + 1 == best.size();
-        const double part = best.size() > 1 ? static_cast<double>(i) / static_cast<double>(best.size() - 1) : 0.5;
-        const double low = best[i].tau - kBefore * width, narrow = low + width;
-        const double high = last ? std::max(narrow, range[1] + 0.3 * width) : std::min(narrow, best[i + 1].tau);
-        bumps.push_back({.low = low,
-                         .high = high,
-                         .colour = palette(first_colour + best[i].rank),
-                         .density = kThinnest * std::pow(kDensest / kThinnest, part) / voxel,
-                         .ramp = 0.3 * width / (high - low) < 0.5 ? 0.3 * width / (high - low) : 0.5,
-                         .tau = best[i].tau});
-    }
-    return bumps;
 }
 
 }  // namespace isoatlas

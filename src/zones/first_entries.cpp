@@ -45,6 +45,10 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
     return own == table.isovalues.end() ? std::nullopt : std::optional(*own);
 }
 
+bool is_background(const ObjectEntry& entry, const Extent& extent) {
+    return entry.outline && static_cast<double>(entry.voxels) > 2.0 / 3 * static_cast<double>(extent.voxels());
+}
+
 namespace {
 
 /// What contains an entry lies in each other: when the closest one is gone, the one around it is the closest.

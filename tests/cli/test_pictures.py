@@ -42,9 +42,13 @@ class Pictures(CliTest):
     phantoms = {"shells.nrrd": ["nested-shells", "--size", "32", "--shells", "2"], "figure.nrrd": ["figure-plateau"]}
     small = ["--size", "64x48", "--samples", "1"]
 
+    def setUp(self):
+        for path in self.folder.glob("p.*"):
+            path.unlink()
+
     def picture(self, *arguments):
-        self.run_ok("render", *arguments, *self.small, "-o", "p.png", "--quiet")
-        return png_pixels((self.folder / "p.png").read_bytes())
+        self.run_ok("render", *arguments, *self.small, "-o", "shown.png", "--quiet")
+        return png_pixels((self.folder / "shown.png").read_bytes())
 
     def test_a_picture_shows_something(self):
         width, height, rows = self.picture("shells.nrrd", "--tau", "0.5", "--plain")
@@ -100,6 +104,31 @@ class Pictures(CliTest):
             pictures.append((self.folder / "t.png").read_bytes())
         self.assertEqual(pictures[0], pictures[1])
         self.assertEqual(pictures[0], pictures[2])
+
+    def test_the_same_bytes_with_any_threads(self):
+        for wanted in (["render", "--tau", "60", "--tau", "30", "--cut", "octant", "-o", "t.png"],
+                       ["render", "--volume", "--shadows", "--tau", "90", "-o", "t.png"],
+                       ["animate", "--from", "90", "--to", "10", "--steps", "3", "-o", "t.gif"]):
+            made = []
+            for threads in (1, 2, 5):
+                self.run_ok(wanted[0], "figure.nrrd", *wanted[1:], *self.small, "--threads", threads, "--quiet")
+                made.append((self.folder / wanted[-1]).read_bytes())
+            self.assertEqual(made[0], made[1])
+            self.assertEqual(made[0], made[2])
+
+    def test_the_box_of_the_volume_is_left_out(self):
+        side, middle = 24, 11.5
+        samples = bytearray(side ** 3)
+        for i in range(side ** 3):
+            at = (i % side, i // side % side, i // side ** 2)
+            if 0 < min(at) and max(at) < side - 1:
+                samples[i] = 200 if sum((a - middle) ** 2 for a in at) < 36 else 40
+        (self.folder / "box.raw").write_bytes(samples)
+        box = ["box.raw", "--dims", "24x24x24", "--type", "uint8"]
+        self.assertEqual(self.run_json("objects", *box)["objects"][1]["reason"], "outline")
+        document = self.run_json("render", *box, "--top", "2", "--volume", *self.small, "-o", "b.png")
+        self.assertEqual(len(document["objects"]), 1)
+        self.assertGreater(min(bump["low"] for bump in document["transfer"]), 40)
 
     def test_a_store_reads_what_is_seen(self):
         self.run_ok("build", "shells.nrrd", "-o", "shells.atlas")
@@ -194,7 +223,56 @@ class Pictures(CliTest):
         flat = ["flat.raw", "--dims", "8x8", "--type", "uint8"]
         self.run_error(2, "render", *flat, "--tau", "9", "-o", "p.png", says="2D")
         self.run_error(2, "animate", *flat, "--from", "9", "--to", "3", "-o", "p.gif", says="2D")
+        for name in ("p.png", "p.webp"):
+            self.run_error(5, "render", "figure.nrrd", "--tau", "60", "-o", "nowhere/" + name, says="folder")
+        for name in ("p.gif", "p.apng", "p.webp"):
+            self.run_error(5, "animate", "figure.nrrd", "--steps", "2", "-o", "nowhere/" + name, says="folder")
+        self.run_error(2, "animate", "figure.nrrd", "-o", "p.gif", "--size", "1", says="--size")
+        self.run_error(2, "animate", "figure.nrrd", "-o", "p.gif", "--steps", "0", says="--steps")
+        self.run_error(6, "animate", "figure.nrrd", "-o", "p.gif", "--from", "1000", "--to", "3", says="above every sample")
+        self.assert_nothing_drawn()
+
+    def assert_nothing_drawn(self):
         self.assert_no_partial()
+        self.assertEqual([path.name for path in self.folder.glob("p.*")], [])
+
+    def test_a_damaged_store(self):
+        self.run_ok("build", "shells.nrrd", "-o", "damaged.atlas")
+        whole = (self.folder / "damaged.atlas").read_bytes()
+        pictures = (["render", "--tau", "0.5", "-o", "p.png"], ["render", "--volume", "-o", "p.png"],
+                    ["animate", "--from", "0.9", "--to", "0.1", "--steps", "2", "-o", "p.gif"])
+        refused = 0
+        for damaged in (whole[:len(whole) // 2], *(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1:]
+                                                   for at in range(len(whole) // 9, len(whole), len(whole) // 9))):
+            (self.folder / "damaged.atlas").write_bytes(damaged)
+            for verb, *wanted in pictures:
+                result = self.start([verb, "damaged.atlas", *wanted, *self.small, "--quiet"])
+                if result.returncode == 0:  # what is damaged was not read
+                    (self.folder / wanted[-1]).unlink()
+                    continue
+                refused += 1
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertIn("damaged.atlas", result.stderr)
+                self.assert_nothing_drawn()
+        self.assertGreater(refused, len(pictures))
+
+    def test_volumes_with_one_value(self):
+        for size in (1, 8):
+            (self.folder / "one.raw").write_bytes(bytes([7]) * size ** 3)
+            volume = ["one.raw", "--dims", "x".join(3 * [str(size)]), "--type", "uint8"]
+            for wanted in (["--top", "3"], ["--tau", "7"], ["--volume", "--shadows"], ["--slice", "z=0", "--flat"]):
+                self.assertEqual(self.picture(*volume, *wanted)[:2], (48, 48) if "--flat" in wanted else (64, 48))
+            self.run_ok("animate", *volume, "--from", "7", "--to", "7", "--steps", "2", *self.small, "-o", "a.gif", "--quiet")
+            self.run_error(6, "render", *volume, "--tau", "8", "-o", "p.png", says="above every sample")
+        self.assert_nothing_drawn()
+
+    def test_isovalues_below_zero(self):
+        ramp = struct.pack("<512h", *(i % 8 - 8 for i in range(512)))
+        (self.folder / "below.raw").write_bytes(ramp)
+        below = ["below.raw", "--dims", "8x8x8", "--type", "int16", "--endian", "little"]
+        self.assertEqual(self.picture(*below, "--tau=-5"), self.picture(*below, "--tau", "-5"))
+        self.run_ok("animate", *below, "--from=-2", "--to", "-6", "--steps", "2", *self.small, "-o", "a.gif", "--quiet")
 
 
 if __name__ == "__main__":
