@@ -97,7 +97,8 @@ void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Sc
         std::string others;
         for (const RecommendedIsovalue& isovalue : isovalues_of(table, table.entries[i].branch_top)) {
             if (!told.emplace(isovalue.branch_top, isovalue.tau).second) continue;
-            others += fmt::format("{} {} ({})", others.empty() ? "" : ",", scale.brief(isovalue.tau), name_of(isovalue.reason));
+            const std::string cavity = isovalue.cavity < 0 ? "" : fmt::format(", cavity {}", isovalue.cavity);
+            others += fmt::format("{} {} ({}{})", others.empty() ? "" : ",", scale.brief(isovalue.tau), name_of(isovalue.reason), cavity);
         }
         if (!others.empty()) terminal.say(fmt::format("{} also at{}", i + 1, others));
     }

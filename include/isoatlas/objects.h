@@ -36,8 +36,8 @@ struct ObjectEntry {
 enum class IsovalueReason : std::uint8_t {
     steady,   ///< -d ln V / d tau is locally least there: the boundary is steep, the body compact
     outline,  ///< the same at the low end of its range, or the lowest of several that holds 15 % of the volume: all but background
-    outer,    ///< steady when its outer boundary is counted alone: skin without the air passages below it
-    inner,    ///< steady for one of its cavities: the wall of a dark object
+    outer,    ///< steady when its outer boundary is counted alone, with the cavities filled that are dark objects that matter
+    inner,    ///< steady for one of these cavities: its wall
     merge,    ///< nothing stands out: just above the value at which it merges
     middle,   ///< nothing stands out: the middle of the range of the object that is there at every isovalue
 };
@@ -56,8 +56,8 @@ struct RecommendedIsovalue {
 
 struct ObjectTable {
     std::vector<ObjectEntry> entries;  ///< by rank
-    /// Of all objects of the table, by their rank; of each by descending prominence, outlines last, but those of lines first. Empty: a
-    /// store of an early version.
+    /// Of all objects of the table, by their rank; of each by descending prominence, outlines last, but those of lines first; then outer
+    /// and inner ones that are further from the former than can be told apart, of up to five cavities. Empty: a store of an early version.
     std::vector<RecommendedIsovalue> isovalues{};
     std::int64_t branches = 0;  ///< how many objects there are in all (maxima events)
     double noise = 0;           ///< estimated standard deviation of the noise, stored units
@@ -69,7 +69,8 @@ struct RankOptions {
     std::optional<Selection> selection{};  ///< instead of the gate
 };
 
-/// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3).
+/// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3). Cost: with
+/// the dark objects, as rank_dark_objects().
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
 

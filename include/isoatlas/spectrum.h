@@ -12,6 +12,7 @@
 
 #include "isoatlas/analysis.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/objects.h"
 #include "isoatlas/selection.h"
 #include "isoatlas/volume.h"
 
@@ -39,17 +40,19 @@ struct SpectrumSize {
     double area, measure;  ///< physical: of the surface; of what it encloses (2D: length, area)
 };
 
-/// An isovalue that shows an object well: a line of the ObjectTable.
+/// An isovalue that shows an object well.
 struct SpectrumAdvice {
-    double tau;           ///< stored value
-    std::int64_t object;  ///< id
-    std::string note;
+    double tau;                            ///< stored value
+    std::int64_t object;                   ///< id at tau
+    std::optional<IsovalueReason> reason;  ///< nothing: a store of an early version
+    std::int64_t cavity = -1;              ///< as in RecommendedIsovalue
+    std::string note;                      ///< of its line of the ObjectTable; empty: it has none
 };
 
 struct Spectrum {
     std::vector<SpectrumInterval> intervals;  ///< descending; above the first there is nothing
     std::vector<SpectrumSize> sizes;          ///< descending isovalues
-    std::vector<SpectrumAdvice> advice;       ///< by rank
+    std::vector<SpectrumAdvice> advice;       ///< of every object of the ObjectTable, by rank: its lines, then its other isovalues
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
     bool selected = false;     ///< essential is what SpectrumOptions::selection keeps

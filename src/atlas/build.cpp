@@ -120,14 +120,14 @@ public:
             ZoneSums sums;
             if (analysis->element_count() <= kTableElements) {
                 complete(*analysis, volume, part);
-                for (store::PackedArray& array : object_arrays(rank_objects(volume, *analysis, {.top = kStoredEntries})))
-                    arrays.push_back(std::move(array));
+                Context quiet = part;
+                quiet.progress = nullptr;
+                const BothTables tables = rank_both(volume, *analysis, kStoredEntries, quiet);
+                const auto add = [&arrays](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(arrays)); };
+                add(object_arrays(tables.bright));
                 if (store::stores_events(*analysis)) {
-                    Context quiet = part;
-                    quiet.progress = nullptr;
-                    for (store::PackedArray& array : dark_arrays(rank_dark_objects(volume, *analysis, {.top = kStoredEntries}, quiet)))
-                        arrays.push_back(std::move(array));
-                    for (store::PackedArray& array : store::event_arrays(*analysis)) arrays.push_back(std::move(array));
+                    add(dark_arrays(tables.dark));
+                    add(store::event_arrays(*analysis));
                     sums = sum_zones(volume, *analysis);
                     arrays.push_back(store::event_sum_array(sums.height));
                 }

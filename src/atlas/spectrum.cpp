@@ -4,10 +4,12 @@
 #include <bit>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "atlas/access.h"
 #include "atlas/surface_size.h"
 #include "base/parallel.h"
+#include "isoatlas/active.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "mesh/extract_level.h"
@@ -16,6 +18,32 @@
 namespace isoatlas {
 namespace {
 
+/// Id of the object of a branch at an isovalue.
+std::int64_t object_at(const Analysis& analysis, const ActiveIndex& index, const RecommendedIsovalue& isovalue) {
+    Event event = analysis.event(isovalue.branch_top);
+    while (event.zone.tau_low >= isovalue.tau) event = analysis.event(event.parent);
+    const std::vector<ActiveObject> objects = index.at(isovalue.tau, {.contours = false}).objects;
+    return std::ranges::find(objects, event.id, &ActiveObject::event)->id;
+}
+
+std::vector<SpectrumAdvice> advice_of(const Analysis& analysis, const ObjectTable& table) {
+    std::vector<SpectrumAdvice> advice;
+    std::optional<ActiveIndex> index;
+    for (auto entry = table.entries.begin(); entry != table.entries.end(); ++entry) {
+        const std::optional<RecommendedIsovalue> own = isovalue_of(table, *entry);
+        advice.push_back({entry->best_tau, entry->id, own ? std::optional(own->reason) : std::nullopt, -1, entry->note});
+        if (std::next(entry) != table.entries.end() && std::next(entry)->branch_top == entry->branch_top) continue;  // more lines
+        for (const RecommendedIsovalue& other : isovalues_of(table, entry->branch_top)) {
+            const bool has_line = std::ranges::any_of(
+                table.entries, [&](const ObjectEntry& line) { return line.branch_top == other.branch_top && line.best_tau == other.tau; });
+            if (has_line) continue;
+            if (!index) index.emplace(analysis);
+            advice.push_back({other.tau, object_at(analysis, *index, other), other.reason, other.cavity, ""});
+        }
+    }
+    return advice;
+}
+
 Spectrum count(const Analysis& analysis, const ObjectTable& table) {
     Spectrum spectrum;
     spectrum.interpolant = analysis.interpolant();
@@ -23,7 +51,7 @@ Spectrum count(const Analysis& analysis, const ObjectTable& table) {
     spectrum.intervals = analysis.data().visit([&](const auto& held) {
         return count_intervals(held.arrays, analysis.extent().rank, events_of_entries(held.arrays, table.entries));
     });
-    for (const ObjectEntry& entry : table.entries) spectrum.advice.push_back({entry.best_tau, entry.id, entry.note});
+    spectrum.advice = advice_of(analysis, table);
     return spectrum;
 }
 

@@ -41,6 +41,9 @@ void put_advice(JsonStream& json, const VolumeInfo& info, const Spectrum& spectr
     json.line().key("advice").begin_array();
     for (const SpectrumAdvice& advice : spectrum.advice) {
         json.line().begin_object().key("tau").value(info.calibration.reported(advice.tau)).key("object").value(advice.object);
+        json.key("reason");
+        advice.reason ? json.value(name_of(*advice.reason)) : json.null();
+        if (advice.reason == IsovalueReason::inner) json.key("cavity").value(advice.cavity);
         json.key("note").value(advice.note).end_object();
     }
     json.line().end_array();

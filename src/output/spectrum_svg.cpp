@@ -59,6 +59,15 @@ PlotCurve size_curve(const std::string& name, const std::string& colour, const V
     return curve;
 }
 
+/// The object and why: "object 7 (steady, inside 1)".
+std::string text_of(const SpectrumAdvice& advice) {
+    std::string object = "object " + std::to_string(advice.object);
+    if (advice.reason == IsovalueReason::inner) object = "the wall of cavity " + std::to_string(advice.cavity) + " of " + object;
+    std::string why = advice.reason ? name_of(*advice.reason) : "";
+    if (!advice.note.empty() && advice.note != why) why += (why.empty() ? "" : ", ") + advice.note;
+    return why.empty() ? object : object + " (" + why + ")";
+}
+
 Plot plot_of(const std::string& title, const VolumeInfo& info, const Spectrum& spectrum, const Range& range) {
     Plot plot;
     plot.title = title;
@@ -67,8 +76,7 @@ Plot plot_of(const std::string& title, const VolumeInfo& info, const Spectrum& s
     for (std::size_t i = 0; i < std::min(kMarks, spectrum.advice.size()); ++i) {
         const SpectrumAdvice& advice = spectrum.advice[i];
         const double tau = info.calibration.reported(advice.tau);
-        plot.marks.push_back({tau, short_text(tau) + " shows object " + std::to_string(advice.object) +
-                                       (advice.note.empty() ? "" : " (" + advice.note + ")")});
+        plot.marks.push_back({tau, short_text(tau) + " shows " + text_of(advice)});
     }
     return plot;
 }

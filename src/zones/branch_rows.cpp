@@ -12,28 +12,10 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBins = 256;
 constexpr double kLargePart = 0.15;    // of the volume: what ends so large is what is not background
 constexpr std::size_t kTrunkRows = 5;  // nested zones of the trunk: skin, skull, enamel, ...
 
 constexpr IsovalueReason kOutline = IsovalueReason::outline;
-
-/// Counts of voxels by height along one branch. Integer samples with a small range get one bin a value, cut half way between values.
-struct BranchHistogram {
-    double low, high;
-    std::vector<double> added;
-
-    BranchHistogram(double from, double to, bool integer) : low(from), high(to), added(kBins, 0) {
-        if (!integer || to - from > static_cast<double>(kBins)) return;
-        low += 0.5, high += 0.5;
-        added.assign(static_cast<std::size_t>(std::max(1.0, to - from)), 0);
-    }
-    void add(double value, double count) {
-        const double range = high - low;  // 0: a constant volume
-        const double bin = range > 0 && std::isfinite(range) ? (value - low) / range * static_cast<double>(added.size()) : 0;
-        added[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(added.size() - 1)))] += count;
-    }
-};
 
 template <class Id>
 class Rows {
@@ -47,6 +29,7 @@ public:
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         const std::int64_t last = rows.empty() ? -1 : rows.back().branch;
         std::erase_if(result.isovalues, [last](const BranchIsovalue& isovalue) { return isovalue.branch > last; });
+        std::erase_if(result.histograms, [last](const BranchHistogram& histogram) { return histogram.branch > last; });
         measure(rows);
         return result;
     }
@@ -81,7 +64,7 @@ private:
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
             slot[kept[k]] = static_cast<std::int64_t>(k);
-            result.emplace_back(std::max(b.merges, lowest()), b.appears, integer);
+            result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer);
         }
         tree_.for_heights(volume_, [&](std::size_t v, double height) {
             const std::int64_t k = slot[branches_.of_event[tree_.zone[v]]];
@@ -96,11 +79,10 @@ private:
     }
 
     [[nodiscard]] BranchRows choose_isovalues(const std::vector<std::int64_t>& kept) const {
-        const std::vector<BranchHistogram> histogram = histograms(kept);
-        BranchRows result;
+        BranchRows result{{}, {}, histograms(kept)};
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
-            std::vector<BranchIsovalue> own = isovalues(kept[k], histogram[k]);
+            std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
             const std::size_t rows = rows_of(kept[k], own);
             for (std::size_t i = 0; i < rows; ++i)
                 result.rows.push_back({kept[k], b.appears, b.merges, own[i].tau, b.hypervolume, own[i].reason == kOutline});
@@ -151,8 +133,8 @@ private:
 
     /// No isovalue stands out: one bin above the height at which the branch ends, the middle of the range for the trunk.
     [[nodiscard]] double just_above(const Branch& b, const BranchHistogram& histogram) const {
-        const double width = (histogram.high - histogram.low) / static_cast<double>(histogram.added.size());
-        return b.merges < lowest() ? (lowest() + b.appears) / 2 : histogram.low + std::min(width, (b.appears - histogram.low) / 2);
+        return b.merges < lowest() ? (lowest() + b.appears) / 2
+                                   : histogram.low + std::min(histogram.width(), (b.appears - histogram.low) / 2);
     }
 
     /// Does a sample of a height belong to the object of its branch at tau?

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "isoatlas/objects.h"
+#include "zones/branch_histogram.h"
 #include "zones/branches.h"
 #include "zones/noise.h"
 
@@ -24,12 +25,14 @@ struct BranchIsovalue {
     std::int64_t branch;
     double tau, prominence;
     IsovalueReason reason;
+    std::int64_t cavity = -1;  ///< as in RecommendedIsovalue
 };
 
 struct BranchRows {
     std::vector<BranchRow> rows;  ///< by rank; the trunk, which has several rows, first
     /// Of the branches that have rows, by rank; of each by descending prominence, outlines last; first those that have rows.
     std::vector<BranchIsovalue> isovalues;
+    std::vector<BranchHistogram> histograms;  ///< of these branches, by rank
 };
 
 /// Cost: three passes over the samples.

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "field/grid.h"
+#include "field/order.h"
 #include "isoatlas/context.h"
 #include "tree/criticality_tree.h"
 #include "zones/analysis_data.h"
@@ -38,5 +39,20 @@ struct DarkTree {
 /// arrays: with trees. Cost: O(n alpha) for n elements, and basins and zones of all voxels.
 template <class T, class Id>
 [[nodiscard]] DarkTree<Id> make_dark_tree(const GridView<T>& grid, const AnalysisArrays<Id>& arrays, const Context& context);
+
+/// The same whatever the type of the samples.
+template <class Id>
+[[nodiscard]] DarkTree<Id> make_dark_tree(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const Context& context) {
+    return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        return make_dark_tree(GridView<T>{samples.data(), volume.info->extent}, arrays, context);
+    });
+}
+
+/// Voxel of the lowest element of an event; -1: the outside.
+template <class Id>
+[[nodiscard]] std::int64_t lowest_voxel(const AnalysisArrays<Id>& arrays, const DarkTree<Id>& dark, std::size_t event) {
+    const std::size_t element = dark.element(event);
+    return element == arrays.code.size() ? -1 : ElementCode{arrays.code[element]}.index();
+}
 
 }  // namespace isoatlas

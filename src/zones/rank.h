@@ -4,13 +4,28 @@
 #include "field/volume_view.h"
 #include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
+#include "zones/dark_side.h"
 
 namespace isoatlas {
 
-/// Cost: three passes over samples and zones in order, one voxel after the other; 60 bytes an event.
-[[nodiscard]] ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options);
+/// Cost: the dark tree (zones/dark_side.h), and four passes over samples and zones in order, one voxel after the other; 60 bytes an event.
+[[nodiscard]] ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
+                                       const Context& context);
 
 [[nodiscard]] DarkTable rank_dark_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                           const Context& context);
+
+struct BothTables {
+    ObjectTable bright;
+    DarkTable dark;
+};
+
+/// Both with the gate and up to so many entries, from one dark tree.
+[[nodiscard]] BothTables rank_both(const VolumeView& volume, const Analysis& analysis, std::int64_t top, const Context& context);
+
+/// The table of a side that is made. Cost: up to top queries at isovalues (isoatlas/active.h).
+template <class Id>
+[[nodiscard]] DarkTable dark_table(const VolumeView& volume, const Analysis& analysis, const AnalysisArrays<Id>& arrays,
+                                   const DarkSide<Id>& side, const NoiseModel& noise, std::int64_t top);
 
 }  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include "field/order.h"
 #include "isoatlas/objects.h"
 #include "zones/analysis_data.h"
-#include "zones/branch_rows.h"
+#include "zones/cavity_walls.h"
 #include "zones/noise.h"
 #include "zones/rank.h"
 
@@ -23,16 +23,20 @@ public:
           tree_(bright_side<Id>(arrays, values_)),
           branches_(make_branches(tree_, sum_zones(tree_, volume_))) {}
 
-    [[nodiscard]] ObjectTable table(const RankOptions& options) const {
+    /// around: as for wall_isovalues().
+    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const DarkSide<Id>& dark,
+                                    const std::vector<std::int64_t>& around_dark) const {
         ObjectTable table;
-        const NoiseModel noise = fit_noise(volume_);
         table.noise = noise.sigma;
         for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges;
-        const auto [rows, isovalues] = branch_rows(volume_, tree_, branches_, noise, options);
-        const std::vector<std::int64_t> around = closest_around(tree_, rows);
-        for (const BranchIsovalue& own : isovalues)
-            table.isovalues.push_back({branches_.branch[own.branch].top, own.tau, own.prominence, own.reason});
-        for (std::size_t i = 0; i < rows.size(); ++i) table.entries.push_back(entry(rows[i], around[i]));
+        BranchRows chosen = branch_rows(volume_, tree_, branches_, noise, options);
+        const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
+        const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, dark, around_dark);
+        chosen.isovalues.insert(chosen.isovalues.end(), walls.begin(), walls.end());
+        std::ranges::stable_sort(chosen.isovalues, {}, &BranchIsovalue::branch);
+        for (const BranchIsovalue& own : chosen.isovalues)
+            table.isovalues.push_back({branches_.branch[own.branch].top, own.tau, own.prominence, own.reason, own.cavity});
+        for (std::size_t i = 0; i < chosen.rows.size(); ++i) table.entries.push_back(entry(chosen.rows[i], around[i]));
         return first_entries(std::move(table), 0);
     }
 
@@ -65,19 +69,37 @@ private:
     Branches branches_;
 };
 
-}  // namespace
-
-ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options) {
+/// Calls use(arrays, noise, dark objects that matter, table of bright objects).
+template <class Use>
+auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context, const Use& use) {
     if (volume.info->extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
-    return analysis.data().visit([&](const auto& held) {
-        if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
-        return Ranking(volume, held.arrays, analysis.extent().rank == 3).table(options);
+    const NoiseModel noise = fit_noise(volume);
+    return analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
+        const AnalysisArrays<Id>& arrays = held.arrays;
+        if (arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
+        const DarkSide<Id> dark = make_dark_side(volume, arrays, noise, {.top = 0}, context);
+        const Ranking<Id> ranking(volume, arrays, analysis.extent().rank == 3);
+        return use(arrays, noise, dark, ranking.table(noise, options, dark, objects_around(analysis, arrays, dark)));
     });
 }
 
-ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context&) {
-    return rank_objects(VolumeView(volume), analysis, options);
+}  // namespace
+
+ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return with_tables(volume, analysis, options, context,
+                       [](const auto&, const NoiseModel&, const auto&, ObjectTable table) { return table; });
+}
+
+ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return rank_objects(VolumeView(volume), analysis, options, context);
+}
+
+BothTables rank_both(const VolumeView& volume, const Analysis& analysis, std::int64_t top, const Context& context) {
+    return with_tables(volume, analysis, {.top = top}, context,
+                       [&](const auto& arrays, const NoiseModel& noise, const auto& dark, ObjectTable table) {
+                           return BothTables{std::move(table), dark_table(volume, analysis, arrays, dark, noise, top)};
+                       });
 }
 
 }  // namespace isoatlas

@@ -40,8 +40,7 @@ double prominence(const std::vector<double>& s, std::size_t i) {
 /// Do the voxels that join around a peak, less than after its valley, tell the two apart? Counts vary as their square roots.
 bool is_significant(double stability, double prominence, double volume) {
     if (!std::isfinite(prominence)) return true;
-    constexpr double kWindow = 7.1;  // bins that the smoothing takes together
-    const double peak = std::exp(-stability) * volume * kWindow, valley = peak * std::exp(prominence);
+    const double peak = std::exp(-stability) * volume * kSmoothedBins, valley = peak * std::exp(prominence);
     return valley - peak >= 3 * std::sqrt(valley + peak);
 }
 

@@ -10,6 +10,9 @@
 
 namespace isoatlas {
 
+/// Bins that the smoothing takes together: isovalues closer than that are not told apart.
+inline constexpr double kSmoothedBins = 7.1;
+
 struct StableIsovalue {
     double tau;
     double prominence;  ///< of -ln q; infinity for the highest peak

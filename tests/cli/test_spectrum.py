@@ -1,4 +1,5 @@
 """What there is at every isovalue: as table, JSON, CSV and plot."""
+import collections
 import csv
 import xml.etree.ElementTree
 
@@ -33,14 +34,18 @@ class Spectrum(harness.CliTest):
         self.run_ok("spectrum", "noise.nrrd", "--samples", "3", "-o", "x.csv")
         with open(self.folder / "x.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual([row["kind"] for row in rows].count("size"), 3)
         document = self.run_json("spectrum", "noise.nrrd", "--samples", "3", "-o", "x.json")
-        self.assertEqual(len(document["intervals"]), len(rows) - 3)
+        kinds = collections.Counter(row["kind"] for row in rows)
+        self.assertEqual(kinds, {"interval": len(document["intervals"]), "size": 3, "advice": len(document["advice"])})
+        advice = [(int(row["object"]), row["reason"]) for row in rows if row["kind"] == "advice"]
+        self.assertEqual(advice, [(a["object"], a["reason"]) for a in document["advice"]])
         self.assert_schema(document, "spectrum")
         self.run_ok("spectrum", "noise.nrrd", "-o", "x.svg")
         root = xml.etree.ElementTree.parse(self.folder / "x.svg").getroot()
         self.assertTrue(root.tag.endswith("svg"))
-        self.assertIn("tunnels", (self.folder / "x.svg").read_text())
+        text = (self.folder / "x.svg").read_text()
+        self.assertIn("tunnels", text)
+        self.assertIn(f"object {document['advice'][0]['object']} ({document['advice'][0]['reason']}", text)
         self.assert_no_partial()
 
     def test_a_selection_says_what_is_essential(self):

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "isoatlas/active.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
@@ -76,7 +77,11 @@ RC_GTEST_PROP(TheSpectrum, IsWhatACutFindsAtEveryIsovalue, ()) {
     const isoatlas::ObjectTable table = isoatlas::rank_objects(volume, analysis, {.top = 0, .selection = selection});
     RC_ASSERT(spectrum.sizes.empty());
     RC_ASSERT(spectrum.selected == selection.has_value());
-    RC_ASSERT(spectrum.advice.size() == table.entries.size());
+    RC_ASSERT(spectrum.advice.size() == table.isovalues.size());
+    for (const isoatlas::SpectrumAdvice& advice : spectrum.advice) {
+        const std::vector<isoatlas::ActiveObject> there = isoatlas::ActiveIndex(analysis).at(advice.tau).objects;
+        RC_ASSERT(std::ranges::any_of(there, [&](const isoatlas::ActiveObject& object) { return object.id == advice.object; }));
+    }
     check_intervals(spectrum);
     for (const double tau : interesting_values(elements_of(grid, interpolant))) {
         const Cut cut = isoatlas::cut(volume, tau, {.interpolant = interpolant, .label = true});
