@@ -1,5 +1,5 @@
-// Whose turn it is: a few surfaces are made at a time, others wait in the order in which they came; a newer question of the same client ends
-// an older one.
+// Whose turn it is: a few surfaces are made at a time, others wait in the order in which they came; a newer question of the same client
+// ends an older one.
 #pragma once
 
 #include <condition_variable>
