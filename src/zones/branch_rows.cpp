@@ -185,10 +185,14 @@ private:
     const Branches& branches_;
 };
 
-template <class Id>
-bool contains(const SideTree<Id>& tree, std::int64_t outer, std::int64_t inner) {
-    while (inner < outer && !tree.is_root(inner)) inner = tree.parent[inner];
-    return inner == outer;
+/// Rows by event, then by falling tau.
+std::vector<std::size_t> by_event(const std::vector<BranchRow>& rows) {
+    std::vector<std::size_t> order(rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&rows](std::size_t p, std::size_t q) {
+        return rows[p].event != rows[q].event ? rows[p].event < rows[q].event : rows[p].tau > rows[q].tau;
+    });
+    return order;
 }
 
 }  // namespace
@@ -201,12 +205,21 @@ BranchRows branch_rows(const VolumeView& volume, const SideTree<Id>& tree, const
 
 template <class Id>
 std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::vector<BranchRow>& rows) {
-    std::vector<std::int64_t> around(rows.size(), -1);
+    constexpr std::int64_t none = -1;
+    const std::vector<std::size_t> order = by_event(rows);
+    std::vector<std::int64_t> first(tree.size(), none);  // per event: the first place in `order` of it or of the next one below with rows
+    for (std::size_t k = order.size(); k-- > 0;) first[rows[order[k]].event] = static_cast<std::int64_t>(k);
+    for (std::size_t e = tree.size(); e-- > 0;) {
+        if (first[e] == none && !tree.is_root(e)) first[e] = first[tree.parent[e]];
+    }
+    std::vector<std::int64_t> around(rows.size(), none);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (std::size_t j = 0; j < rows.size(); ++j) {
-            if (!(rows[j].tau < rows[i].tau)) continue;
-            if (around[i] >= 0 && rows[j].tau <= rows[around[i]].tau) continue;
-            if (contains(tree, rows[j].event, rows[i].event)) around[i] = static_cast<std::int64_t>(j);
+        for (std::int64_t k = first[rows[i].event]; k != none && around[i] == none;) {
+            const std::int64_t event = rows[order[k]].event;
+            for (auto at = static_cast<std::size_t>(k); at < order.size() && rows[order[at]].event == event && around[i] == none; ++at) {
+                if (rows[order[at]].tau < rows[i].tau) around[i] = static_cast<std::int64_t>(order[at]);
+            }
+            k = tree.is_root(event) ? none : first[tree.parent[event]];
         }
     }
     return around;
