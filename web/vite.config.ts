@@ -35,5 +35,6 @@ export default defineConfig({
     rollupOptions: { input: `${process.env.PAGE ?? "atlas"}.html` },
   },
   plugins: [intoOneFile()],
+  server: { host: "127.0.0.1" }, // of the tests: no name need be known
   test: { include: ["tests/**/*.test.ts"] },
 } as Parameters<typeof defineConfig>[0]);
