@@ -19,7 +19,12 @@ constexpr std::int64_t kCurvePoints = 160;
 class Gatherer {
 public:
     Gatherer(const Atlas& atlas, const PageOptions& options, const Context& context)
-        : atlas_(atlas), options_(options), analysis_(atlas.analysis()), hierarchy_(atlas.hierarchy(context)), context_(context) {}
+        : atlas_(atlas),
+          options_(options),
+          analysis_(atlas.analysis()),
+          hierarchy_(atlas.hierarchy(context)),
+          context_(context),
+          branch_of_event_(static_cast<std::size_t>(analysis_.event_count()), -1) {}
 
     PageContents gather() && {
         const auto [low, high] = atlas_.range();
@@ -83,7 +88,6 @@ private:
         return count_columns(intervals, std::max(atlas_.range()[0], b.merges), contents_.scale, kShapeColumns);
     }
     void mark_events(const BranchInfo& b, std::int64_t place) {
-        branch_of_event_.resize(static_cast<std::size_t>(analysis_.event_count()), -1);
         for (std::int64_t event = b.top; event >= 0 && analysis_.event(event).value > b.merges; event = analysis_.event(event).parent)
             branch_of_event_[event] = place;
     }
@@ -119,8 +123,7 @@ private:
         const auto first_branch = static_cast<std::int64_t>(contents_.branches.size());
         const auto first_entry = static_cast<std::int64_t>(contents_.entries.size());
         for (const DarkEntry& entry : dark.entries) {
-            std::int64_t inside = entry.inside;
-            while (inside >= static_cast<std::int64_t>(dark.entries.size())) inside = -1;
+            const std::int64_t inside = entry.inside < static_cast<std::int64_t>(dark.entries.size()) ? entry.inside : -1;
             const auto branch = static_cast<std::int64_t>(contents_.branches.size());
             contents_.branches.push_back({.dark = true,
                                           .id = entry.id,
