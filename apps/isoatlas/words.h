@@ -24,7 +24,7 @@ namespace isoatlas::cli {
 /// A positive whole number.
 [[nodiscard]] std::int64_t parse_count(const std::string& option, const std::string& word);
 
-/// "1G", "500M", "1.5 GiB": K, M, G, T are powers of 1024. At least 64 MiB.
+/// "1G", "500M", "1.5 GiB": K, M, G, T are powers of 1024. At least 80 MiB.
 [[nodiscard]] std::int64_t parse_bytes(const std::string& option, const std::string& word);
 
 /// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.

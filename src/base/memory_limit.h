@@ -27,7 +27,7 @@ private:
 };
 
 /// The smallest limit that leaves room for the program itself and some pages of every array.
-inline constexpr std::int64_t kLeastMemory = std::int64_t{64} << 20;
+inline constexpr std::int64_t kLeastMemory = std::int64_t{80} << 20;
 
 /// The share of the limit for arrays that stay in memory.
 inline constexpr double kInMemory = 0.65;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/big_vector.h"
+#include "base/memory_limit.h"
 
 namespace isoatlas {
 
@@ -17,7 +18,9 @@ public:
         if (n == 0) return;
         const bool down = parent[n - 1] == static_cast<Id>(n - 1);  // the root is the last node: go from there
         BigVector<Id> depth(n);
+        PacedCheck memory;
         for (std::size_t k = 0; k < n; ++k) {
+            memory.step();
             const std::size_t x = down ? n - 1 - k : k;
             const Id p = parent[x], far = x == p ? p : jump_[p];
             depth[x] = x == p ? 0 : depth[p] + 1;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 
 namespace isoatlas {
@@ -82,7 +83,9 @@ template <class Id>
 BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> value) {
     const std::size_t n = value.size();
     BigVector<Id> bottom(n);
+    PacedCheck memory;
     for (std::size_t i = n; i-- > 0;) {
+        memory.step();
         const std::size_t next = join[i];
         bottom[i] = next < n && value[next] == value[i] ? bottom[next] : static_cast<Id>(i);
     }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_limit.h"
 #include "base/union_find.h"
 
 namespace isoatlas {
@@ -12,7 +13,9 @@ template <class Id>
 BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value) {
     const std::size_t n = value.size();
     UnionFind<Id> sets(n);
+    PacedCheck memory;
     for (std::size_t x = 0; x <= n; ++x) {
+        memory.step();
         if (tree.has_arc(x) && !has_length(tree, value, x)) sets.join(tree.upper(x), tree.lower(x));
     }
     return std::move(sets).roots();

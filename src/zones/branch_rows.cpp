@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/memory_limit.h"
 #include "zones/select_branches.h"
 #include "zones/stable_isovalue.h"
 
@@ -207,9 +208,11 @@ template <class Id>
 std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::vector<BranchRow>& rows) {
     constexpr std::int64_t none = -1;
     const std::vector<std::size_t> order = by_event(rows);
-    std::vector<std::int64_t> first(tree.size(), none);  // per event: the first place in `order` of it or of the next one below with rows
+    BigVector<std::int64_t> first(tree.size(), none);  // per event: the first place in `order` of it or of the next one below with rows
     for (std::size_t k = order.size(); k-- > 0;) first[rows[order[k]].event] = static_cast<std::int64_t>(k);
+    PacedCheck memory;
     for (std::size_t e = tree.size(); e-- > 0;) {
+        memory.step();
         if (first[e] == none && !tree.is_root(e)) first[e] = first[tree.parent[e]];
     }
     std::vector<std::int64_t> around(rows.size(), none);

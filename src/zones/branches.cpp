@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/memory_limit.h"
+
 namespace isoatlas {
 namespace {
 
@@ -75,7 +77,9 @@ Branches make_branches(const SideTree<Id>& tree, const ZoneSums& zones) {
     result.highest = highest_events(tree);
     const BigVector<std::int64_t> next_above = continuing_children(tree, hypervolume);
     BigVector<Branch>& branches = result.branch;
+    PacedCheck memory;
     for (std::size_t e = events; e-- > 0;) {
+        memory.step();
         const bool root = tree.is_root(e);
         if (!root && next_above[tree.parent[e]] == static_cast<std::int64_t>(e)) continue;
         Branch b{};

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "base/big_vector.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kSamples = 1'000'000;
 
-double at_fraction(std::vector<double>& values, double fraction) {
+double at_fraction(BigVector<double>& values, double fraction) {
     if (values.empty()) return 0;
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), place, values.end());
@@ -21,7 +22,8 @@ std::int64_t stride_for(std::int64_t voxels) { return std::max<std::int64_t>(1, 
 
 template <class T>
 double second_differences(std::span<const T> samples, const Extent& extent) {
-    std::vector<double> differences;
+    BigVector<double> differences;
+    differences.reserve(static_cast<std::size_t>(extent.voxels() / stride_for(extent.voxels()) + 1));
     for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride_for(extent.voxels())) {
         const std::int64_t x = i % extent.size[0];
         if (x == 0 || x + 1 == extent.size[0]) continue;
@@ -71,7 +73,7 @@ bool is_free_of_noise(std::span<const T> samples, const Extent& extent) {
 template <class T>
 double quiet_places(std::span<const T> samples, const Extent& extent) {
     if (is_free_of_noise(samples, extent)) return 0;
-    std::vector<double> variances;
+    BigVector<double> variances;
     for (std::int64_t i = 0; i < extent.voxels(); i += 8 * stride_for(extent.voxels()) | 1) {
         const double variance = local_variance(samples, extent, i);
         if (variance > 0) variances.push_back(variance);

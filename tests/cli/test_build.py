@@ -142,8 +142,8 @@ class Builds(harness.CliTest):
         with open(self.folder / "huge.raw", "wb") as huge:
             huge.truncate(40000 ** 2 * 4)  # a hole: two slices would be too much for the budget
         shape = ["--dims", "40000x40000x4", "--type", "uint8"]
-        self.run_error(5, "build", "huge.raw", *shape, "-o", "huge.atlas", "--memory", "64M", says="memory budget")
-        self.run_error(5, "build", "huge.raw", *shape, "-o", "huge.atlas", "--memory", "64M", "--dry-run", says="memory budget")
+        self.run_error(5, "build", "huge.raw", *shape, "-o", "huge.atlas", "--memory", "80M", says="memory budget")
+        self.run_error(5, "build", "huge.raw", *shape, "-o", "huge.atlas", "--memory", "80M", "--dry-run", says="memory budget")
         for size in ("1", "10M", "a lot", "-1G", "1e400G"):
             self.run_error(2, "build", "noise.nrrd", "-o", "dry.atlas", "--memory=" + size, says="--memory")
 
