@@ -96,7 +96,7 @@ void check_estimate(const BuildEstimate& estimate, const std::string& volume_pat
     if (estimate.budget < estimate.memory_least) {
         throw Error(ErrorKind::resource, {.file = volume_path,
                                           .what = "a memory budget of " + std::to_string(estimate.budget >> 20) + " MiB is too small",
-                                          .expected = std::to_string((estimate.memory_least >> 20) + 1) + " MiB or more",
+                                          .expected = std::to_string((estimate.memory_least + (1 << 20) - 1) >> 20) + " MiB or more",
                                           .next = "give a larger --memory, or fewer --threads"});
     }
     if (estimate.disk > estimate.disk_free) {

@@ -53,7 +53,7 @@ TEST_F(Builds, InAnyMemory) {
 
 TEST_F(Builds, SeveralAtOnce) {
     std::vector<std::future<std::string>> builds;
-    for (const std::int64_t megabytes : {64, 80, 1000, 64}) {
+    for (const std::int64_t megabytes : {80, 96, 1000, 80}) {
         const std::string name = "at_once_" + std::to_string(builds.size());
         builds.push_back(std::async(std::launch::async, [this, name, megabytes] { return built(name, megabytes << 20, 1, 0); }));
     }

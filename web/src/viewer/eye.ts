@@ -69,6 +69,10 @@ export class Eye {
     this.place(this.controls.target.clone(), new three.Vector3(turned.x, -turned.z, turned.y));
   }
 
+  get isFlat(): boolean {
+    return this.flat;
+  }
+
   toggleFlat(): void {
     const offset = this.offset();
     this.flat = !this.flat;

@@ -1,41 +1,41 @@
-// The viewer: a list of objects, a picture of those shown, and the isovalue of the one selected.
+// The viewer: what is to be seen (state.ts), a picture of it (scene.ts, stage.ts), and what a reader can do (actions.ts).
 import { html } from "../dom";
 import { overview } from "../overview";
 import type { Page } from "../page";
+import { Actions } from "./actions";
 import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
-import { help } from "./help";
-import { keys } from "./keys";
+import { keep, selectedOf, type Desk } from "./desk";
 import { ListPanel } from "./list_panel";
+import { look } from "./look";
+import { help, menus } from "./menus";
 import { ObjectPanel } from "./object_panel";
-import { ScaleBar } from "./scale_bar";
-import { bestOf, colourOf, eventsOf, ownRange, titleOf, whichOf } from "./shown";
+import { Scene } from "./scene";
+import { bestOf, eventsOf, ownRange, titleOf, whichOf } from "./shown";
 import { Stage } from "./stage";
 import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type Shown, type State } from "./state";
 import "./viewer.css";
 
-const WHOLE = 100_000_000;
-const COARSE = 20_000;
+/** of the range, for one step of a key */
+const STEP = 0.005;
 /** a press that moves less is a click */
 const CLICK_PIXELS = 4;
 
-class Viewer {
-  private readonly history: History;
-  private readonly stage = new Stage(() => this.go({ ...this.now, view: this.stage.eye.view }, true));
+class Viewer implements Desk {
+  readonly history: History;
+  readonly stage = new Stage(() => this.go({ ...this.now, view: this.stage.eye.view }, true));
+  readonly actions = new Actions();
+  readonly overlay = html("div", { class: "stage" });
+  private readonly said = html("p", { class: "said", role: "status" });
+  private readonly scene = new Scene(this);
   private readonly axis: AxisPanel;
   private readonly list: ListPanel;
   private readonly panel: ObjectPanel;
-  private readonly said = html("p", { class: "said", role: "status" });
-  /** per entry: the isovalue of what the picture shows of it, or soon will */
-  private readonly drawn = new Map<number, number>();
-  private readonly help = help();
   private readonly tree = html("dialog", { class: "tree", "aria-label": "all objects over the isovalue" });
-  private framed = false;
-  private readonly cut = html("input", { class: "cut", type: "range", min: 0, max: 1, step: 0.01, hidden: true, "aria-label": "where it is cut open" });
 
   constructor(
-    private readonly api: Api,
-    private readonly page: Page,
+    readonly api: Api,
+    readonly page: Page,
     main: HTMLElement,
   ) {
     const asked = fromHash(location.hash, page.entries.length);
@@ -43,7 +43,7 @@ class Viewer {
     this.axis = new AxisPanel(page, (tau, transient) => this.move(tau, transient));
     this.list = new ListPanel(
       page,
-      (entry) => this.go(isolate(this.now, entry, this.best(entry))),
+      (entry) => this.isolate(entry),
       (entry) => this.toggle(entry),
     );
     this.panel = new ObjectPanel(page, {
@@ -53,18 +53,26 @@ class Viewer {
       picture: () => void this.stage.picture().then((blob) => blob && keep(blob, "picture.png")),
       link: () => void navigator.clipboard.writeText(location.href).then(() => this.say("the link is in the clipboard")),
     });
+    this.addActions();
+    look(this);
     const side = html("div", { class: "side" }, this.list.element, this.panel.element);
-    const bar = new ScaleBar(page.volume.unit);
-    this.stage.onDraw(() => bar.show(this.stage.eye.height, this.stage.canvas.clientHeight));
-    this.cut.addEventListener("input", () => this.stage.slide(Number(this.cut.value)));
-    main.append(side, html("div", { class: "stage" }, this.stage.canvas, this.said, bar.element, this.cut), this.axis.element, this.help, this.tree);
+    this.overlay.append(this.stage.canvas, menus(this.actions), this.said);
+    main.append(side, this.overlay, this.axis.element, help(this.actions), this.tree);
     this.growTree();
     this.history.listen((state, before) => this.show(state, before));
-    this.listenToKeys();
+    this.actions.listen(document);
     this.listenToClicks();
     if (asked) this.show(asked, NOTHING);
-    else if (page.entries.length > 0) this.go(isolate(NOTHING, 0, this.best(0)));
+    else if (page.entries.length > 0) this.isolate(0);
     else this.say("There is nothing to show: noise explains all there is.");
+  }
+
+  say(text: string): void {
+    this.said.textContent = text;
+  }
+
+  fail(error: unknown): void {
+    if (!isOvertaken(error)) this.say(error instanceof Error ? error.message : String(error));
   }
 
   private get now(): State {
@@ -72,24 +80,20 @@ class Viewer {
   }
 
   private get selected(): Shown | undefined {
-    return this.now.shown[this.now.selected];
-  }
-
-  private best(entry: number): number {
-    return bestOf(this.page, entry);
+    return selectedOf(this.now);
   }
 
   private go(state: State, transient = false): void {
     this.history.go(state, transient);
   }
 
-  private say(text: string): void {
-    this.said.textContent = text;
+  private isolate(entry: number): void {
+    this.go(isolate(this.now, entry, bestOf(this.page, entry)));
   }
 
   private toggle(entry: number): void {
     const at = this.now.shown.findIndex((shown) => shown.entry === entry);
-    this.go(at >= 0 ? remove(this.now, at) : add(this.now, entry, this.best(entry)));
+    this.go(at >= 0 ? remove(this.now, at) : add(this.now, entry, bestOf(this.page, entry)));
   }
 
   private hide(): void {
@@ -105,36 +109,30 @@ class Viewer {
   private growTree(): void {
     const choose = (entry: number): void => {
       this.tree.close();
-      this.go(isolate(this.now, entry, this.best(entry)));
+      this.isolate(entry);
     };
     const drawing = overview(this.page, new Set(this.page.entries.map((entry) => entry.branch)), choose);
     this.tree.append(html("h2", {}, "Objects over the isovalue"), drawing, html("button", { type: "button", click: () => this.tree.close() }, "Close"));
   }
 
-  private listenToKeys(): void {
+  private addActions(): void {
     const events = eventsOf(this.page);
-    keys(this.stage, {
-      step: (by) => this.selected && this.move(this.selected.tau + by * (this.page.axis.high - this.page.axis.low)),
-      event: (up) => {
-        const tau = this.selected && nextEvent(events, this.selected.tau, up);
-        if (typeof tau === "number") this.move(tau);
-      },
-      undo: () => this.history.undo(),
-      redo: () => this.history.redo(),
-      fit: () => this.stage.fit(),
-      hide: () => this.hide(),
-      help: () => this.help.showModal(),
-      cut: () => {
-        this.stage.open(!this.stage.isOpen);
-        this.cut.hidden = !this.stage.isOpen;
-        this.cut.value = "0.5";
-      },
-      tree: () => this.tree.showModal(),
-      box: () => {
-        this.framed = !this.framed;
-        this.stage.frame(this.framed ? cornersOf(this.page) : null);
-      },
-    });
+    const range = this.page.axis.high - this.page.axis.low;
+    const step = (by: number) => (): void => this.selected && this.move(this.selected.tau + by * range);
+    const toEvent = (up: boolean) => (): void => {
+      const tau = this.selected && nextEvent(events, this.selected.tau, up);
+      if (typeof tau === "number") this.move(tau);
+    };
+    this.actions.add(
+      { group: "Isovalue", name: "down", keys: ["["], run: step(-STEP) },
+      { group: "Isovalue", name: "up", keys: ["]"], run: step(STEP) },
+      { group: "Isovalue", name: "to where the next object that matters ends", keys: ["{"], run: toEvent(false) },
+      { group: "Isovalue", name: "to where the next object that matters begins", keys: ["}"], run: toEvent(true) },
+      { group: "Scene", name: "undo", keys: ["Ctrl+z"], run: () => this.history.undo() },
+      { group: "Scene", name: "redo", keys: ["Ctrl+Shift+z", "Ctrl+y"], run: () => this.history.redo() },
+      { group: "Scene", name: "hide what is selected", keys: ["Delete"], run: () => this.hide() },
+      { group: "Scene", name: "all objects over the isovalue: choose one", keys: ["t"], run: () => this.tree.showModal() },
+    );
   }
 
   private listenToClicks(): void {
@@ -158,44 +156,14 @@ class Viewer {
       this.axis.show(this.selected.tau, ownRange(this.page, this.selected.entry));
       void this.foresee(this.selected.tau);
     }
-    for (const old of before.shown) if (!state.shown.some((shown) => shown.entry === old.entry)) this.forget(old.entry);
-    for (const shown of state.shown) void this.draw(shown);
+    this.scene.show(state, before);
     if (state.view && state.view !== before.view && String(state.view) !== String(this.stage.eye.view)) this.stage.eye.view = state.view;
-  }
-
-  private forget(entry: number): void {
-    this.api.leave(`surface ${entry}`);
-    this.drawn.delete(entry);
-    this.stage.remove(entry);
   }
 
   private async foresee(tau: number): Promise<void> {
     try {
       this.axis.tell(await this.api.preview(tau));
     } catch (error) {
-      this.fail(error);
-    }
-  }
-
-  /** A coarse surface first where the whole one takes longer. */
-  private async draw(shown: Shown): Promise<void> {
-    const { entry, tau, opacity } = shown;
-    if (this.drawn.get(entry) === tau) return this.stage.fade(entry, opacity);
-    const first = this.drawn.size === 0 && this.now.view === null;
-    this.drawn.set(entry, tau);
-    try {
-      for (const most of [COARSE, WHOLE]) {
-        const mesh = await this.api.surface(`surface ${entry}`, tau, whichOf(this.page, entry), most);
-        if (this.drawn.get(entry) !== tau) return;
-        this.stage.put(entry, mesh, colourOf(this.page, entry), opacity, tau);
-        if (first && most === COARSE) this.stage.fit();
-        this.say(mesh.coarse ? "coarse preview" : "");
-        if (!mesh.coarse) break;
-      }
-    } catch (error) {
-      if (isOvertaken(error)) return;
-      this.drawn.delete(entry);
-      this.stage.remove(entry);
       this.fail(error);
     }
   }
@@ -211,26 +179,6 @@ class Viewer {
       this.fail(error);
     }
   }
-
-  private fail(error: unknown): void {
-    if (!isOvertaken(error)) this.say(error instanceof Error ? error.message : String(error));
-  }
-}
-
-/** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */
-function cornersOf({ volume }: Page): [number, number, number][] {
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => {
-    const steps = [0, 1, 2].map((axis) => (corner & (1 << axis) ? (volume.size[axis] ?? 1) - 1 : 0) * (volume.spacing?.[axis] ?? 1));
-    const at = (row: number): number => (volume.origin[row] ?? 0) + steps.reduce((sum, step, axis) => sum + (volume.direction[row]?.[axis] ?? 0) * step, 0);
-    return [at(0), at(1), at(2)];
-  });
-}
-
-/** Gives the reader a file. */
-function keep(blob: Blob, name: string): void {
-  const address = URL.createObjectURL(blob);
-  html("a", { href: address, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
 async function start(main: HTMLElement): Promise<void> {

@@ -1,0 +1,34 @@
+// What every part of the viewer works with.
+import type { Page } from "../page";
+import type { Actions } from "./actions";
+import type { Api } from "./api";
+import type { Stage } from "./stage";
+import type { History, Shown, State } from "./state";
+
+export interface Desk {
+  readonly page: Page;
+  readonly api: Api;
+  readonly stage: Stage;
+  readonly history: History;
+  readonly actions: Actions;
+  /** over the picture, for what belongs to it */
+  readonly overlay: HTMLElement;
+  /** one line for the reader; empty: nothing to say */
+  say(text: string): void;
+  /** says what went wrong, unless something newer has ended it */
+  fail(error: unknown): void;
+}
+
+export function selectedOf({ shown, selected }: State): Shown | undefined {
+  return shown[selected];
+}
+
+/** Gives the reader a file. */
+export function keep(blob: Blob, name: string): void {
+  const address = URL.createObjectURL(blob);
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}

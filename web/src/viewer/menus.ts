@@ -1,0 +1,62 @@
+// All actions by group, to be found without knowing a key; and all keys, on '?'.
+import { html } from "../dom";
+import type { Action, Actions, Group } from "./actions";
+
+const GROUPS: Group[] = ["Isovalue", "Scene", "Look", "Tools", "Save", "Help"];
+const SIGNS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
+/** what is done without an action */
+const GESTURES: [string, string][] = [
+  ["click", "in the list: show this object alone; in the picture: select"],
+  ["shift and click", "in the list: add this object, or take it out"],
+  ["Enter", "in the box: use this isovalue"],
+];
+
+function signsOf({ keys }: Action): string {
+  return (keys ?? []).map((key) => SIGNS[key] ?? key.replaceAll("+", " ")).join(", ");
+}
+
+/** A menu for every group that has actions; made anew when it is opened, so that it says what is on. */
+export function menus(actions: Actions): HTMLElement {
+  const bar = html("div", { class: "menus", role: "toolbar", "aria-label": "menus" });
+  const close = (): void => bar.querySelectorAll("details[open]").forEach((menu) => menu.removeAttribute("open"));
+  for (const group of GROUPS) {
+    const list = html("ul", {});
+    const menu = html("details", { name: "menu" }, html("summary", {}, group), list);
+    menu.addEventListener("toggle", () => {
+      const own = actions.all.filter((action) => action.group === group);
+      list.replaceChildren(...own.map((action) => html("li", {}, buttonOf(action, close))));
+    });
+    bar.append(menu);
+  }
+  document.addEventListener("click", (event) => !bar.contains(event.target as Node) && close());
+  bar.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    const summary = bar.querySelector<HTMLElement>("details[open] summary");
+    close();
+    summary?.focus();
+  });
+  return bar;
+}
+
+function buttonOf(action: Action, done: () => void): HTMLElement {
+  const run = (): void => {
+    done();
+    action.run();
+  };
+  const button = html("button", { type: "button", click: run }, html("span", {}, action.name), html("kbd", {}, signsOf(action)));
+  if (action.isOn) button.setAttribute("aria-pressed", String(action.isOn()));
+  return button;
+}
+
+export function help(actions: Actions): HTMLDialogElement {
+  const list = html("dl", {});
+  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keys"), list);
+  dialog.append(html("button", { type: "button", click: () => dialog.close() }, "Close"));
+  const show = (): void => {
+    const keys = actions.all.filter((action) => action.keys).map((action): [string, string] => [signsOf(action), action.name]);
+    list.replaceChildren(...[...keys, ...GESTURES].flatMap(([key, what]) => [html("dt", {}, key), html("dd", {}, what)]));
+    dialog.showModal();
+  };
+  actions.add({ group: "Help", name: "all keys", keys: ["?"], run: show });
+  return dialog;
+}
