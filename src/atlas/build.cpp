@@ -106,7 +106,7 @@ public:
             report_.resumed.emplace_back(kTrees);
         } else {
             analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
-            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis, *volume.info));
+            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis, *volume.info, context_.threads));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
         std::unique_ptr<store::Container> zones = folder_.finished(kZones, contents);

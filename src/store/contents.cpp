@@ -181,12 +181,13 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     const Json json = Json::parse(text);
     Contents contents;
     const std::int64_t version = integer(json.at("version"));
-    if (version != kStoreVersion) {
+    if (version < 1 || version > kStoreVersion) {
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .what = "is a store of version " + std::to_string(version),
-                                             .expected = "version " + std::to_string(kStoreVersion),
+                                             .expected = "version 1 to " + std::to_string(kStoreVersion),
                                              .next = "use the isoatlas that built it, or build it again"});
     }
+    contents.version = static_cast<int>(version);
     contents.volume = volume_of(json.at("volume"));
     if (!is_sound(contents.volume.extent)) damaged(path, "contents", "the size of the volume makes no sense");
     const Json& parameters = json.at("parameters");

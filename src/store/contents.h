@@ -14,7 +14,7 @@
 
 namespace isoatlas::store {
 
-inline constexpr int kStoreVersion = 1;
+inline constexpr int kStoreVersion = 2;
 
 /// Numbers in a row of bytes, little endian, first index slowest.
 struct StoredArray {

@@ -1,8 +1,6 @@
 // An analysis as arrays of a store, and back.
 //
-//   elements/value              per critical element, descending. With more elements than half the voxels it is rounded to the type
-//                               of the samples, of integers down (never when that is float64): the value itself follows from the samples
-//   elements/place, form        where it is and what it is (store/element_form.h)
+//   elements/value, place, form the critical elements (store/element_arrays.h)
 //   elements/towards_outside    the contour tree (tree/contour_tree.h): per element the other end of its arc; one node more, the outside
 //   elements/voxels             per critical element: voxels that belong to it (zones/count_voxels.h); those of an event are its zone
 //
@@ -19,13 +17,13 @@
 namespace isoatlas::store {
 
 /// Of find_arcs(), and of count_voxels() (zones/analyse.h). The analysis must live until they are packed.
-[[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume);
+[[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads);
 [[nodiscard]] std::vector<PackedArray> zone_arrays(const Analysis& analysis);
 
 /// All arrays of another store, which must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
 
-/// What find_arcs() gave. samples: of the volume, x fastest; null: those of the store, which are read when values were rounded. Throws
+/// What find_arcs() gave. samples: of the volume, x fastest; null: those of the store, which are read where elements are many. Throws
 /// Error{input} when arrays contradict each other. Cost: reads them.
 [[nodiscard]] Analysis arcs_of(const Container& store, const std::byte* samples, int threads);
 /// The analysis of a store, without zones of voxels. Throws Error{input} when arrays contradict each other. Cost: reads all of them, O(n

@@ -41,12 +41,12 @@ class Dump(harness.CliTest):
             self.assertIn(part["name"] + " ", text)
 
     def test_ranges(self):
-        all_values = self.dump("elements/value")["numbers"]
-        self.assertEqual(self.dump("elements/value[3:7]")["numbers"], all_values[3:7])
-        self.assertEqual(self.dump("elements/value[5]"), {**self.dump("elements/value[5:6]")})
-        self.assertEqual(self.dump("elements/value[5]")["first"], 5)
-        self.assertEqual(self.dump("elements/value[4:4]")["numbers"], [])
-        self.assertEqual(self.run_ok("dump", "noise.atlas", "elements/value[2:4]").stdout.split()[0], "2")
+        all_values = self.dump("elements/voxels")["numbers"]
+        self.assertEqual(self.dump("elements/voxels[3:7]")["numbers"], all_values[3:7])
+        self.assertEqual(self.dump("elements/voxels[5]"), {**self.dump("elements/voxels[5:6]")})
+        self.assertEqual(self.dump("elements/voxels[5]")["first"], 5)
+        self.assertEqual(self.dump("elements/voxels[4:4]")["numbers"], [])
+        self.assertEqual(self.run_ok("dump", "noise.atlas", "elements/voxels[2:4]").stdout.split()[0], "2")
 
     def test_bricks(self):
         samples = struct.unpack("<8000f", (self.folder / "noise.npy").read_bytes()[-32000:])
@@ -61,34 +61,34 @@ class Dump(harness.CliTest):
         self.assertEqual(len(lines), 1 + 4 * 5)
 
     def test_errors_say_what_there_is(self):
-        error = self.run_error(6, "dump", "noise.atlas", "elements/valu")
-        for name in ("header", "contents", "elements/value", "elements/towards_outside", "brick N"):
+        error = self.run_error(6, "dump", "noise.atlas", "elements/voxel")
+        for name in ("header", "contents", "elements/voxels", "elements/towards_outside", "brick N"):
             self.assertIn(name, error["expected"])
-        for part, says in (("brick 18", "0 to 17"), ("brick x", "brick 17"), ("voxel 20,0,0", "20,20,20"), ("elements/value[1:", "[FIRST:END]"),
-                           ("elements/value[9:3]", "numbers"), ("elements/value[-1]", "numbers"), ("header[1]", "header"),
-                           ("elements/value[99999999999999999999]", "[FIRST:END]")):
+        for part, says in (("brick 18", "0 to 17"), ("brick x", "brick 17"), ("voxel 20,0,0", "20,20,20"), ("elements/voxels[1:", "[FIRST:END]"),
+                           ("elements/voxels[9:3]", "numbers"), ("elements/voxels[-1]", "numbers"), ("header[1]", "header"),
+                           ("elements/voxels[99999999999999999999]", "[FIRST:END]")):
             self.assertIn(says, self.run_error(6, "dump", "noise.atlas", part)["expected"], part)
         self.run_error(3, "dump", "noise.npy", next_says="isoatlas build")
         self.run_error(2, "dump")
 
     def test_compressed_arrays_say_where_their_chunks_lie(self):
         compressed = [part for part in self.dump()["parts"] if part.get("compressed")]
-        self.assertIn("elements/value", [part["name"] for part in compressed])
+        self.assertIn("elements/voxels", [part["name"] for part in compressed])
         size = (self.folder / "noise.atlas").stat().st_size
         for part in compressed:
             chunks = self.dump("checksums/" + part["name"])
             self.assertEqual(chunks["part"]["shape"][1], 3)
             for offset, length in zip(chunks["numbers"][0::3], chunks["numbers"][1::3]):
                 self.assertLessEqual(offset + length, size)
-        values = self.dump("elements/value")["numbers"]
-        self.assertEqual(values, sorted(values, reverse=True))
+        places = self.dump("elements/place")["numbers"]
+        self.assertEqual(places, sorted(places))  # of noise
 
     def test_a_damaged_part_is_not_printed_but_the_others_are(self):
         whole = bytearray((self.folder / "noise.atlas").read_bytes())
         whole[self.dump("checksums/elements/place[0]")["numbers"][0] + 10] ^= 1
         (self.folder / "bad.atlas").write_bytes(whole)
         self.assertIn("elements/place", self.run_error(3, "dump", "bad.atlas", "elements/place")["where"])
-        self.run_ok("dump", "bad.atlas", "elements/value")
+        self.run_ok("dump", "bad.atlas", "elements/voxels")
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ class Schemas(harness.CliTest):
                 self.assert_schema(self.run_json("tree", file, "--detail", detail), "tree-" + detail)
         self.check("verify", "verify", "x.ply")
         self.check("info", "info", "noise.atlas", "--tau", "7")
-        for part in ([], ["header"], ["contents"], ["elements/value"], ["brick", "0"]):
+        for part in ([], ["header"], ["contents"], ["elements/place"], ["brick", "0"]):
             self.check("dump", "dump", "noise.atlas", *part)
 
 

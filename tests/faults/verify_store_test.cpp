@@ -195,13 +195,18 @@ TEST_F(VerifyStore, AWrongValueInTheTreesIsToldWithItsPlace) {
     EXPECT_NE(value.find("elements/value[7] is "), std::string::npos) << value;
 }
 
-TEST_F(VerifyStore, ARoundedValueThatIsNotThatOfTheSamplesIsTold) {
-    build_atlas(path_, make_phantom("noise", {.size = 12}));
-    const std::string value = after([](Opened& o) {
-        const auto values = o.numbers<float>("elements/value");
-        values[7] = (values[6] + values[7]) / 2;
+TEST_F(VerifyStore, AnElementOfNoiseThatTheSamplesDoNotHaveIsTold) {
+    const std::string order = after([](Opened& o) {
+        const auto places = o.numbers<std::uint32_t>("elements/place");
+        std::swap(places[0], places[places.size() - 1]);
     });
-    EXPECT_NE(value.find("not those of the samples"), std::string::npos) << value;
+    EXPECT_NE(order.find("not in the order of the grid"), std::string::npos) << order;
+    const std::string form = after([](Opened& o) {
+        const auto forms = o.numbers<std::uint16_t>("elements/form");
+        const auto face = std::ranges::find_if(forms, [](std::uint16_t bits) { return (bits & 3) == 1; });
+        *face ^= 1 << 6;  // the other diagonal
+    });
+    EXPECT_NE(form.find("critical elements are not"), std::string::npos) << form;
 }
 
 TEST_F(VerifyStore, AWrongNumberInTheTreesIsToldWithItsPlace) {

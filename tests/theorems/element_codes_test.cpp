@@ -1,9 +1,13 @@
-// A code, with the samples, says all of an element: its value follows bit by bit, and place and form are the code again.
+// A code, with the samples, says all of an element: its value follows bit by bit, place and form are the code again, and so is the order of
+// all elements.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <random>
+
 #include "critical/bodies.h"
 #include "critical/element_values.h"
+#include "critical/sort_codes.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 #include "store/element_form.h"
@@ -25,6 +29,11 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
         RC_ASSERT(form.place >= 0 && form.place < volume.info.extent.voxels());
         RC_ASSERT(isoatlas::store::code_of(form).bits == codes[i]);
     }
+    isoatlas::BigVector<std::uint64_t> shuffled(codes.begin(), codes.end());
+    isoatlas::BigVector<double> found;
+    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937_64(*rc::gen::arbitrary<std::uint64_t>()));
+    RC_ASSERT(isoatlas::sort_codes(volume, isoatlas::tunnel_height_of(interpolant, tunnel_height), 2, shuffled, found));
+    RC_ASSERT(std::ranges::equal(shuffled, codes) && std::ranges::equal(found, values));
 }
 
 RC_GTEST_PROP(ElementCodes, SayTheirValues, ()) {
