@@ -39,11 +39,8 @@ void Evolution::mark_kept(const BranchHierarchy& hierarchy, const std::vector<st
     for (const std::int64_t rank : kept) {
         const BranchInfo& branch = hierarchy.branches()[static_cast<std::size_t>(rank)];
         objects_.push_back({branch.appears, branch.merges});
-        for (std::int64_t event = branch.top; event >= 0;) {
-            const Event at = analysis_.event(event);
-            if (at.value <= branch.merges) break;
+        for (const std::int64_t event : events_of(analysis_, branch.top, branch.merges)) {
             rank_of_event_[static_cast<std::size_t>(event)] = rank;
-            event = at.parent;
         }
     }
 }

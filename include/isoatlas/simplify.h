@@ -29,6 +29,9 @@ struct BranchInfo {
     double measure;          ///< physical volume of these
 };
 
+/// The events of a branch, from its top down, those at which its object is still on its own. Cost: O(their number).
+[[nodiscard]] std::vector<std::int64_t> events_of(const Analysis& analysis, std::int64_t top, double merges);
+
 /// A node of the simplified tree: what happens to a kept object that is not bypassed. Its zone is the interval below it.
 struct SimplifiedNode {
     std::int64_t event;          ///< of the full tree

@@ -8,6 +8,7 @@
 #include "atlas/object_arrays.h"
 #include "store/event_arrays.h"
 #include "zones/hierarchy.h"
+#include "zones/keep_entries.h"
 
 namespace isoatlas {
 namespace {
@@ -54,18 +55,10 @@ std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTabl
     for (const ObjectEntry& entry : stored.entries) known.insert(entry.branch_top);
     for (const std::int64_t branch : hierarchy->kept(selection)) kept.insert(hierarchy->branches()[static_cast<std::size_t>(branch)].top);
     if (!std::ranges::includes(known, kept)) return std::nullopt;
-    ObjectTable table{{}, {}, stored.branches, stored.noise};
-    std::vector<std::int64_t> place(stored.entries.size(), -1);
-    for (std::size_t i = 0; i < stored.entries.size(); ++i) {
-        if (!kept.contains(stored.entries[i].branch_top)) continue;
-        place[i] = static_cast<std::int64_t>(table.entries.size());
-        table.entries.push_back(stored.entries[i]);
-    }
-    for (ObjectEntry& entry : table.entries) {  // as in first_entries()
-        while (entry.inside >= 0 && place[static_cast<std::size_t>(entry.inside)] < 0)
-            entry.inside = stored.entries[static_cast<std::size_t>(entry.inside)].inside;
-        if (entry.inside >= 0) entry.inside = place[static_cast<std::size_t>(entry.inside)];
-    }
+    ObjectTable table{stored.entries, {}, stored.branches, stored.noise};
+    std::vector<bool> keep;
+    for (const ObjectEntry& entry : stored.entries) keep.push_back(kept.contains(entry.branch_top));
+    keep_entries(table.entries, keep);
     std::ranges::copy_if(stored.isovalues, std::back_inserter(table.isovalues),
                          [&](const RecommendedIsovalue& isovalue) { return kept.contains(isovalue.branch_top); });
     return table;

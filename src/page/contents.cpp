@@ -76,7 +76,8 @@ private:
                                           .joined = joined[i],
                                           .stands_out = is_essential[i],
                                           .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{}});
-            if (is_shown[i]) mark_events(b, place[i]);
+            if (!is_shown[i]) continue;
+            for (const std::int64_t event : events_of(analysis_, b.top, b.merges)) branch_of_event_[event] = place[i];
         }
         for (PageBranch& b : contents_.branches) {
             while (b.parent >= 0 && place[b.parent] < 0) b.parent = all[b.parent].parent;
@@ -86,10 +87,6 @@ private:
     std::vector<CountColumn> shape_of(const BranchInfo& b) const {
         const std::vector<SpectrumInterval> intervals = branch_intervals(analysis_, b.top, b.merges);
         return count_columns(intervals, std::max(atlas_.range()[0], b.merges), contents_.scale, kShapeColumns);
-    }
-    void mark_events(const BranchInfo& b, std::int64_t place) {
-        for (std::int64_t event = b.top; event >= 0 && analysis_.event(event).value > b.merges; event = analysis_.event(event).parent)
-            branch_of_event_[event] = place;
     }
 
     void add_bright_entries(const ObjectTable& table) {

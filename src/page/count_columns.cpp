@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <ranges>
 
+#include "isoatlas/simplify.h"
+
 namespace isoatlas::page {
 namespace {
 
@@ -62,11 +64,9 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
 
 std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::int64_t branch_top, double merges) {
     std::vector<SpectrumInterval> intervals;
-    for (std::int64_t id = branch_top; id >= 0;) {
+    for (const std::int64_t id : events_of(analysis, branch_top, merges)) {
         const Event event = analysis.event(id);
-        if (!(event.value > merges)) break;
         intervals.push_back({event.zone.tau_low, event.value, {1, event.contours, event.b1, event.b2}, {}});
-        id = event.parent;
     }
     return intervals;
 }

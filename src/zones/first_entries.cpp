@@ -4,6 +4,7 @@
 
 #include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
+#include "zones/keep_entries.h"
 
 namespace isoatlas {
 
@@ -51,15 +52,11 @@ bool is_background(const ObjectEntry& entry, const Extent& extent) {
 
 namespace {
 
-/// What contains an entry lies in each other: when the closest one is gone, the one around it is the closest.
 template <class Entry>
 void keep_first(std::vector<Entry>& entries, std::int64_t top) {
-    const auto all = static_cast<std::int64_t>(entries.size()), count = top > 0 && top < all ? top : all;
-    for (std::int64_t i = 0; i < count; ++i) {
-        std::int64_t& inside = entries[static_cast<std::size_t>(i)].inside;
-        while (inside >= count) inside = entries[static_cast<std::size_t>(inside)].inside;
-    }
-    entries.resize(static_cast<std::size_t>(count));
+    std::vector<bool> keep(entries.size(), true);
+    for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = top <= 0 || static_cast<std::int64_t>(i) < top;
+    keep_entries(entries, keep);
 }
 
 std::string inside_text(std::int64_t inside) { return "inside " + std::to_string(inside + 1); }

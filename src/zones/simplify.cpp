@@ -95,6 +95,17 @@ BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, c
     return BranchHierarchy(std::move(data));
 }
 
+std::vector<std::int64_t> events_of(const Analysis& analysis, std::int64_t top, double merges) {
+    std::vector<std::int64_t> events;
+    for (std::int64_t id = top; id >= 0;) {
+        const Event event = analysis.event(id);
+        if (!(event.value > merges)) break;
+        events.push_back(id);
+        id = event.parent;
+    }
+    return events;
+}
+
 BranchHierarchy::BranchHierarchy(const Volume& volume, const Analysis& analysis, const Context&) : data_(std::make_unique<Data>()) {
     if (volume.info.extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
