@@ -3,7 +3,8 @@ import type { Page } from "../page";
 import type { Actions } from "./actions";
 import type { Api } from "./api";
 import type { Stage } from "./stage";
-import type { History, Shown, State } from "./state";
+import type { History } from "./history";
+import type { Shown, State } from "./state";
 
 export interface Desk {
   readonly page: Page;

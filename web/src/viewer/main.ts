@@ -3,9 +3,11 @@ import { html } from "../dom";
 import { overview } from "../overview";
 import type { Page } from "../page";
 import { Actions } from "./actions";
+import { fromHash, toHash } from "./address";
 import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
 import { keep, selectedOf, type Desk } from "./desk";
+import { History } from "./history";
 import { ListPanel } from "./list_panel";
 import { look } from "./look";
 import { help, menus } from "./menus";
@@ -13,7 +15,7 @@ import { ObjectPanel } from "./object_panel";
 import { Scene } from "./scene";
 import { bestOf, eventsOf, ownRange, titleOf, whichOf } from "./shown";
 import { Stage } from "./stage";
-import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type Shown, type State } from "./state";
+import { add, change, isolate, nextEvent, NOTHING, remove, type Shown, type State } from "./state";
 import "./viewer.css";
 
 /** of the range, for one step of a key */
