@@ -61,7 +61,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.getByRole("button", { name: /^Object 4/ }).click();
     await tab.getByRole("button", { name: /^Object 5/ }).click({ modifiers: ["Shift"] });
     expect(await tab.locator(".objects input:checked").count()).toBe(2);
-    await tab.getByRole("button", { name: "Hide" }).click();
+    await tab.getByRole("button", { name: "remove object 5" }).click();
     expect(await tab.locator(".objects input:checked").count()).toBe(1);
     expect(await tab.locator(".object h2").textContent()).toBe("Object 4");
     await tab.close();
@@ -73,7 +73,9 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.getByRole("button", { name: /^Dark object 1/ }).click();
     await expect.poll(() => seen.length).toBeGreaterThan(0);
     expect(seen[0]?.asked.has("contour")).toBe(true);
-    expect(await tab.locator(".object code").textContent()).toContain("--contour");
+    await tab.keyboard.press("s");
+    expect(await tab.locator(".save code").textContent()).toContain("--contour");
+    await tab.keyboard.press("Escape");
     await tab.keyboard.press("t");
     await tab.locator(".tree .mark").nth(3).click();
     expect(await tab.locator(".object h2").textContent()).toMatch(/^Object/);
@@ -83,7 +85,8 @@ describe.skipIf(!canServe)("the viewer", () => {
 
   it("saves a surface that is closed", async () => {
     const { tab } = await open();
-    await tab.getByRole("combobox", { name: "format" }).selectOption("ply");
+    await tab.keyboard.press("s");
+    await tab.getByRole("combobox", { name: "format of the surface" }).selectOption("ply");
     const [download] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("button", { name: "Save the surface" }).click()]);
     await download.saveAs(join(served.folder, "saved.ply"));
     expect(isoatlas("verify", "saved.ply")).toContain("all 8 guarantees hold");

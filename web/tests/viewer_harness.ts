@@ -52,9 +52,10 @@ export class Served {
     return execFileSync(cli, words, { cwd: this.folder, encoding: "utf8" });
   }
 
-  /** A tab with the page, and what went wrong in it so far. */
-  async open(hash = "", options: BrowserContextOptions = {}): Promise<{ tab: Tab; problems: string[] }> {
+  /** A tab with the page, and what went wrong in it so far. The tour was seen before, unless this is the first time. */
+  async open(hash = "", options: BrowserContextOptions = {}, firstTime = false): Promise<{ tab: Tab; problems: string[] }> {
     const tab = await this.browser.newPage({ viewport: { width: 1000, height: 700 }, ...options });
+    if (!firstTime) await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
     const problems: string[] = [];
     tab.on("pageerror", (error) => problems.push(error.message));
     tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));

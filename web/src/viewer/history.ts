@@ -38,6 +38,13 @@ export class History {
     this.tell(before, transient);
   }
 
+  /** Makes the present state more exact; that is no step of its own. */
+  amend(state: State): void {
+    const before = this.now;
+    this.states[this.at] = state;
+    this.tell(before, false);
+  }
+
   undo(): boolean {
     return this.move(-1);
   }

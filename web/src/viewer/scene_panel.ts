@@ -1,5 +1,5 @@
 // What is shown: a row for each object, to show or hide it, select it, and take it out. The row of what is selected says more.
-import { html } from "../dom";
+import { html, svg } from "../dom";
 import { count, value } from "../format";
 import type { Desk } from "./desk";
 import { PALETTE } from "./palette";
@@ -21,7 +21,7 @@ export class ScenePanel {
     const { history, editor, scene } = desk;
     this.undo = html("button", { type: "button", class: "plain", click: () => history.undo() }, "↶");
     this.redo = html("button", { type: "button", class: "plain", click: () => history.redo() }, "↷");
-    this.ghosts = html("button", { type: "button", click: () => editor.ghost() }, "Ghost the others");
+    this.ghosts = html("button", { type: "button", click: () => editor.ghost() }, "Ghost others");
     this.element = html("section", { class: "scene", "aria-label": "what is shown" }, html("header", {}, this.heading, this.ghosts, this.undo, this.redo), this.list);
     scene.onArrival((entry) => this.note(entry));
   }
@@ -65,8 +65,8 @@ export class ScenePanel {
     const name = title.toLowerCase();
     const note = html("span", { class: "note" });
     const button = (mark: string, label: string, hint: string, run: () => void): HTMLElement =>
-      html("button", { type: "button", class: `plain ${mark}`, "aria-label": `${label} ${name}`, title: hint, "data-focus": `${mark} ${shown.entry}`, click: run });
-    const pick = html("button", { type: "button", class: "name", "data-focus": `name ${shown.entry}`, "aria-current": selected ? "true" : "false", click: () => editor.select(i) });
+      html("button", { type: "button", class: `plain ${mark}`, "aria-label": `${label} ${name}`, title: hint, "data-focus": `${mark} ${shown.entry}`, click: run }, mark === "eye" && eye());
+    const pick = html("button", { type: "button", class: "name", "data-focus": `name ${shown.entry}`, "aria-label": `Select ${title}`, "aria-current": selected ? "true" : "false", click: () => editor.select(i) });
     pick.append(html("span", { class: "swatch" }), html("span", {}, html("b", {}, title), " ", note));
     const line = html("div", { class: "row" }, button("eye", "show", "show or hide", () => editor.show(i)), pick, button("out", "remove", "take it out of the scene", () => editor.remove(i)));
     const row = html("li", { class: selected ? "selected" : "" }, line, selected && this.more(shown, name));
@@ -118,6 +118,11 @@ export class ScenePanel {
     const note = this.rows.find((row) => row.entry === entry)?.note;
     if (shown && note) note.textContent = noteOf(shown, this.desk.scene.arrivalOf(entry));
   }
+}
+
+function eye(): SVGSVGElement {
+  const lids = svg("path", { d: "M2 12c3-5 6-7 10-7s7 2 10 7c-3 5-6 7-10 7s-7-2-10-7z" });
+  return svg("svg", { viewBox: "0 0 24 24", "aria-hidden": "true" }, lids, svg("circle", { cx: 12, cy: 12, r: 3 }), svg("path", { class: "shut", d: "M4 4l16 16" }));
 }
 
 /** Such as "at 81.2, 21,324 triangles". */
