@@ -1,9 +1,9 @@
 // A volume that `isoatlas view` serves, and a browser that opens the page: what the stories of the viewer share. Skipped where there is no
 // Chromium or no isoatlas.
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Page as Tab } from "playwright-core";
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
@@ -34,7 +34,19 @@ export class Served {
   static async phantom(...phantom: string[]): Promise<Served> {
     const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
     const name = phantom[0] ?? "demo";
-    execFileSync(cli, ["phantom", ...phantom, "-o", `${name}.nrrd`], { cwd: folder });
+    execFileSync(cli, ["phantom", ...phantom, "-o", `${name}.nrrd`, "--quiet"], { cwd: folder });
+    return Served.begin(folder, name);
+  }
+
+  /** A volume that is there. */
+  static async file(path: string): Promise<Served> {
+    const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
+    const name = basename(path).replace(/\..*/, "");
+    symlinkSync(path, join(folder, `${name}.nrrd`));
+    return Served.begin(folder, name);
+  }
+
+  private static async begin(folder: string, name: string): Promise<Served> {
     const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet"], { cwd: folder });
     const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });

@@ -21,7 +21,7 @@ export function animatedPng(frames: readonly Uint8Array[], framesPerSecond: numb
   let number = 0;
   pictures.forEach((picture, i) => {
     if (String(find(picture, "IHDR")) !== String(header)) throw new Error("a picture of the animation has another size");
-    const control = new Uint8Array([...words(number++), ...size, ...words(0, 0), 0, 1, ...delay(framesPerSecond), 0, 0]);
+    const control = new Uint8Array([...words(number++), ...size, ...words(0, 0), ...delay(framesPerSecond), 0, 0]);
     chunks.push({ type: "fcTL", bytes: control });
     for (const { type, bytes } of picture) {
       if (type !== "IDAT") continue;

@@ -1,6 +1,6 @@
 // What is shown: a row for each object, to show or hide it, select it, and take it out. The row of what is selected says more.
 import { html, svg } from "../dom";
-import { count, value } from "../format";
+import { count, plural, value } from "../format";
 import type { Desk } from "./desk";
 import { PALETTE } from "./palette";
 import { colourOf, colourOfShown, titleOf } from "./shown";
@@ -131,6 +131,7 @@ export function noteOf(shown: Shown, arrival: Arrival): string {
   if (!shown.visible) parts.push("hidden");
   else if (arrival.error) parts.push("not there");
   else if (shown.walls === "cavities" && arrival.triangles === 0 && !arrival.waiting) parts.push("no cavities");
+  else if (arrival.walls) parts.push(`${plural(arrival.walls, "cavity", "cavities")}, ${count(arrival.triangles)} triangles`);
   else if (arrival.triangles > 0) parts.push(`${count(arrival.triangles)} triangles${arrival.coarse ? ", coarse" : ""}`);
   return parts.join(", ");
 }

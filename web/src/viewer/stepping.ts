@@ -13,7 +13,8 @@ export function deltaOf(page: Page, state: State): number {
   return DELTA.of(state) ?? Number((SHARE * (page.axis.high - page.axis.low)).toPrecision(3));
 }
 
-export function stepping({ page, actions, editor, history, say }: Desk & { say(text: string): void }): void {
+export function stepping(desk: Desk): void {
+  const { page, actions, editor, history } = desk;
   const events = eventsOf(page);
   const step = (by: number) => (): void => {
     if (editor.selected) editor.move(editor.selected.tau + by * deltaOf(page, history.now));
@@ -22,7 +23,7 @@ export function stepping({ page, actions, editor, history, say }: Desk & { say(t
     const tau = editor.selected && nextEvent(events.map((event) => event.tau), editor.selected.tau, up);
     if (typeof tau !== "number") return;
     editor.move(tau);
-    say(events.find((event) => event.tau === tau)?.text ?? "");
+    desk.say(events.find((event) => event.tau === tau)?.text ?? "");
   };
   actions.add(
     { group: "Isovalue", name: "down by a step", keys: ["["], run: step(-1) },

@@ -1,5 +1,6 @@
 // Surfaces as they are asked for and as they come, one lane an object: coarse ones while something is dragged, whole ones when it rests.
 import { isOvertaken, type Api, type Which } from "./api";
+import { pieces } from "./pieces";
 import type { Walls } from "./state";
 import type { Mesh } from "./wire";
 
@@ -19,11 +20,13 @@ export interface Arrival {
   triangles: number;
   bytes: number;
   coarse: boolean;
+  /** of walls of cavities: how many; null: not counted */
+  walls: number | null;
   waiting: boolean;
   error: string;
 }
 
-const NONE: Arrival = { tau: NaN, triangles: 0, bytes: 0, coarse: false, waiting: false, error: "" };
+const NONE: Arrival = { tau: NaN, triangles: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
 
 class Lane {
   key = "";
@@ -99,7 +102,7 @@ export class Surfaces {
         const mesh = await this.api.surface(laneName(entry), wish.tau, wish.which, most, wish.walls);
         if (isOld()) return;
         lane.shown = key;
-        lane.arrival = { tau: wish.tau, triangles: mesh.triangles, bytes: mesh.bytes, coarse: mesh.coarse, waiting: false, error: "" };
+        lane.arrival = { tau: wish.tau, triangles: mesh.triangles, bytes: mesh.bytes, coarse: mesh.coarse, walls: wish.walls === "cavities" && !mesh.coarse ? pieces(mesh.corners) : null, waiting: false, error: "" };
         this.came(entry, mesh, wish.tau);
         if (!mesh.coarse) break;
       }

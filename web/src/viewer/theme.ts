@@ -11,14 +11,15 @@ export function isDarkPage(): boolean {
   return colorScheme === "dark" || (colorScheme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
 }
 
-export function theme({ actions, say }: Desk & { say(text: string): void }): void {
+export function theme(desk: Desk): void {
+  const { actions } = desk;
   let now: Theme = THEMES.find((name) => name === recall("theme")) ?? "system";
   const wear = (): void => void (document.documentElement.style.colorScheme = now === "system" ? "light dark" : now);
   const next = (): void => {
     now = THEMES[(THEMES.indexOf(now) + 1) % THEMES.length] ?? "system";
     remember("theme", now);
     wear();
-    say(now === "system" ? "light or dark, as the system has it" : `${now}, whatever the system has`);
+    desk.say(now === "system" ? "light or dark, as the system has it" : `${now}, whatever the system has`);
   };
   wear();
   actions.add({ group: "Look", keys: ["d"], run: next, get name() { return `light or dark: ${now === "system" ? "as the system has it" : now}`; } });
