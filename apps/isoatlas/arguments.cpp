@@ -132,6 +132,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
     } else if (verb == "render") {
         add_picture(app, arguments, typed.picture);
+        add_camera(app, typed.picture);
         add_output(app, arguments, ".png .webp", true);
     } else if (verb == "animate") {
         add_animation(app, arguments);

@@ -15,6 +15,7 @@ CLI::Validator in_range(T low, T high) {
 }
 
 void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words);
+void add_camera(CLI::App& app, PictureWords& words);
 void add_animation(CLI::App& app, Arguments& arguments);
 
 /// Which objects are to be seen. top: also --top P%, where --top has no other meaning.

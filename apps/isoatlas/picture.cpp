@@ -28,13 +28,15 @@ std::optional<T> number_in(const std::string& word, int base = 10) {
     return value;
 }
 
-ShownObject shown_object(const std::string& word) {
+ShownObject shown_object(const std::string& word, ShownPart part) {
     const std::size_t at = word.find('@');
     const std::optional<std::int64_t> id = number_in<std::int64_t>(word.substr(0, at));
-    ShownObject object{.id = id.value_or(0), .tau = {}};
+    ShownObject object{.id = id.value_or(0), .tau = {}, .part = part};
     if (at != std::string::npos) object.tau = number_in<double>(word.substr(at + 1));
-    if (!id || (at != std::string::npos && !object.tau)) bad("--object", word, "an id of the table, or with its isovalue: 81275@150");
-    return object;
+    const bool needs_tau = at != std::string::npos || part != ShownPart::object;
+    if (id && (object.tau || !needs_tau)) return object;
+    if (part == ShownPart::object) bad("--object", word, "an id of the table, or with its isovalue: 81275@150");
+    bad(part == ShownPart::contour ? "--contour" : "--cavities", word, "an id with its isovalue: 81275@150");
 }
 
 std::optional<Colour> colour_in(const std::string& word) {
@@ -66,17 +68,6 @@ ShownMaterial shown_material(const std::string& word) {
     const std::optional<double> opacity = parts.size() == 5 ? number_in<double>(parts[4]) : 0.1;
     if (!mean || !sigma || !(*sigma > 0) || !colour || !opacity || !(*opacity >= 0 && *opacity < 1)) bad("--material", word, expected);
     return {.name = parts[0], .mean = *mean, .sigma = *sigma, .colour = *colour, .opacity = *opacity};
-}
-
-/// "x>12.5": what is cut away.
-HalfSpace half_space(const std::string& word, const std::string& all) {
-    const std::optional<double> offset = word.size() > 2 ? number_in<double>(word.substr(2)) : std::nullopt;
-    if (!offset || word[0] < 'x' || word[0] > 'z' || (word[1] != '<' && word[1] != '>'))
-        bad("--cut", all, "octant, half, or planes such as x>12.5,y<3");
-    const double sign = word[1] == '>' ? 1 : -1;
-    HalfSpace half{.normal = {0, 0, 0}, .offset = sign * *offset};
-    half.normal[static_cast<std::size_t>(word[0] - 'x')] = sign;
-    return half;
 }
 
 void convert_cut(const std::string& word, PictureArguments& picture) {
@@ -141,7 +132,9 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     for (const double opacity : words.opacities) {
         if (!(opacity > 0 && opacity <= 1)) bad("--opacity", std::to_string(opacity), "above 0 and at most 1");
     }
-    for (const std::string& word : words.objects) picture.objects.push_back(shown_object(word));
+    for (const std::string& word : words.objects) picture.objects.push_back(shown_object(word, ShownPart::object));
+    for (const std::string& word : words.contours) picture.objects.push_back(shown_object(word, ShownPart::contour));
+    for (const std::string& word : words.cavities) picture.objects.push_back(shown_object(word, ShownPart::cavities));
     for (const std::string& word : words.colours) picture.colours.push_back(colour_of(word));
     for (const std::string& word : words.slices) picture.slices.push_back(shown_slice(word));
     for (const std::string& word : words.materials) picture.materials.push_back(shown_material(word));
@@ -151,6 +144,7 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     convert_cut(words.cut, picture);
     picture.up = axis_of(words.up);
     picture.view = view_of(words.view, picture.up);
+    picture.camera = shown_camera(words);
     convert_size(words.size, picture);
     picture.background =
         parse_choice<Background>("--background", words.background,

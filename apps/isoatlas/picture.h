@@ -12,14 +12,26 @@ namespace isoatlas::cli {
 /// As typed.
 struct PictureWords {
     std::vector<double> taus, opacities;
-    std::vector<std::string> objects, colours, slices, materials;
+    std::vector<std::string> objects, contours, cavities, colours, slices, materials;
     std::string cut, view = "auto", up = "z", size = "768x768", background = "light";
+    std::string eye, target;
+    double height = 0;  ///< 0: not given
 };
 
-/// --object ID or ID@T
+/// What of an object: all of its surface, one contour, or the walls of its cavities.
+enum class ShownPart : std::uint8_t { object, contour, cavities };
+
+/// --object ID or ID@T, --contour ID@T, --cavities ID@T
 struct ShownObject {
     std::int64_t id = 0;
-    std::optional<double> tau;  ///< calibrated
+    std::optional<double> tau;  ///< calibrated; of an object: none is its best one
+    ShownPart part = ShownPart::object;
+};
+
+/// --eye, --target, --height
+struct ShownCamera {
+    Vec3 eye{}, target{};
+    double height = 0;  ///< of the picture at the target, physical
 };
 
 /// --slice z=40
@@ -52,7 +64,8 @@ struct PictureArguments {
     CutShape cut = CutShape::none;
     std::vector<HalfSpace> planes;  ///< of CutShape::planes
     Vec3 up{0, 0, 1};
-    std::optional<View> view;  ///< none: the best one
+    std::optional<View> view;           ///< none: the best one
+    std::optional<ShownCamera> camera;  ///< instead of the view
     std::int64_t width = 768, height = 768;
     Background background = Background::light;
     int samples = 0;  ///< 0: not given
@@ -67,6 +80,11 @@ struct PictureArguments {
 void convert_picture(const PictureWords& words, PictureArguments& picture);
 
 [[nodiscard]] RenderOptions options_of_picture(const PictureArguments& picture);
+/// What --eye, --target and --height ask for. Throws Error{usage} for half of it.
+[[nodiscard]] std::optional<ShownCamera> shown_camera(const PictureWords& words);
+[[nodiscard]] Camera camera_of(const ShownCamera& shown, const PictureArguments& picture);
+/// "x>12.5" or "0.6x-0.8z>3": the half-space that is cut away; `all`: what was typed.
+[[nodiscard]] HalfSpace half_space(const std::string& word, const std::string& all);
 /// What the file calls a unit of length, for the scale bar.
 [[nodiscard]] std::string length_unit(const VolumeInfo& info);
 

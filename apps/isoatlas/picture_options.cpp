@@ -8,10 +8,12 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     };
     add("--tau", words.taus, "Everything at these isovalues (calibrated), one object in the picture each", "T");
     add("--object", words.objects, "These objects, each at its isovalue; left out: its best one", "ID[@T]");
+    add("--contour", words.contours, "These contours, such as the wall of a dark object, each at an isovalue", "ID@T");
+    add("--cavities", words.cavities, "Only the walls of the cavities of these objects, each at an isovalue", "ID@T");
     add("--top", arguments.top, "The first N objects of the table, each at its best isovalue (1)", "N")->check(in_range(1, 1000));
     add("--opacity", words.opacities, "Of each thing in the picture, 0 to 1; left out: what hides others is transparent", "P");
     add("--colour", words.colours, "Of each thing in the picture, as #RRGGBB", "C");
-    add("--cut", words.cut, "Cut away: octant (nearest to the eye), half, or where all hold: x>12.5,y<3 (physical)", "WHAT");
+    add("--cut", words.cut, "Cut away: octant (nearest to the eye), half, or where all hold: x>12.5,0.6y-0.8z<3 (physical)", "WHAT");
     add("--slice", words.slices, "Also slices, in grey with the contours of the isovalues: x, y or z = number of samples", "z=40");
     app.add_flag("--flat", arguments.picture.flat, "The (first) slice alone, as a plain picture");
     app.add_flag("--volume", arguments.picture.volume, "Also the volume as glowing matter, one colour for each object of the table");
@@ -25,6 +27,16 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));
     app.add_flag("--perspective", arguments.picture.perspective, "Things further away look smaller; no scale bar then");
     app.add_flag("--plain", arguments.picture.plain, "No scale bar and no legend");
+}
+
+void add_camera(CLI::App& app, PictureWords& words) {
+    const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
+        return app.add_option(name, value, meaning)->type_name(type);
+    };
+    add("--eye", words.eye, "Where the eye is, physical, instead of --view; with --target", "X,Y,Z")->excludes("--view");
+    add("--target", words.target, "What is in the middle of the picture, physical", "X,Y,Z");
+    add("--height", words.height, "Of the picture at the target, physical; left out: an angle of 30 degrees", "H")
+        ->check(in_range(1e-300, 1e300));
 }
 
 void add_animation(CLI::App& app, Arguments& arguments) {

@@ -90,9 +90,12 @@ int run_render(const Arguments& arguments, Terminal& terminal) {
     if (picture.flat) {
         image = upright(scene.slices[0].picture, picture);
     } else {
-        const View view = picture.view ? *picture.view : best_view(scene, picture.up, source.context());
-        scene.removed = removed_part(picture, source.info(), view);
-        camera = fit_camera(scene, view, options);
+        if (picture.camera) {
+            camera = camera_of(*picture.camera, picture);
+        } else {
+            camera = fit_camera(scene, picture.view ? *picture.view : best_view(scene, picture.up, source.context()), options);
+        }
+        scene.removed = removed_part(picture, source.info(), camera.view);
         image = render_scene(scene, camera, options, source.context());
     }
     {

@@ -25,6 +25,8 @@ struct Wanted {
     double tau = 0;  ///< stored
     std::vector<std::int64_t> objects;
     std::string name;
+    std::vector<std::int64_t> contours{};
+    ShellChoice shell = ShellChoice::all;
 };
 
 Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
@@ -38,6 +40,14 @@ ObjectTable lines_by_id(Source& source) {
     return table.branches > kLines ? table : source.objects({.top = 0, .gate = false});
 }
 
+Wanted wanted_part(const ShownObject& shown, const Scale& scale) {
+    const std::string name = fmt::format("{}  at {}", shown.id, *shown.tau);
+    Wanted wanted{.tau = scale.stored(*shown.tau), .objects = {shown.id}, .name = name};
+    if (shown.part == ShownPart::contour) wanted = {.tau = wanted.tau, .objects = {}, .name = "wall of " + name, .contours = {shown.id}};
+    if (shown.part == ShownPart::cavities) wanted.name = "cavities of " + name, wanted.shell = ShellChoice::inner;
+    return wanted;
+}
+
 void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& wanted) {
     const Scale scale(source.info());
     std::optional<ObjectTable> table;
@@ -45,7 +55,7 @@ void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& 
         if (shown.id < 0 || shown.id >= source.info().extent.voxels())
             nothing_there(arguments, fmt::format("there is no object {}", shown.id));
         if (shown.tau) {
-            wanted.push_back({scale.stored(*shown.tau), {shown.id}, fmt::format("{}  at {}", shown.id, *shown.tau)});
+            wanted.push_back(wanted_part(shown, scale));
             continue;
         }
         if (!table) table = lines_by_id(source);
@@ -222,6 +232,8 @@ Scene scene_of(const Arguments& arguments, Source& source) {
     for (const Wanted& wanted : wanted_of(arguments, source)) {
         ExtractOptions options;
         options.objects = wanted.objects;
+        options.contours = wanted.contours;
+        options.shell = wanted.shell;
         options.ids = false;
         Surface surface = source.extract(wanted.tau, options);
         if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);

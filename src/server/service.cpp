@@ -108,6 +108,8 @@ Answer Service::surface_answer(const Question& question) {
     ExtractOptions options;
     options.objects = words.list("object", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
     options.contours = words.list("contour", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
+    const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
+    if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
     options.ids = format.has_value();
     const std::int64_t most = words.whole("most", 1, kMostTriangles).value_or(kMostTriangles);

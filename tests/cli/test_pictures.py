@@ -205,10 +205,33 @@ class Pictures(CliTest):
         self.assertLess(sum(difference) / len(difference), 6)
         self.assertEqual([path.name for path in self.folder.glob("p.mp4*")], ["p.mp4"])
 
+    def test_an_eye_somewhere(self):
+        """The camera that the document tells, given back, makes the same picture; a plane can be oblique."""
+        words = ["--tau", "60", "--size", "64x48", "--samples", "1", "--plain"]
+        for more in ([], ["--perspective"]):
+            camera = self.run_json("render", "figure.nrrd", *words, *more, "--view", "30,20", "-o", "a.png")["camera"]
+            far = 3.5 if more else 1e3
+            eye = ",".join(repr(t + far * d) for t, d in zip(camera["target"], camera["toward"]))
+            place = ["--eye=" + eye, "--target=" + ",".join(map(repr, camera["target"])), "--height", repr(camera["height"])]
+            again = self.run_json("render", "figure.nrrd", *words, *more, *place, "-o", "b.png")["camera"]
+            self.assertEqual(again["projection"], camera["projection"])
+            self.assertAlmostEqual(again["height"], camera["height"])
+            if not more:
+                self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        for cut, same in (("x>20", "1x+0y>20"), ("z<20", "-z>-20"), ("0.5y>10", "y>20")):
+            self.run_ok("render", "figure.nrrd", *words, "--cut", cut, "-o", "a.png", "--quiet")
+            self.run_ok("render", "figure.nrrd", *words, "--cut=" + same, "-o", "b.png", "--quiet")
+            self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
     def test_what_goes_wrong(self):
         self.run_error(2, "render", "figure.nrrd", "-o", "p.bmp", says=".bmp")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--view", "above", says="--view")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--cut", "x=3", says="--cut")
+        for cut in ("x>", ">3", "2>3", "x-+y>3", "1e999x>3", "0x>3", "x>nan"):
+            self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--cut", cut, says="--cut")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--eye", "1,2,3", says="--target")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--eye", "1,2,3", "--target", "1,2,3", says="--eye")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--contour", "12", says="--contour")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--colour", "red", says="--colour")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--up", "w", says="--up")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--size", "0x7", says="--size")

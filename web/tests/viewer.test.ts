@@ -1,58 +1,21 @@
 // What a newcomer does, in a browser, on a store that `isoatlas view` serves. Skipped where there is no Chromium or no isoatlas.
-import { execFileSync, spawn, type ChildProcess } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { chromium, type Browser, type Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-
-const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
-const cli = process.env.ISOATLAS_CLI ?? "";
+import { canServe, meshes, Served } from "./viewer_harness";
 
 interface Listed {
   id: number;
   best_tau: number;
 }
 
-describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
-  let browser: Browser;
-  let server: ChildProcess;
-  let address = "";
-  let folder = "";
-  const isoatlas = (...words: string[]): string => execFileSync(cli, words, { cwd: folder, encoding: "utf8" });
-
+describe.skipIf(!canServe)("the viewer", () => {
+  let served: Served;
   beforeAll(async () => {
-    folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
-    isoatlas("phantom", "demo", "-o", "demo.nrrd");
-    server = spawn(cli, ["view", "demo.nrrd", "--no-browser", "--quiet"], { cwd: folder });
-    address = await new Promise((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
-    browser = await chromium.launch({ executablePath: browserFile, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+    served = await Served.phantom("demo");
   }, 60_000);
-  afterAll(async () => {
-    await browser?.close();
-    server?.kill("SIGINT");
-    rmSync(folder, { recursive: true });
-  });
-
-  async function open(hash = ""): Promise<{ tab: Tab; problems: string[] }> {
-    const tab = await browser.newPage({ viewport: { width: 1000, height: 700 } });
-    const problems: string[] = [];
-    tab.on("pageerror", (error) => problems.push(error.message));
-    tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));
-    await tab.goto(address + hash);
-    await tab.waitForSelector(".objects li");
-    return { tab, problems };
-  }
-  /** Mesh answers from now on, by what their address asks. */
-  function meshes(tab: Tab): { asked: URLSearchParams; triangles: number; coarse: boolean }[] {
-    const list: { asked: URLSearchParams; triangles: number; coarse: boolean }[] = [];
-    tab.on("response", (answer) => {
-      const url = new URL(answer.url());
-      if (url.pathname !== "/api/surface" || answer.status() !== 200) return;
-      list.push({ asked: url.searchParams, triangles: Number(answer.headers()["x-triangles"]), coarse: answer.headers()["x-coarse"] === "1" });
-    });
-    return list;
-  }
+  afterAll(() => served?.close());
+  const open: Served["open"] = (...all) => served.open(...all);
+  const isoatlas = (...words: string[]): string => served.isoatlas(...words);
 
   it("shows the first object at once, as many triangles as the command line extracts", async () => {
     const { tab, problems } = await open();
@@ -98,7 +61,7 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
     await tab.getByRole("button", { name: /^Object 4/ }).click();
     await tab.getByRole("button", { name: /^Object 5/ }).click({ modifiers: ["Shift"] });
     expect(await tab.locator(".objects input:checked").count()).toBe(2);
-    await tab.getByRole("button", { name: "Hide" }).click();
+    await tab.getByRole("button", { name: "remove object 5" }).click();
     expect(await tab.locator(".objects input:checked").count()).toBe(1);
     expect(await tab.locator(".object h2").textContent()).toBe("Object 4");
     await tab.close();
@@ -110,7 +73,9 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
     await tab.getByRole("button", { name: /^Dark object 1/ }).click();
     await expect.poll(() => seen.length).toBeGreaterThan(0);
     expect(seen[0]?.asked.has("contour")).toBe(true);
-    expect(await tab.locator(".object code").textContent()).toContain("--contour");
+    await tab.keyboard.press("s");
+    expect(await tab.locator(".save code").textContent()).toContain("--contour");
+    await tab.keyboard.press("Escape");
     await tab.keyboard.press("t");
     await tab.locator(".tree .mark").nth(3).click();
     expect(await tab.locator(".object h2").textContent()).toMatch(/^Object/);
@@ -120,9 +85,10 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
 
   it("saves a surface that is closed", async () => {
     const { tab } = await open();
-    await tab.getByRole("combobox", { name: "format" }).selectOption("ply");
+    await tab.keyboard.press("s");
+    await tab.getByRole("combobox", { name: "format of the surface" }).selectOption("ply");
     const [download] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("button", { name: "Save the surface" }).click()]);
-    await download.saveAs(join(folder, "saved.ply"));
+    await download.saveAs(join(served.folder, "saved.ply"));
     expect(isoatlas("verify", "saved.ply")).toContain("all 8 guarantees hold");
     await tab.close();
   });
@@ -145,8 +111,8 @@ describe.skipIf(!browserFile || !existsSync(cli))("the viewer", () => {
   });
 
   it("says why when the token is wrong", async () => {
-    const tab = await browser.newPage();
-    await tab.goto(address.replace(/token=.*/, "token=none"));
+    const tab = await served.browser.newPage();
+    await tab.goto(served.address.replace(/token=.*/, "token=none"));
     expect(await tab.getByRole("alert").textContent()).toContain("token");
     await tab.close();
   });

@@ -1,5 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { add, change, fromHash, History, isolate, nextEvent, NOTHING, remove, toHash, type State } from "../src/viewer/state";
+import { fromHash, toHash } from "../src/viewer/address";
+import { History } from "../src/viewer/history";
+import { flag, number } from "../src/viewer/part";
+import { add, change, changeAll, isolate, nextEvent, NOTHING, remove, shownAt, type State } from "../src/viewer/state";
 import { roundLength } from "../src/viewer/scale_bar";
 import { unfolded } from "../src/viewer/wire";
 
@@ -17,36 +20,69 @@ describe("a scene", () => {
     expect(remove(remove(two, 1), 0)).toEqual(NOTHING);
   });
   it("keeps an object's isovalue when it is isolated", () => {
-    expect(isolate(change(two, 1, { tau: 7 }), 1, 20.5).shown).toEqual([{ entry: 1, tau: 7, opacity: 1, visible: true }]);
+    expect(isolate(change(two, 1, { tau: 7 }), 1, 20.5).shown).toEqual([shownAt(1, 7)]);
   });
   it("is the same after a link", () => {
-    const seen = { ...change(two, 0, { opacity: 0.4 }), view: [1, 2, 3, -4, 5.5, 6] };
+    const seen = { ...change(two, 0, { opacity: 0.4, colour: "#12ab00", walls: "cavities" as const, visible: false }), view: [1, 2, 3, -4, 5.5, 6] };
     expect(fromHash(toHash(seen), 4)).toEqual(seen);
     expect(fromHash(toHash(NOTHING), 0)).toEqual(NOTHING);
   });
   it("is not made of what is none", () => {
-    for (const hash of ["", "#", "#scene=1", "#scene=9,1,1,1", "#scene=-2,1,1,1", "#scene=1,x,1,1", "#scene=1,1,2,1", "#scene=1.5,1,1,1", "#scene=1,1,1,1,1"])
+    for (const hash of ["", "#", "#scene=1", "#scene=9,1,1,1", "#scene=-2,1,1,1", "#scene=1,x,1,1", "#scene=1,1,2,1", "#scene=1.5,1,1,1", "#scene=1,1,1,1,1", "#scene=1,1,1,1;1,2,1,1", "#scene=1,1,1,1,,half"])
       expect(fromHash(hash, 4), hash).toBeNull();
-    expect(fromHash("#scene=1,1,1,1&selected=7&view=1,2,x,4,5,6", 4)).toEqual({ shown: [{ entry: 1, tau: 1, opacity: 1, visible: true }], selected: 0, view: null });
+    expect(fromHash("#scene=1,1,1,1&selected=7&view=1,2,x,4,5,6", 4)).toEqual({ ...NOTHING, shown: [shownAt(1, 1)], selected: 0 });
+  });
+});
+
+describe("parts of a state", () => {
+  const [lit, step] = [flag("lit", "light"), number("step", "step", (n) => n > 0)];
+  it("are linked, and what is as at first is not written", () => {
+    const state = step.in(lit.in(two, true), 0.25);
+    expect([lit.of(state), step.of(state), lit.of(two), step.of(two)]).toEqual([true, 0.25, false, null]);
+    expect(toHash(state)).toBe(`${toHash(two)}&lit=1&step=0.25`);
+    expect(fromHash(toHash(state), 4)).toEqual(state);
+    expect(lit.in(step.in(state, null), false)).toEqual(two);
+  });
+  it("take only their words", () => {
+    expect(fromHash(`${toHash(two)}&lit=2&step=-1&other=1`, 4)).toEqual(two);
   });
 });
 
 describe("history", () => {
-  it("goes back and forth, and a drag is one step", () => {
+  it("goes back and forth, a drag is one step, and every step has a name", () => {
     const history = new History(NOTHING);
-    const seen: number[] = [];
-    history.listen((state) => seen.push(state.shown[0]?.tau ?? -1));
+    const seen: [number, boolean][] = [];
+    history.listen((state, _, dragging) => seen.push([state.shown[0]?.tau ?? -1, dragging]));
     history.go(isolate(NOTHING, 0, 1));
     for (const tau of [2, 3, 4]) history.go(change(history.now, 0, { tau }), true);
-    history.go(change(history.now, 0, { tau: 5 }));
-    expect(history.undo()).toBe(true);
-    expect(history.now.shown[0]?.tau).toBe(4);
+    history.go(change(history.now, 0, { tau: 4 }));
+    expect(history.undoes).toBe("isovalue");
     expect(history.undo()).toBe(true);
     expect(history.now.shown[0]?.tau).toBe(1);
+    expect([history.undoes, history.redoes]).toEqual(["add to the scene", "isovalue"]);
     expect(history.redo()).toBe(true);
     expect(history.undo() && history.undo() && history.undo()).toBe(false);
     expect(history.now).toEqual(NOTHING);
-    expect(seen).toEqual([1, 2, 3, 4, 5, 4, 1, 4, 1, -1]);
+    expect(seen).toEqual([[1, false], [2, true], [3, true], [4, true], [4, false], [1, false], [4, false], [1, false], [-1, false]]);
+  });
+  it("keeps apart what is dragged one after the other, and does not count what changes nothing", () => {
+    const history = new History(two);
+    history.go(change(history.now, 0, { tau: 5 }), true);
+    history.go(change(history.now, 0, { opacity: 0.5 }), true);
+    history.go({ ...history.now, view: [0, 0, 0, 1, 1, 1] }, true);
+    history.go({ ...history.now });
+    history.go({ ...history.now });
+    expect(history.undoes).toBe("view");
+    expect(history.undo() && history.undoes).toBe("opacity");
+    expect(history.undo() && history.undo() && history.undo()).toBe(false);
+    expect(history.now).toEqual(two);
+  });
+  it("says what it did to all, to one, and to the list", () => {
+    const history = new History(two);
+    history.go(changeAll(history.now, { tau: 8 }));
+    expect(history.undoes).toBe("isovalue of all");
+    history.go(remove(history.now, 0));
+    expect(history.undoes).toBe("remove from the scene");
   });
 });
 

@@ -1,5 +1,6 @@
 // Questions to `isoatlas view`: docs/server.md. A question for a surface ends the one before it of the same lane.
 import { readPage, type Page } from "../page";
+import type { Walls } from "./state";
 import { decodeMesh, type Mesh } from "./wire";
 
 /** What a surface is of: an object that holds a voxel, the wall of a cavity, or all there is. */
@@ -16,6 +17,15 @@ export interface Preview {
   bytes: [number, number];
 }
 
+/** An object at an isovalue. */
+export interface There {
+  id: number;
+  tunnels: number;
+  cavities: number;
+  /** at least, at most */
+  voxels: [number, number];
+}
+
 /** What the server says when it cannot answer. */
 export class Refusal extends Error {
   constructor(
@@ -29,6 +39,7 @@ export class Refusal extends Error {
 export class Api {
   private readonly client = crypto.randomUUID();
   private readonly lanes = new Map<string, AbortController>();
+  private there: { tau: number; all: Promise<There[]> } | null = null;
 
   constructor(
     private readonly token: string,
@@ -45,15 +56,26 @@ export class Api {
     return this.ask(`/api/preview?tau=${tau}`, "preview").then((answer) => answer.json() as Promise<Preview>);
   }
 
+  /** The largest thousand. Whoever asks for the same isovalue gets the same answer. */
+  objects(tau: number): Promise<There[]> {
+    if (this.there?.tau !== tau) this.there = { tau, all: this.ask(`/api/objects?tau=${tau}`, `objects ${tau}`).then(objectsOf) };
+    return this.there.all;
+  }
+
   /** most: triangles; fewer come where there are more. */
-  async surface(lane: string, tau: number, which: Which, most: number): Promise<Mesh> {
-    const answer = await this.ask(`/api/surface?tau=${tau}${words(which)}&most=${most}`, lane);
+  async surface(lane: string, tau: number, which: Which, most: number, walls: Walls = "all"): Promise<Mesh> {
+    const answer = await this.ask(`/api/surface?tau=${tau}${words(which)}${shell(walls)}&most=${most}`, lane);
     return decodeMesh(await answer.arrayBuffer(), answer.headers.get("X-Coarse") === "1");
   }
 
   /** The file that `isoatlas extract` writes. */
-  async file(tau: number, which: Which, format: string): Promise<Blob> {
-    return (await this.ask(`/api/surface?tau=${tau}${words(which)}&format=${format}`, "file")).blob();
+  async file(tau: number, which: Which, format: string, walls: Walls = "all"): Promise<Blob> {
+    return (await this.ask(`/api/surface?tau=${tau}${words(which)}${shell(walls)}&format=${format}`, "file")).blob();
+  }
+
+  /** The file that `isoatlas label` writes: of one object, or of all. */
+  async labels(tau: number, object: number | null, format: string): Promise<Blob> {
+    return (await this.ask(`/api/label?tau=${tau}${object === null ? "" : `&object=${object}`}&format=${format}`, "file")).blob();
   }
 
   /** Ends what a lane is waiting for. */
@@ -71,6 +93,14 @@ export class Api {
     if (!answer.ok) throw new Refusal(answer.status, await messageOf(answer));
     return answer;
   }
+}
+
+async function objectsOf(answer: Response): Promise<There[]> {
+  return ((await answer.json()) as { objects: There[] }).objects;
+}
+
+function shell(walls: Walls): string {
+  return walls === "cavities" ? "&shell=inner" : "";
 }
 
 function words(which: Which): string {

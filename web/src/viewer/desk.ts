@@ -2,8 +2,11 @@
 import type { Page } from "../page";
 import type { Actions } from "./actions";
 import type { Api } from "./api";
+import type { Editor } from "./editor";
+import type { Scene } from "./scene";
 import type { Stage } from "./stage";
-import type { History, Shown, State } from "./state";
+import type { History } from "./history";
+import type { Shown, State } from "./state";
 
 export interface Desk {
   readonly page: Page;
@@ -11,6 +14,8 @@ export interface Desk {
   readonly stage: Stage;
   readonly history: History;
   readonly actions: Actions;
+  readonly editor: Editor;
+  readonly scene: Scene;
   /** over the picture, for what belongs to it */
   readonly overlay: HTMLElement;
   /** one line for the reader; empty: nothing to say */

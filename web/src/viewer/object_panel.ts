@@ -1,85 +1,105 @@
-// What is selected: what it is, how it is drawn, and what can be taken away.
+// What is selected: what it is and where, what it lies in, what lies in it, and what becomes of it; other objects as links to them.
 import { html } from "../dom";
-import { count, value, volume } from "../format";
-import { placeOf, rangeOf, shapeOf } from "../names";
-import { entryOf, type Page } from "../page";
+import { count, plural, value, volume } from "../format";
+import { contentsOf, entriesOf, placeOf, rangeOf, shapeOf } from "../names";
+import { branchOf, entryOf } from "../page";
+import type { Desk } from "./desk";
+import { Latest } from "./latest";
+import { measuredFacts } from "./measured";
 import { branchOfShown, EVERYTHING, titleOf } from "./shown";
-import type { Shown } from "./state";
+import type { Shown, State } from "./state";
 
-export interface Wishes {
-  fade(opacity: number, transient: boolean): void;
-  hide(): void;
-  save(format: string): void;
-  picture(): void;
-  link(): void;
-}
+type Fact = [name: string, what: (Node | string)[]];
 
-const FORMATS = ["stl", "ply", "obj", "glb", "vtp"];
+const MOST_LINKS = 8;
 
 export class ObjectPanel {
   readonly element: HTMLElement;
   private readonly title = html("h2", {});
   private readonly facts = html("dl", {});
-  private readonly command = html("code", {});
-  private readonly opacity: HTMLInputElement;
+  private readonly here = html("dl", { class: "here" });
+  private readonly measured: Latest<Shown>;
+  private entry = NaN;
 
-  constructor(
-    private readonly page: Page,
-    wishes: Wishes,
-  ) {
-    this.opacity = html("input", { type: "range", min: 0.1, max: 1, step: 0.05, "aria-label": "opacity" });
-    this.opacity.addEventListener("input", () => wishes.fade(Number(this.opacity.value), true));
-    this.opacity.addEventListener("change", () => wishes.fade(Number(this.opacity.value), false));
-    const format = html("select", { "aria-label": "format" }, ...FORMATS.map((name) => html("option", { value: name }, name.toUpperCase())));
-    this.element = html(
-      "section",
-      { class: "object", "aria-label": "what is selected", hidden: true },
-      this.title,
-      this.facts,
-      html("label", {}, "opacity ", this.opacity),
-      html("div", { class: "line" }, format, html("button", { type: "button", click: () => wishes.save(format.value) }, "Save the surface")),
-      html(
-        "div",
-        { class: "line" },
-        html("button", { type: "button", click: () => wishes.picture() }, "Save a picture"),
-        html("button", { type: "button", click: () => wishes.link() }, "Copy the link"),
-        html("button", { type: "button", click: () => wishes.hide() }, "Hide"),
-      ),
-      html("p", {}, "The same on the command line:"),
-      html("pre", {}, this.command),
-    );
+  constructor(private readonly desk: Desk) {
+    this.measured = new Latest((shown) => this.measure(shown));
+    this.element = html("section", { class: "object", "aria-label": "what is selected", hidden: true }, this.title, this.here, this.facts);
   }
 
-  show(shown: Shown | undefined): void {
+  show(state: State, dragging: boolean): void {
+    const shown = state.shown[state.selected];
     this.element.hidden = !shown;
     if (!shown) return;
-    this.title.textContent = titleOf(this.page, shown.entry);
-    this.opacity.value = String(shown.opacity);
-    this.command.textContent = this.commandOf(shown);
-    const facts: [string, string][] = shown.entry === EVERYTHING ? [] : this.factsOf(shown.entry);
-    this.facts.replaceChildren(...facts.flatMap(([name, text]) => [html("dt", {}, name), html("dd", {}, text)]));
+    if (shown.entry !== this.entry) this.describe(shown.entry);
+    this.entry = shown.entry;
+    if (!dragging) this.measured.want(shown, `${shown.entry} ${shown.tau}`);
   }
 
-  private factsOf(i: number): [string, string][] {
-    const entry = entryOf(this.page, i);
-    const branch = branchOfShown(this.page, i);
-    const facts: [string, string][] = [
-      ["on its own", branch ? rangeOf(branch) : ""],
-      ["best seen at", value(entry.tau)],
-      ["because", entry.why],
-      ["size there", volume(entry.measure, this.page.volume.unit)],
-      ["voxels there", count(entry.voxels)],
-      ["shape there", shapeOf(this.page, i)],
-      ["lies", placeOf(this.page, i)],
+  private describe(i: number): void {
+    this.title.textContent = titleOf(this.desk.page, i);
+    this.here.replaceChildren();
+    fill(this.facts, i === EVERYTHING ? [["what", ["everything at least as bright as its isovalue"]]] : [...this.known(i), ...this.relations(i)]);
+  }
+
+  private async measure(shown: Shown): Promise<void> {
+    const facts = await measuredFacts(this.desk, shown);
+    if (shown.entry === this.entry) fill(this.here, facts.map(([name, text]) => [name, [text]]));
+  }
+
+  private known(i: number): Fact[] {
+    const { page } = this.desk;
+    const entry = entryOf(page, i);
+    const branch = branchOfShown(page, i);
+    const more = (branch?.isovalues ?? []).map(({ tau, why }) => `, also at ${value(tau)}: ${why}`).join("");
+    const texts: [string, string][] = [
+      ["on its own", branch ? `${rangeOf(branch)}${unitOf(page.volume.valueUnit)}` : ""],
+      ["best seen at", `${value(entry.tau)}${entry.why ? `: ${entry.why}` : ""}${more}`],
+      ["size there", `${volume(entry.measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(entry.voxels, "voxel")}`}`],
+      ["shape there", shapeOf(page, i)],
     ];
-    return facts.filter(([, text]) => text !== "");
+    return texts.filter(([, text]) => text !== "").map(([name, text]): Fact => [name, [text]]);
   }
 
-  /** The command of the page that writes its surface, at the isovalue it is shown at. */
-  private commandOf(shown: Shown): string {
-    const tau = Number(shown.tau.toPrecision(7));
-    if (shown.entry === EVERYTHING) return `isoatlas extract ${this.page.volume.name}.atlas --tau ${tau} -o surface.stl`;
-    const line = entryOf(this.page, shown.entry).commands.find((command) => command.line.startsWith("isoatlas extract"))?.line ?? "";
-    return line.replace(/--tau \S+/, `--tau ${tau}`);
+  /** Each as links, where the other one has an entry. */
+  private relations(i: number): Fact[] {
+    const { page } = this.desk;
+    const entry = entryOf(page, i);
+    const { parent, merges } = branchOf(page, entry.branch);
+    const facts: Fact[] = [];
+    if (entry.inside >= 0) facts.push(["lies in", [this.link(entry.inside)]]);
+    if (entry.around >= 0) facts.push(["is a cavity of", [this.link(entry.around)]]);
+    if (entry.inside < 0 && entry.around < 0 && placeOf(page, i)) facts.push(["lies", [placeOf(page, i)]]);
+    facts.push(["contains", this.links(contentsOf(page, i))]);
+    if (merges !== null) facts.push(["merges", [`at ${value(merges)} into `, this.branchLink(parent)]]);
+    const arriving = page.branches.flatMap((other, b) => (other.parent === entry.branch ? [b] : [])).filter((b) => entriesOf(page, b).length > 0);
+    facts.push(["takes in", this.links(arriving.flatMap((b) => entriesOf(page, b).slice(0, 1)), (k) => ` at ${value(branchOfShown(page, k)?.merges ?? 0)}`)]);
+    facts.push(["the same object", this.links(entriesOf(page, entry.branch).filter((k) => k !== i), (k) => ` at ${value(entryOf(page, k).tau)}`)]);
+    return facts.filter(([, what]) => what.length > 0);
   }
+
+  private branchLink(b: number): Node | string {
+    const [first] = b >= 0 ? entriesOf(this.desk.page, b) : [];
+    return first === undefined ? "one that is not listed" : this.link(first);
+  }
+
+  private links(entries: number[], words: (k: number) => string = () => ""): (Node | string)[] {
+    const shown = entries.slice(0, MOST_LINKS).flatMap((k, n) => [n > 0 ? ", " : "", this.link(k), words(k)]);
+    const rest = entries.length - MOST_LINKS;
+    return rest > 0 ? [...shown, ` and ${count(rest)} more`] : shown;
+  }
+
+  /** Adds it to the scene and selects it. */
+  private link(k: number): HTMLElement {
+    const { page, editor } = this.desk;
+    const go = (event: Event): void => ((event as MouseEvent).shiftKey ? editor.isolate(k) : editor.add(k));
+    return html("button", { type: "button", class: "link", "aria-label": `Go to ${titleOf(page, k)}`, title: "add it to the scene and select it; with shift: alone", click: go }, titleOf(page, k));
+  }
+}
+
+function unitOf(unit: string | null): string {
+  return unit ? ` ${unit}` : "";
+}
+
+function fill(list: HTMLElement, facts: Fact[]): void {
+  list.replaceChildren(...facts.flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)]));
 }

@@ -2,6 +2,7 @@
 import { isDark, nameOf } from "../names";
 import { branchOf, entryOf, type Branch, type Page } from "../page";
 import type { Which } from "./api";
+import type { Shown } from "./state";
 
 export const EVERYTHING = -1;
 
@@ -18,9 +19,18 @@ export function colourOf(page: Page, i: number): string {
   return i === EVERYTHING ? "#999999" : entryOf(page, i).colour;
 }
 
+export function colourOfShown(page: Page, { entry, colour }: Shown): string {
+  return colour ?? colourOf(page, entry);
+}
+
 /** The isovalue that shows it best. */
 export function bestOf(page: Page, i: number): number {
   return i === EVERYTHING ? (page.axis.low + page.axis.high) / 2 : entryOf(page, i).tau;
+}
+
+/** The nearest isovalue on the axis. */
+export function within(page: Page, tau: number): number {
+  return Math.min(Math.max(tau, page.axis.low), page.axis.high);
 }
 
 export function branchOfShown(page: Page, i: number): Branch | null {
@@ -32,13 +42,4 @@ export function ownRange(page: Page, i: number): [number, number] {
   const branch = branchOfShown(page, i);
   if (!branch) return [page.axis.low, page.axis.high];
   return [branch.merges ?? page.axis.low, branch.appears].sort((p, q) => p - q) as [number, number];
-}
-
-/** The values at which an object with an entry begins, or ends in another one. */
-export function eventsOf(page: Page): number[] {
-  const values = page.entries.flatMap((entry) => {
-    const branch = branchOf(page, entry.branch);
-    return [branch.appears, branch.merges];
-  });
-  return [...new Set(values.filter((value): value is number => value !== null))].sort((p, q) => p - q);
 }

@@ -6,6 +6,14 @@ import type { Mesh } from "./wire";
 
 type Body = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
 
+/** How a body is drawn. solid: a click hits it. */
+export interface Dress {
+  colour: string;
+  opacity: number;
+  visible: boolean;
+  solid: boolean;
+}
+
 export class Stage {
   readonly canvas: HTMLCanvasElement;
   readonly eye: Eye;
@@ -38,29 +46,33 @@ export class Stage {
   }
 
   /** Replaces what stands under this key. tau: on a cut, what has the higher isovalue is seen. */
-  put(key: number, mesh: Mesh, colour: string, opacity: number, tau: number): void {
+  put(key: number, mesh: Mesh, dress: Dress, tau: number): void {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(mesh.positions, 3));
     geometry.setAttribute("normal", new three.BufferAttribute(mesh.normals, 3, true));
     geometry.setIndex(new three.BufferAttribute(mesh.corners, 1));
     this.take(key);
-    const body: Body = new three.Mesh(geometry, new three.MeshStandardMaterial({ color: colour, roughness: 0.55, side: three.DoubleSide }));
+    const body: Body = new three.Mesh(geometry, new three.MeshStandardMaterial({ roughness: 0.55, side: three.DoubleSide }));
     body.position.set(...mesh.origin);
     body.scale.setScalar(mesh.step);
     body.updateMatrixWorld();
     body.userData = { tau };
     this.bodies.set(key, body);
     this.scene.add(body);
-    this.fade(key, opacity);
-    this.cut();
+    this.dress(key, dress);
   }
 
-  fade(key: number, opacity: number): void {
-    const material = this.bodies.get(key)?.material;
-    if (!material) return;
+  dress(key: number, { colour, opacity, visible, solid }: Dress): void {
+    const body = this.bodies.get(key);
+    if (!body) return;
+    const { material } = body;
+    material.color.set(colour);
     material.opacity = opacity;
+    material.needsUpdate = material.transparent !== opacity < 1;
     material.transparent = opacity < 1;
     material.depthWrite = opacity === 1;
+    body.visible = visible;
+    body.userData.solid = solid;
     this.cut();
   }
 
@@ -112,16 +124,27 @@ export class Stage {
     const { clientWidth, clientHeight } = this.canvas;
     const ray = new three.Raycaster();
     ray.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.eye.camera);
-    const hits = ray.intersectObjects([...this.bodies.values()], false);
+    const hits = ray.intersectObjects([...this.bodies.values()].filter(({ visible, userData }) => visible && userData.solid === true), false);
     const hit = hits.find(({ point }) => !this.clip.on || this.clip.plane.distanceToPoint(point) >= 0);
     for (const [key, body] of this.bodies) if (body === hit?.object) return key;
     return null;
   }
 
-  /** The picture as it is, as a PNG. */
-  picture(): Promise<Blob | null> {
+  /** Draws once in another size, in pixels; `use` gets the canvas, which must be read at once. */
+  shoot(width: number, height: number, use: (canvas: HTMLCanvasElement) => void): void {
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.eye.resize(width / height);
     this.render();
-    return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+    use(this.canvas);
+    this.resize();
+    this.render();
+  }
+
+  /** What is cut away: points p with normal . p > offset; null: nothing. */
+  get removed(): { normal: number[]; offset: number } | null {
+    const { on, plane } = this.clip;
+    return on ? { normal: plane.normal.toArray().map((n) => -n), offset: plane.constant } : null;
   }
 
   private take(key: number): void {
@@ -135,7 +158,7 @@ export class Stage {
 
   private ball(): three.Sphere | null {
     const box = new three.Box3();
-    for (const body of this.bodies.values()) box.expandByObject(body);
+    for (const body of this.bodies.values()) if (body.visible) box.expandByObject(body);
     return box.isEmpty() ? null : box.getBoundingSphere(new three.Sphere());
   }
 
@@ -150,7 +173,7 @@ export class Stage {
     for (const body of [...this.bodies.values()].sort((a, b) => Number(a.userData.tau) - Number(b.userData.tau))) {
       body.material.clippingPlanes = this.clip.planes;
       body.renderOrder = this.clip.on ? 100 : 0;
-      if (this.clip.on) this.caps.push(this.clip.cap(body, order++));
+      if (this.clip.on && body.visible) this.caps.push(this.clip.cap(body, order++));
     }
     for (const cap of this.caps) this.scene.add(cap);
     this.draw();

@@ -1,0 +1,23 @@
+// The objects that matter as a table, one line each, and where they are shown.
+import { nameOf } from "../names";
+import { branchOf, type Page } from "../page";
+import type { State } from "./state";
+
+const COLUMNS = ["name", "id", "side", "best_tau", "appears", "merges", "voxels", "volume", "unit", "tunnels", "cavities", "inside", "cavity_of", "shown_at"];
+
+/** Comma-separated values; a name with a comma or a quote is quoted. Lengths are in the unit of the file, or voxels. */
+export function tableCsv(page: Page, state: State): string {
+  const lines = page.entries.map((entry, i) => {
+    const branch = branchOf(page, entry.branch);
+    const name = (k: number): string => (k >= 0 ? nameOf(page, k) : "");
+    const shown = state.shown.find((one) => one.entry === i);
+    const unit = page.volume.unit ? `${page.volume.unit}3` : "voxel";
+    return [nameOf(page, i), entry.id, branch.side, entry.tau, branch.appears, branch.merges, entry.voxels, entry.measure, unit, entry.tunnels, entry.cavities, name(entry.inside), name(entry.around), shown?.tau];
+  });
+  return [COLUMNS, ...lines].map((line) => `${line.map(cell).join(",")}\r\n`).join("");
+}
+
+export function cell(what: string | number | null | undefined): string {
+  const text = String(what ?? "");
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}

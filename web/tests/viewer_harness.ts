@@ -1,0 +1,89 @@
+// A volume that `isoatlas view` serves, and a browser that opens the page: what the stories of the viewer share. Skipped where there is no
+// Chromium or no isoatlas.
+import { execFileSync, spawn, type ChildProcess } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, join } from "node:path";
+import { chromium, type Browser, type BrowserContextOptions, type Page as Tab } from "playwright-core";
+
+const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
+const cli = process.env.ISOATLAS_CLI ?? "";
+const SOFTWARE_DRAWING = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export const canServe = browserFile !== undefined && existsSync(cli);
+
+/** An answer to a question for a mesh. */
+export interface AskedMesh {
+  asked: URLSearchParams;
+  triangles: number;
+  coarse: boolean;
+}
+
+export class Served {
+  private constructor(
+    readonly folder: string,
+    /** with the token */
+    readonly address: string,
+    /** of the store that is served, in the folder */
+    readonly store: string,
+    private readonly server: ChildProcess,
+    readonly browser: Browser,
+  ) {}
+
+  /** phantom: its name and options, such as "demo" or "torus-chain", "--size", "32". */
+  static async phantom(...phantom: string[]): Promise<Served> {
+    const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
+    const name = phantom[0] ?? "demo";
+    execFileSync(cli, ["phantom", ...phantom, "-o", `${name}.nrrd`, "--quiet"], { cwd: folder });
+    return Served.begin(folder, name);
+  }
+
+  /** A volume that is there. */
+  static async file(path: string): Promise<Served> {
+    const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
+    const name = basename(path).replace(/\..*/, "");
+    symlinkSync(path, join(folder, `${name}.nrrd`));
+    return Served.begin(folder, name);
+  }
+
+  private static async begin(folder: string, name: string): Promise<Served> {
+    const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet"], { cwd: folder });
+    const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
+    const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });
+    return new Served(folder, address, `${name}.atlas`, server, browser);
+  }
+
+  async close(): Promise<void> {
+    await this.browser.close();
+    this.server.kill("SIGINT");
+    rmSync(this.folder, { recursive: true });
+  }
+
+  /** What the command line prints. */
+  isoatlas(...words: string[]): string {
+    return execFileSync(cli, words, { cwd: this.folder, encoding: "utf8" });
+  }
+
+  /** A tab with the page, and what went wrong in it so far. The tour was seen before, unless this is the first time. */
+  async open(hash = "", options: BrowserContextOptions = {}, firstTime = false): Promise<{ tab: Tab; problems: string[] }> {
+    const tab = await this.browser.newPage({ viewport: { width: 1000, height: 700 }, ...options });
+    if (!firstTime) await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
+    const problems: string[] = [];
+    tab.on("pageerror", (error) => problems.push(error.message));
+    tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));
+    await tab.goto(this.address + hash);
+    await tab.waitForSelector(".objects li");
+    return { tab, problems };
+  }
+}
+
+/** Mesh answers from now on. */
+export function meshes(tab: Tab): AskedMesh[] {
+  const list: AskedMesh[] = [];
+  tab.on("response", (answer) => {
+    const url = new URL(answer.url());
+    if (url.pathname !== "/api/surface" || answer.status() !== 200) return;
+    list.push({ asked: url.searchParams, triangles: Number(answer.headers()["x-triangles"]), coarse: answer.headers()["x-coarse"] === "1" });
+  });
+  return list;
+}

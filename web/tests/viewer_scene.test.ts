@@ -1,0 +1,248 @@
+// The scene, its isovalues, and what is taken away, in a browser; numbers are compared with the command line.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Page as Tab } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { canServe, meshes, Served } from "./viewer_harness";
+
+interface Listed {
+  id: number;
+  best_tau: number;
+  cavities: number;
+}
+
+describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
+  let served: Served;
+  let listed: Listed[] = [];
+
+  beforeAll(async () => {
+    served = await Served.phantom("demo", "--size", "128");
+    listed = (JSON.parse(served.isoatlas("objects", served.store, "--json")) as { objects: Listed[] }).objects;
+  }, 60_000);
+  afterAll(() => served?.close());
+
+  const shownAs = (tab: Tab, name: string) => tab.locator(".scene li").filter({ has: tab.getByRole("button", { name: `Select ${name}`, exact: true }) });
+  const settled = (tab: Tab): Promise<void> => expect.poll(() => tab.locator(".scene .note").allTextContents().then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))), { timeout: 10_000 }).toBe(true);
+  const save = async (tab: Tab, run: () => Promise<void>, name: string): Promise<string> => {
+    const [download] = await Promise.all([tab.waitForEvent("download"), run()]);
+    const file = join(served.folder, name);
+    await download.saveAs(file);
+    return file;
+  };
+  /** entries and isovalues, such as "0,14.6,1,1;1,25,1,1" */
+  const scene = (n: number, more = ""): string => `#scene=${listed.slice(0, n).map(({ best_tau }, i) => `${i},${best_tau},1,1`).join(";")}&selected=0${more}`;
+
+  it("hides without forgetting, paints, fades, and undoes each by its name", async () => {
+    const { tab, problems } = await served.open(scene(2));
+    await settled(tab);
+    const seen = meshes(tab);
+    const row = shownAs(tab, "Object 1");
+    await row.getByRole("button", { name: "show object 1" }).click();
+    expect(await row.getByRole("button", { name: "show object 1" }).getAttribute("aria-pressed")).toBe("false");
+    expect(await row.locator(".note").textContent()).toContain("hidden");
+    await row.getByRole("button", { name: "show object 1" }).click();
+    await row.getByRole("button", { name: "vermilion" }).click();
+    await row.getByRole("slider", { name: "opacity" }).fill("0.5");
+    await expect.poll(() => new URL(tab.url()).hash).toContain(",0.5,1,d55e00;");
+    for (const step of ["opacity", "colour", "show or hide", "show or hide"]) await tab.getByRole("button", { name: `undo: ${step}`, exact: true }).click();
+    await expect.poll(() => new URL(tab.url()).hash).toContain(`#scene=0,${listed[0]?.best_tau},1,1;`);
+    expect(await tab.getByRole("button", { name: "redo: show or hide" }).isEnabled()).toBe(true);
+    expect(seen).toEqual([]);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("lets a click go through ghosts", async () => {
+    const { tab } = await served.open(scene(3).replace("selected=0", "selected=1"));
+    await settled(tab);
+    const canvas = tab.locator(".stage canvas").first();
+    const { width, height } = (await canvas.boundingBox()) ?? { width: 0, height: 0 };
+    const selected = () => tab.locator('.scene [aria-current="true"]').getAttribute("aria-label");
+    await tab.keyboard.press("g");
+    expect(await tab.getByRole("button", { name: "Ghost others" }).getAttribute("aria-pressed")).toBe("true");
+    for (let k = 1; k < 8; ++k) await canvas.click({ position: { x: (width * k) / 8, y: height / 2 } });
+    expect(await selected()).toBe("Select Object 2");
+    await tab.keyboard.press("g");
+    for (let k = 1; k < 8 && (await selected()) === "Select Object 2"; ++k) await canvas.click({ position: { x: (width * k) / 8, y: height / 2 } });
+    expect(await selected()).not.toBe("Select Object 2");
+    await tab.close();
+  });
+
+  it("shows only the walls of cavities, as many triangles as the command line", async () => {
+    const at = listed.findIndex(({ cavities }) => cavities > 0);
+    const { id, best_tau } = listed[at] as Listed;
+    const { tab } = await served.open(`#scene=${at},${best_tau},1,1&selected=0`);
+    await settled(tab);
+    const seen = meshes(tab);
+    await tab.getByRole("button", { name: "Cavities only" }).click();
+    await expect.poll(() => seen.filter(({ coarse }) => !coarse).length).toBe(1);
+    const extracted = JSON.parse(served.isoatlas("extract", served.store, "--object", String(id), "--tau", String(best_tau), "--shell", "inner", "-o", "x.ply", "--json")) as { triangles: number };
+    expect(seen.at(-1)?.triangles).toBe(extracted.triangles);
+    await expect.poll(() => tab.locator(".scene .note").textContent()).toContain(`${listed[at]?.cavities} cavit`);
+    await tab.close();
+  });
+
+  it("asks for coarse surfaces while it is dragged, for one whole one when it rests, and feeds back at once", async () => {
+    const { tab } = await served.open(scene(1));
+    await settled(tab);
+    const asked: number[] = [];
+    tab.on("request", (request) => request.url().includes("/api/surface") && asked.push(Number(new URL(request.url()).searchParams.get("most"))));
+    const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
+    const numbers = await slider.evaluate((input: HTMLInputElement) => {
+      const box = document.querySelector<HTMLInputElement>('.axis input[aria-label="isovalue"]') as HTMLInputElement;
+      const from = Number(input.value);
+      return Array.from({ length: 40 }, (_, i) => {
+        input.value = String(from + 5 * (i + 1));
+        input.dispatchEvent(new Event("input"));
+        return Number(box.value);
+      });
+    });
+    expect(new Set(numbers).size).toBe(40); // the number follows at once
+    await expect.poll(() => asked.length).toBe(2); // the first one and the last one
+    expect(asked.every((most) => most === 20_000)).toBe(true);
+    await slider.dispatchEvent("change");
+    await settled(tab);
+    expect(asked.filter((most) => most > 20_000).length).toBe(1);
+    await expect.poll(() => tab.locator(".badge").textContent()).toContain("triangles");
+    await tab.getByRole("button", { name: "undo: isovalue" }).click();
+    await expect.poll(() => new URL(tab.url()).hash).toContain(`#scene=0,${listed[0]?.best_tau},`);
+    await tab.close();
+  });
+
+  it("steps by a delta of one's own, and plays to the end of its range", async () => {
+    const { tab, problems } = await served.open(scene(1));
+    await settled(tab);
+    const box = tab.getByRole("textbox", { name: "isovalue" });
+    await tab.getByRole("textbox", { name: "step" }).fill("2.5");
+    await tab.getByRole("textbox", { name: "step" }).press("Enter");
+    await tab.locator(".axis .badge").click();
+    const before = Number(await box.inputValue());
+    await tab.keyboard.press("]");
+    expect(Number(await box.inputValue())).toBeCloseTo(before + 2.5, 3);
+    expect(new URL(tab.url()).hash).toContain("&step=2.5");
+    const top = Number(((await tab.locator(".object dd").allTextContents()).join(" ").match(/from (\S+) on/) ?? [])[1] ?? NaN);
+    await tab.getByRole("combobox", { name: "speed" }).selectOption("20");
+    await box.fill(String(top - 9));
+    await box.press("Enter");
+    await settled(tab);
+    const asked: string[] = [];
+    tab.on("request", (request) => request.url().includes("/api/surface") && asked.push(new URL(request.url()).searchParams.get("tau") ?? ""));
+    await tab.getByRole("button", { name: "play upwards" }).click();
+    await expect.poll(() => tab.getByRole("button", { name: "play upwards" }).isVisible()).toBe(true);
+    await expect.poll(() => box.inputValue(), { timeout: 10_000 }).toBe(String(Number((top - 9 + 7.5).toPrecision(7))));
+    expect(new Set(asked).size).toBe(3);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("says what happens at the next event", async () => {
+    const { tab } = await served.open(scene(1));
+    await settled(tab);
+    await tab.keyboard.press("}");
+    await expect.poll(() => tab.locator(".said").textContent()).toMatch(/bject \d+ (appears|joins|opens).* at /);
+    await tab.close();
+  });
+
+  it("is saved as a file and loaded again; what is wrong with a file is said", async () => {
+    const { tab } = await served.open(scene(2, "&ghosts=1"));
+    await settled(tab);
+    const hash = new URL(tab.url()).hash;
+    await tab.keyboard.press("s");
+    const file = await save(tab, () => tab.getByRole("button", { name: "Save the scene" }).click(), "scene.json");
+    await tab.keyboard.press("Escape");
+    await tab.keyboard.press("Delete");
+    await tab.keyboard.press("s");
+    writeFileSync(join(served.folder, "bad.json"), readFileSync(file, "utf8").replace("isoatlas/scene/1", "isoatlas/scene/9"));
+    await tab.getByLabel("a scene to load").setInputFiles(join(served.folder, "bad.json"));
+    await expect.poll(() => tab.getByRole("alert").textContent()).toContain('this viewer reads "isoatlas/scene/1"');
+    await tab.getByLabel("a scene to load").setInputFiles(file);
+    await expect.poll(() => new URL(tab.url()).hash).toBe(hash);
+    await tab.close();
+  });
+
+  it("gives a table with a line for each object", async () => {
+    const { tab } = await served.open(scene(1));
+    await tab.keyboard.press("s");
+    const file = await save(tab, () => tab.getByRole("button", { name: "Save the table of objects" }).click(), "objects.csv");
+    const bright = readFileSync(file, "utf8").split("\r\n").filter((line) => line.includes(",bright,"));
+    expect(bright.map((line) => Number(line.split(",")[1]))).toEqual(listed.map(({ id }) => id));
+    await tab.close();
+  });
+
+  it("gives a picture of the size that is asked for, and an animation that moves", async () => {
+    const { tab, problems } = await served.open(scene(2));
+    await settled(tab);
+    await tab.keyboard.press("s");
+    await tab.getByRole("spinbutton", { name: "width" }).fill("320");
+    await tab.getByRole("spinbutton", { name: "height" }).fill("200");
+    const picture = readFileSync(await save(tab, () => tab.getByRole("button", { name: "Save a picture" }).click(), "p.png"));
+    expect([picture.readUInt32BE(16), picture.readUInt32BE(20)]).toEqual([320, 200]);
+    for (const what of ["turn", "tau"]) {
+      await tab.getByRole("combobox", { name: "what moves" }).selectOption(what);
+      await tab.getByRole("spinbutton", { name: "frames", exact: true }).fill("5");
+      const bytes = readFileSync(await save(tab, () => tab.getByRole("button", { name: "Make the animation" }).click(), "a.png"));
+      const frames = await tab.evaluate(async (base64) => {
+        const decoder = new ImageDecoder({ data: Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)), type: "image/png" });
+        await decoder.tracks.ready;
+        const sums: number[] = [];
+        for (let i = 0; i < (decoder.tracks.selectedTrack?.frameCount ?? 0); ++i) {
+          const { image } = await decoder.decode({ frameIndex: i });
+          const canvas = new OffscreenCanvas(image.displayWidth, image.displayHeight);
+          const pen = canvas.getContext("2d") as OffscreenCanvasRenderingContext2D;
+          pen.drawImage(image, 0, 0);
+          sums.push(pen.getImageData(0, 0, canvas.width, canvas.height).data.reduce((sum, byte, k) => (sum + byte * (k % 1009)) % 1e9, 0));
+        }
+        return sums;
+      }, bytes.toString("base64"));
+      expect(new Set(frames).size, what).toBe(5);
+    }
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("has a command line that draws the same view", async () => {
+    for (const flat of [false, true]) {
+      const { tab } = await served.open(scene(3).replace(/,1,1;/, ",0.4,1,d55e00;"), { viewport: { width: 1100, height: 640 } });
+      await settled(tab);
+      for (const key of ["ArrowLeft", "ArrowUp", "ArrowLeft"]) await tab.keyboard.press(key);
+      if (flat) await tab.keyboard.press("o");
+      await tab.keyboard.press("s");
+      const command = (await tab.locator(".save code").textContent()) ?? "";
+      expect(command.includes("--perspective")).toBe(!flat);
+      const words = [...command.matchAll(/--\S+?='[^']*'|'[^']*'|\S+/g)].map(([word]) => word.replaceAll("'", ""));
+      served.isoatlas(...words.slice(1), "--background", "transparent", "--quiet");
+      await tab.getByRole("spinbutton", { name: "width" }).fill(String(words[words.indexOf("--size") + 1]?.split("x")[0]));
+      await tab.getByRole("spinbutton", { name: "height" }).fill(String(words[words.indexOf("--size") + 1]?.split("x")[1]));
+      for (const name of ["scale bar", "legend"]) await tab.getByRole("checkbox", { name }).uncheck();
+      await tab.getByRole("combobox", { name: "background" }).selectOption("transparent");
+      const here = await save(tab, () => tab.getByRole("button", { name: "Save a picture" }).click(), "here.png");
+      const pictures = [here, join(served.folder, "scene.png")].map((file) => readFileSync(file).toString("base64"));
+      const { both, either } = await tab.evaluate(overlap, pictures);
+      expect(either).toBeGreaterThan(10_000);
+      expect(both / either).toBeGreaterThan(0.95);
+      await tab.close();
+    }
+  });
+});
+
+/** How many pixels are in both pictures, and in one of them, by their opacity. */
+async function overlap(pictures: string[]): Promise<{ both: number; either: number }> {
+  const alphas = await Promise.all(
+    pictures.map(async (base64) => {
+      const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: "image/png" }));
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const pen = canvas.getContext("2d") as OffscreenCanvasRenderingContext2D;
+      pen.drawImage(image, 0, 0);
+      return pen.getImageData(0, 0, image.width, image.height).data.filter((_, i) => i % 4 === 3);
+    }),
+  );
+  const [p, q] = alphas as [Uint8ClampedArray, Uint8ClampedArray];
+  if (p.length !== q.length) throw new Error("the pictures have different sizes");
+  let [both, either] = [0, 0];
+  p.forEach((alpha, i) => {
+    const [a, b] = [alpha > 40, (q[i] ?? 0) > 40];
+    both += Number(a && b);
+    either += Number(a || b);
+  });
+  return { both, either };
+}

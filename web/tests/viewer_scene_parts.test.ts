@@ -1,0 +1,221 @@
+// The parts of the scene and of what is taken away that need no browser.
+import { deflateSync } from "node:zlib";
+import { describe, expect, it } from "vitest";
+import { animatedPng, chunksOf } from "../src/viewer/apng";
+import { allText, bytesText } from "../src/viewer/badge";
+import type { Api } from "../src/viewer/api";
+import { eventNear, eventsOf } from "../src/viewer/events";
+import { Latest } from "../src/viewer/latest";
+import { PALETTE } from "../src/viewer/palette";
+import { renderCommand, type Camera } from "../src/viewer/render_command";
+import { pieces } from "../src/viewer/pieces";
+import { readScene, writeScene } from "../src/viewer/scene_file";
+import { add, change, isolate, NOTHING, type State } from "../src/viewer/state";
+import { Surfaces } from "../src/viewer/surfaces";
+import { cell, tableCsv } from "../src/viewer/table_csv";
+import type { Mesh } from "../src/viewer/wire";
+import { scene as page } from "./sample";
+
+const camera: Camera = { view: [-1, 2, 3, 0, 0, 0.5], flat: false, height: 12.5, cut: null };
+const two: State = { ...change(add(isolate(NOTHING, 0, 10), 1, 20.5), 1, { colour: "#12ab00", opacity: 0.5 }), view: [1, 2, 3, 4, 5, 6] };
+
+describe("surfaces", () => {
+  interface Asked {
+    tau: number;
+    most: number;
+    answer(mesh: Partial<Mesh>): void;
+    left: boolean;
+  }
+  function lanes(): { surfaces: Surfaces; asked: Asked[]; came: (number | null)[] } {
+    const [asked, came]: [Asked[], (number | null)[]] = [[], []];
+    const api = {
+      surface: (_: string, tau: number, _which: null, most: number) =>
+        new Promise<Mesh>((resolve) => asked.push({ tau, most, answer: (mesh) => resolve({ triangles: 5, bytes: 9, coarse: false, ...mesh } as Mesh), left: false })),
+      leave: () => asked.forEach((one) => (one.left = true)),
+    } as unknown as Api;
+    return { surfaces: new Surfaces(api, (_, mesh, tau) => came.push(mesh ? tau : null), () => undefined), asked, came };
+  }
+  const wish = (tau: number) => ({ tau, which: null, walls: "all" as const });
+  const rest = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
+
+  it("of a drag are asked for one at a time, coarse, the last one next; whole when it rests", async () => {
+    const { surfaces, asked, came } = lanes();
+    for (let tau = 1; tau <= 20; ++tau) surfaces.want(0, wish(tau), true);
+    expect(asked.map(({ tau }) => tau)).toEqual([1]);
+    asked[0]?.answer({ coarse: true });
+    await rest();
+    expect(asked.map(({ tau }) => tau)).toEqual([1, 20]);
+    surfaces.want(0, wish(21), false);
+    expect(asked.map(({ tau, most }) => [tau, most < 1e6])).toEqual([[1, true], [20, true], [21, true]]);
+    asked[1]?.answer({ coarse: true });
+    asked[2]?.answer({ coarse: true });
+    await rest();
+    expect(asked[3]).toMatchObject({ tau: 21, most: 1e8 });
+    asked[3]?.answer({ triangles: 99 });
+    await surfaces.settled();
+    expect(came).toEqual([1, 21, 21]); // what rested ended what was dragged
+    expect(surfaces.arrivalOf(0)).toMatchObject({ tau: 21, triangles: 99, coarse: false, waiting: false });
+  });
+  it("are not asked for twice, and one that was small enough is whole", async () => {
+    const { surfaces, asked } = lanes();
+    surfaces.want(0, wish(1), true);
+    asked[0]?.answer({});
+    await surfaces.settled();
+    surfaces.want(0, wish(1), false);
+    surfaces.want(0, wish(1), false);
+    expect(asked.length).toBe(1);
+  });
+  it("of a coarse one that rests only the whole one is asked for", async () => {
+    const { surfaces, asked } = lanes();
+    surfaces.want(0, wish(1), true);
+    asked[0]?.answer({ coarse: true });
+    await rest();
+    surfaces.want(0, wish(1), false);
+    expect(asked.map(({ most }) => most)).toEqual([20_000, 1e8]);
+    surfaces.forget(0);
+    expect(asked[1]?.left).toBe(true);
+  });
+});
+
+describe("walls", () => {
+  it("are counted by what hangs together", () => {
+    const corners = new Uint32Array([0, 1, 2, 2, 1, 3, 4, 5, 6, 9, 8, 7, 8, 7, 6]);
+    expect(pieces(corners)).toBe(2);
+    expect(pieces(new Uint32Array())).toBe(0);
+  });
+});
+
+describe("the latest question", () => {
+  it("is asked when the one before it is answered, and those between are not", async () => {
+    const asked: number[] = [];
+    const answers: (() => void)[] = [];
+    const latest = new Latest<number>((n) => new Promise((resolve) => (asked.push(n), answers.push(resolve))));
+    for (const n of [1, 2, 3, 3]) latest.want(n, String(n));
+    answers[0]?.();
+    await new Promise((resolve) => setTimeout(resolve));
+    latest.want(3, "3");
+    expect(asked).toEqual([1, 3]);
+  });
+});
+
+describe("events", () => {
+  it("say in words what happens, the lowest first", () => {
+    const events = eventsOf(page);
+    expect(events.map(({ tau }) => tau)).toEqual([...events.map(({ tau }) => tau)].sort((p, q) => p - q));
+    expect(events.some(({ text }) => /^Object \d+ appears at /.test(text))).toBe(true);
+    expect(events.some(({ text }) => /joins object \d+ at 30/.test(text))).toBe(true);
+    const [first] = events;
+    expect(eventNear(events, (tau) => tau, first?.tau ?? 0, 1)).toEqual(first);
+    expect(eventNear(events, (tau) => tau, 1e6, 1)).toBeNull();
+  });
+});
+
+describe("the badge", () => {
+  it("says what it costs", () => {
+    const preview = { tau: 3, objects: 1, contours: 3, tunnels: 0, cavities: 2, triangles: [1000, 2000] as [number, number], bytes: [0, 0] as [number, number] };
+    expect(allText(preview)).toBe("all at 3: 1 object, no tunnels, 2 cavities, 1,000 to 2,000 triangles, at most 5 kB");
+    expect([5, 999_999, 2_345_678].map(bytesText)).toEqual(["5 bytes", "1000 kB", "2.3 MB"]);
+  });
+});
+
+describe("the command line of a scene", () => {
+  it("has every object at its isovalue, its colour and its opacity, and the camera", () => {
+    const command = renderCommand(page, two.shown, camera, [640, 480], false);
+    const [first, second] = page.entries;
+    expect(command).toContain(`--object ${first?.id}@10 --object ${second?.id}@20.5 --colour '${first?.colour.toUpperCase()}' --colour '#12AB00' --opacity 1 --opacity 0.5`);
+    expect(command).toContain("--eye=-1,2,3 --target=0,0,0.5 --height 12.5 --perspective --size 640x480 --plain -o scene.png");
+  });
+  it("goes by the order of the command line, leaves out what is hidden, and cuts", () => {
+    const all = add({ ...two, shown: two.shown.map((one, i) => ({ ...one, visible: i > 0 })) }, -1, 7);
+    const cut = { normal: [-0.6, 0, 0.8], offset: -3 };
+    expect(renderCommand(page, all.shown, { ...camera, flat: true, cut }, [9, 9], true)).toMatch(/--tau 7 --object \d+@20.5 --colour '#999999' --colour '#12AB00' .*--height 12.5 --cut='-0.6x\+0.8z>-3' --size 9x9 --background dark/);
+  });
+});
+
+describe("a scene as a file", () => {
+  it("is the same after it was read", () => {
+    expect(readScene(page, writeScene(page, two))).toEqual(two);
+    expect(readScene(page, writeScene(page, NOTHING))).toEqual(NOTHING);
+  });
+  it("is refused with where and what was expected", () => {
+    const good = JSON.parse(writeScene(page, two)) as Record<string, unknown> & { shown: Record<string, unknown>[] };
+    const [first, second] = good.shown;
+    const cases: [unknown, string][] = [
+      [[], 'no "schema"'],
+      [3, "an object was expected"],
+      [{ ...good, schema: "isoatlas/scene/2" }, 'this viewer reads "isoatlas/scene/1"'],
+      [{ ...good, volume: { name: "x", size: [1, 2, 3] } }, "a volume of 1 x 2 x 3 samples"],
+      [{ ...good, shown: [{ ...first, tau: "high" }] }, 'shown[0].tau is "high"; a number'],
+      [{ ...good, shown: [{ ...first, opacity: 2 }] }, "shown[0].opacity is 2; a number from 0 to 1"],
+      [{ ...good, shown: [first, { ...second, colour: "red" }] }, "shown[1].colour"],
+      [{ ...good, shown: [{ ...first, id: 1e9 }] }, "of another volume"],
+      [{ ...good, shown: [{ ...first, entry: 4000 }] }, "shown[0].entry is 4000"],
+      [{ ...good, shown: [first, first] }, "shown[1] is in the scene twice"],
+      [{ ...good, shown: 7 }, "shown is 7; a list"],
+      [{ ...good, selected: 2 }, "selected is 2"],
+      [{ ...good, view: [1, 2] }, "view has 2 numbers"],
+      [{ ...good, parts: { nothing: "1" } }, "parts.nothing"],
+    ];
+    for (const [file, says] of cases) expect(() => readScene(page, JSON.stringify(file)), says).toThrow(says);
+    expect(() => readScene(page, "{")).toThrow("This is no JSON");
+  });
+});
+
+describe("the table", () => {
+  it("has a line for every object, and quotes what needs it", () => {
+    const lines = tableCsv(page, two).trimEnd().split("\r\n");
+    expect(lines.length).toBe(page.entries.length + 1);
+    expect(lines[1]?.split(",").slice(0, 4)).toEqual(["Object 1", String(page.entries[0]?.id), "bright", String(page.entries[0]?.tau)]);
+    expect(lines[2]?.endsWith(",20.5")).toBe(true);
+    expect(['a"b', "a,b", null, 3].map(cell)).toEqual(['"a""b"', '"a,b"', "", "3"]);
+  });
+});
+
+describe("an animated PNG", () => {
+  const chunk = (type: string, bytes: Uint8Array): Buffer => {
+    const length = Buffer.alloc(4);
+    length.writeUInt32BE(bytes.length);
+    return Buffer.concat([length, Buffer.from(type), bytes, Buffer.alloc(4)]);
+  };
+  const picture = (side: number, grey: number): Uint8Array => {
+    const header = Buffer.from([0, 0, 0, side, 0, 0, 0, side, 8, 0, 0, 0, 0]);
+    const lines = deflateSync(Buffer.concat(Array.from({ length: side }, () => Buffer.from([0, ...new Array<number>(side).fill(grey)]))));
+    return new Uint8Array(Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk("IHDR", header), chunk("IDAT", lines), chunk("IEND", Buffer.alloc(0))]));
+  };
+  it("has every picture's own bytes, in order", () => {
+    const frames = [1, 2, 3].map((grey) => picture(2, grey));
+    const chunks = chunksOf(animatedPng(frames, 12));
+    expect(chunks.map(({ type }) => type)).toEqual(["IHDR", "acTL", "fcTL", "IDAT", "fcTL", "fdAT", "fcTL", "fdAT", "IEND"]);
+    expect(chunks[2]?.bytes.length).toBe(26);
+    expect([...(chunks[1]?.bytes ?? [])]).toEqual([0, 0, 0, 3, 0, 0, 0, 0]);
+    expect(chunks.filter(({ type }) => type === "fcTL" || type === "fdAT").map(({ bytes }) => bytes[3])).toEqual([0, 1, 2, 3, 4]);
+    expect(Buffer.from(chunks[7]?.bytes.subarray(4) ?? [])).toEqual(Buffer.from(chunksOf(frames[2] as Uint8Array)[1]?.bytes ?? []));
+  });
+  it("is not made of what does not fit", () => {
+    expect(() => animatedPng([picture(2, 1), picture(3, 1)], 12)).toThrow("size");
+    expect(() => animatedPng([new Uint8Array(20)], 12)).toThrow("no PNG");
+  });
+});
+
+describe("the palette", () => {
+  // Simulated dichromats: Machado, Oliveira, Fernandes 2009, table 1, severity 1, of linear red, green, blue.
+  const eyes: Record<string, number[][]> = {
+    all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+    tritanopia: [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
+  };
+  const linear = (hex: string): number[] => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  const times = (matrix: number[][], v: number[]): number[] => matrix.map((row) => row.reduce((sum, m, i) => sum + m * (v[i] ?? 0), 0));
+  const lab = (rgb: number[]): [number, number, number] => {
+    const [x = 0, y = 0, z = 0] = times([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]], rgb.map((c) => Math.min(Math.max(c, 0), 1)));
+    const [fx, fy, fz] = [x / 0.9505, y, z / 1.089].map((t) => (t > 0.008856 ? Math.cbrt(t) : 7.787 * t + 16 / 116)) as [number, number, number];
+    return [116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)];
+  };
+  it("is told apart by every kind of colour vision", () => {
+    for (const [eye, matrix] of Object.entries(eyes)) {
+      const seen = PALETTE.map(([name, colour]) => ({ name, lab: lab(times(matrix, linear(colour))) }));
+      for (const p of seen) for (const q of seen) if (p !== q) expect(Math.hypot(...p.lab.map((c, i) => c - (q.lab[i] ?? 0))), `${p.name} and ${q.name}, ${eye}`).toBeGreaterThan(11);
+    }
+  });
+});
