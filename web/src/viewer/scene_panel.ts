@@ -66,8 +66,8 @@ export class ScenePanel {
     const note = html("span", { class: "note" });
     const button = (mark: string, label: string, hint: string, run: () => void): HTMLElement =>
       html("button", { type: "button", class: `plain ${mark}`, "aria-label": `${label} ${name}`, title: hint, "data-focus": `${mark} ${shown.entry}`, click: run }, mark === "eye" && eye());
-    const pick = html("button", { type: "button", class: "name", "data-focus": `name ${shown.entry}`, "aria-label": `Select ${title}`, "aria-current": selected ? "true" : "false", click: () => editor.select(i) });
-    pick.append(html("span", { class: "swatch" }), html("span", {}, html("b", {}, title), " ", note));
+    const pick = html("button", { type: "button", class: "name", "data-focus": `name ${shown.entry}`, "aria-current": selected ? "true" : "false", click: () => editor.select(i) });
+    pick.append(html("span", { class: "swatch" }), html("span", {}, html("span", { class: "unseen" }, "Select "), html("b", {}, title), " ", note));
     const line = html("div", { class: "row" }, button("eye", "show", "show or hide", () => editor.show(i)), pick, button("out", "remove", "take it out of the scene", () => editor.remove(i)));
     const row = html("li", { class: selected ? "selected" : "" }, line, selected && this.more(shown, name));
     return { row, note, entry: shown.entry };
