@@ -85,9 +85,9 @@ export class Eye {
     return 2 * this.offset().length() * Math.tan(HALF_ANGLE) / this.camera.zoom;
   }
 
-  /** Where the camera stands and what it looks at; ours: what was got here before. */
+  /** Where the camera stands and what it looks at, in digits that an address has room for; ours: what was got here before. */
   get view(): number[] {
-    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map((n) => Number(n.toPrecision(7)));
   }
   set view(numbers: number[]) {
     const target = new three.Vector3().fromArray(numbers, 3);

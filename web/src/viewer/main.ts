@@ -116,7 +116,7 @@ class Viewer implements Desk {
     this.panel.show(state, dragging);
     this.axis.show(state);
     this.scene.show(state, before, dragging);
-    if (state.view && state.view !== before.view && String(state.view) !== String(this.stage.eye.view)) this.stage.eye.view = state.view;
+    if (state.view && state.view !== before.view) this.stage.eye.view = state.view; // to the digit, so that a link shows the same pixels
   }
 }
 

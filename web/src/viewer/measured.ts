@@ -1,5 +1,5 @@
 // What the server measures of an object at the isovalue it is shown at.
-import { plural, value } from "../format";
+import { count, plural, value } from "../format";
 import { entryOf } from "../page";
 import type { Desk } from "./desk";
 import { branchOfShown } from "./shown";
@@ -13,6 +13,6 @@ export async function measuredFacts({ api, page }: Desk, shown: Shown): Promise<
   const at = value(shown.tau);
   if (!there) return [[`at ${at}`, "part of a larger object, or not there"]];
   const [least, most] = there.voxels;
-  const voxels = least === most ? plural(most, "voxel") : `${plural(least, "voxel")} to ${plural(most, "voxel")}`;
+  const voxels = least === most ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
   return [[`at ${at}`, `${voxels}, ${plural(there.tunnels, "tunnel")}, ${plural(there.cavities, "cavity", "cavities")}`]];
 }

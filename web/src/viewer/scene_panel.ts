@@ -28,7 +28,7 @@ export class ScenePanel {
 
   show(state: State): void {
     const { history, editor } = this.desk;
-    this.heading.textContent = state.shown.length > 0 ? `Shown (${state.shown.length})` : "Nothing is shown";
+    this.heading.textContent = state.shown.length > 0 ? "Shown" : "Nothing is shown";
     this.ghosts.hidden = state.shown.length < 2;
     this.ghosts.setAttribute("aria-pressed", String(editor.ghosts));
     for (const [button, word, what] of [[this.undo, "undo", history.undoes], [this.redo, "redo", history.redoes]] as const) {
