@@ -54,7 +54,7 @@ struct Arguments {
 
     // Serving
     int port = 0;  ///< 0: any
-    bool no_browser = false;
+    bool no_browser = false, read_only = false;
 
     // Shaping the output
     ShellChoice shell = ShellChoice::all;

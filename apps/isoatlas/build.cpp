@@ -113,13 +113,19 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
 
 }  // namespace
 
-BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader) {
+BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
+                        const std::function<void(const Progress&)>& watch) {
     BuildReport report;
     {
         Session session(arguments, terminal);
+        Context context = session.context();
+        context.progress = [&watch, bar = context.progress](const Progress& progress) {
+            bar(progress);
+            if (watch) watch(progress);
+        };
         const WritingGuard guard(arguments.output,
                                  "stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
-        report = build_atlas(arguments.output, reader, options_of(arguments, reader.info()), session.context());
+        report = build_atlas(arguments.output, reader, options_of(arguments, reader.info()), context);
     }
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");

@@ -29,11 +29,9 @@ struct Labels {
 
 Labels label_objects(Source& source) {
     const Cut at = source.cut(source.tau(), true);
-    Labels labels{std::vector<std::uint32_t>(at.label.size()),
-                  static_cast<std::int64_t>(at.objects.size()),
-                  {.interpolant = at.interpolant, .tunnel_height = at.tunnel_height, .tau = at.tau}};
-    for (std::size_t i = 0; i < at.label.size(); ++i) labels.of_voxel[i] = static_cast<std::uint32_t>(at.label[i] + 1);
-    return labels;
+    return {object_labels(at),
+            static_cast<std::int64_t>(at.objects.size()),
+            {.interpolant = at.interpolant, .tunnel_height = at.tunnel_height, .tau = at.tau}};
 }
 
 Labels label_dark(Source& source) {

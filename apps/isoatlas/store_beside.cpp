@@ -10,14 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The store is of this file as it is now: newer than it.
+}  // namespace
+
 bool is_fresh(const std::string& store, const std::string& file) {
     std::error_code error;
     return is_atlas(store) && !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) &&
            !error;
 }
-
-}  // namespace
 
 std::string stem_of(const std::string& file) {
     fs::path path(file);

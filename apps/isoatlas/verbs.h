@@ -1,6 +1,7 @@
 // The verbs of the command line, one file each. A verb returns the exit code or throws Error.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
-/// Builds arguments.output and says what there is to say about it.
-BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader);
+/// Builds arguments.output and says what there is to say about it. watch: hears the progress too; may be empty.
+BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
+                        const std::function<void(const Progress&)>& watch = {});
 int run_build(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);

@@ -1,26 +1,27 @@
 // isoatlas view FILE: a store behind a local address, and the page that explores it in a browser.
 #include <cstdlib>
+#include <optional>
 #include <thread>
 
 #include <spawn.h>
-#include <sys/wait.h>
 
 #include "document.h"
 #include "interrupt.h"
-#include "store_beside.h"
+#include "report.h"
+#include "store_awaited.h"
 #include "terminal.h"
 #include "verbs.h"
 
 namespace isoatlas::cli {
 namespace {
 
-/// Asks the desktop, where there is one, to open an address. Nothing happens elsewhere.
+/// Asks the desktop, where there is one, to open an address, and does not wait for it. Nothing happens elsewhere.
 void open_in_browser(const std::string& address) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
     std::string program = "xdg-open", word = address;
     char* words[] = {program.data(), word.data(), nullptr};
     pid_t process = 0;
-    if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ) == 0) waitpid(process, nullptr, 0);
+    (void)posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ);
 }
 
 void print_address(const Arguments& arguments, Terminal& terminal, const Server& server, const std::string& store) {
@@ -37,21 +38,58 @@ void print_address(const Arguments& arguments, Terminal& terminal, const Server&
     terminal.out() << std::flush;
 }
 
+/// A server that answers from now on.
+class Answering {
+public:
+    explicit Answering(Server& server) : server_(server), thread_([&server] { server.run(); }) {}
+    Answering(const Answering&) = delete;
+    Answering& operator=(const Answering&) = delete;
+    ~Answering() {
+        server_.stop();
+        thread_.join();
+    }
+
+private:
+    Server& server_;
+    std::thread thread_;
+};
+
+Context context_of(const Arguments& arguments) {
+    Context context;
+    context.threads = arguments.threads;
+    return context;
+}
+
+void wait_for_the_end() {
+    while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
 }  // namespace
 
 int run_view(const Arguments& arguments, Terminal& terminal) {
-    const std::string store = store_for(arguments, terminal, stem_of(arguments.file) + ".atlas");
-    const Atlas atlas(store, {.cache_bytes = arguments.memory});
-    Context context;
-    context.threads = arguments.threads;
-    Server server(atlas, {.port = arguments.port}, context);
+    const std::string store = store_to_view(arguments);
+    const AtlasOptions options{.cache_bytes = arguments.memory};
+    std::optional<Atlas> atlas;
+    if (is_ready(arguments, terminal, store)) atlas.emplace(store, options);
+    Server server({.port = arguments.port, .memory = arguments.memory}, context_of(arguments));
+    if (atlas) server.open(*atlas);
+    const Answering answering(server);
     print_address(arguments, terminal, server, store);
-    std::thread answering([&server] { server.run(); });
     if (!arguments.no_browser) open_in_browser(server.address());
-    while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    server.stop();
-    answering.join();
-    return 0;
+    int code = 0;
+    if (!atlas) {
+        try {
+            await_store(arguments, terminal, store, [&server](const BuildState& state) { server.tell(state); });
+            atlas.emplace(store, options);
+            server.open(*atlas);
+        } catch (const Error& error) {
+            if (interrupted()) return 0;
+            server.fail(error);  // it stays there for the page, which tells it too
+            code = report(error, false, terminal);
+        }
+    }
+    wait_for_the_end();
+    return code;
 }
 
 }  // namespace isoatlas::cli

@@ -2,9 +2,10 @@
 //
 // Phases: trees (critical elements, criticality tree, contour tree), zones (their sizes), pack (bricks and trees into one file). What a
 // finished phase has found lies in the folder PATH.build, written, synced and renamed, until the store is there; a second build of the
-// same volume with the same parameters goes on behind it.
+// same volume with the same parameters goes on behind it. Anybody can ask where a build is: build_state().
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -60,5 +61,33 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
 
 /// The same for a volume in memory, without a budget.
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
+
+/// Where a build is, for those who wait for its store.
+struct BuildState {
+    std::string phase{};  ///< "classify", "pack", ...; empty: it has only begun
+    int phase_index = 0, phase_count = 1;
+    double fraction = 0;                        ///< of the whole build, 0 to 1: by the time that phases usually take
+    std::optional<double> seconds_left{};       ///< of the whole build; nothing: too early to tell
+    std::optional<double> voxels_per_second{};  ///< of this phase
+    std::int64_t peak_memory = 0;               ///< of the process, bytes
+    friend bool operator==(const BuildState&, const BuildState&) = default;
+};
+
+/// Makes states of what a build tells its Context.
+class BuildClock {
+public:
+    [[nodiscard]] BuildState at(const Progress& progress);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::optional<Clock::time_point> start_{}, phase_start_{};
+    double first_ = 0, first_of_phase_ = 0;  ///< fractions that were reached before: finished phases take no time
+    double furthest_ = 0;
+    int phase_ = -1;
+};
+
+/// Where the build of the store PATH is, as the process that builds it has said within the last second. Nothing: nobody builds it. Never
+/// throws; writes nothing.
+[[nodiscard]] std::optional<BuildState> build_state(const std::string& path);
 
 }  // namespace isoatlas

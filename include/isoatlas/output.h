@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "isoatlas/analysis.h"
+#include "isoatlas/cut.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -29,6 +30,10 @@ struct LabelOrigin {
 /// The same, and the file says the origin of its labels: as key/value pairs in .nrrd, as lines of ImageJ's description in .tif,
 /// "isoatlas objects at tau 0.5, trilinear" (seven digits) in NIfTI. `info` is that of the volume: it calibrates the values.
 void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const LabelOrigin& origin);
+
+/// Labels of a cut with Cut::label: an object's position in Cut::objects + 1, the largest is 1; 0: Low. objects: only those that hold these
+/// voxels, with the same labels; empty: all. Throws Error{not_found} for a voxel in no object.
+[[nodiscard]] std::vector<std::uint32_t> object_labels(const Cut& cut, std::span<const std::int64_t> objects = {});
 
 /// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .nii.
 void write_volume(const std::string& path, const Volume& volume);

@@ -5,20 +5,23 @@
 #include <string>
 
 #include "isoatlas/atlas.h"
+#include "isoatlas/build.h"
 #include "isoatlas/context.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 
 struct ServerOptions {
-    int port = 0;         ///< 1 to 65535; 0: any that is free
-    std::string token{};  ///< what every question must carry; empty: 128 random bits
+    int port = 0;             ///< 1 to 65535; 0: any that is free
+    std::string token{};      ///< what every question must carry; empty: 128 random bits
+    std::int64_t memory = 0;  ///< bytes for answers that are being made or sent at a time; 0: a quarter of what there is
 };
 
-/// Listens on 127.0.0.1 alone. Questions and answers: docs/server.md.
+/// Listens on 127.0.0.1 alone. Questions and answers: docs/server.md. Writes nothing to any disk.
 class Server {
 public:
-    /// The atlas must live as long as this. Throws Error{resource} when the port is taken.
-    explicit Server(const Atlas& atlas, const ServerOptions& options = {}, const Context& context = {});
+    /// There is no store yet: see open(). Throws Error{resource} when the port is taken.
+    explicit Server(const ServerOptions& options = {}, const Context& context = {});
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
     ~Server();
@@ -30,6 +33,14 @@ public:
     void run();
     /// From any thread; what is being answered is ended.
     void stop();
+
+    // From any thread: what those who have the page open see.
+    /// From now on questions are answered from this store, which must live as long as this.
+    void open(const Atlas& atlas);
+    /// The store is being built.
+    void tell(const BuildState& state);
+    /// There will be no store. Another tell() or open() takes it back.
+    void fail(const Error& error);
 
 private:
     struct Data;

@@ -25,7 +25,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kPhases = 7;  // read, the five of analyse(), pack
+constexpr int kPhases = 8;  // read, the five of analyse(), objects, pack
 constexpr const char* kTrees = "trees";
 constexpr const char* kZones = "zones";
 
@@ -72,7 +72,7 @@ void report_packing(std::vector<store::PackedArray>& arrays, const Context& cont
                 if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
                 put(bytes);
                 *done += static_cast<double>(bytes.size());
-                context.report("pack", 6, kPhases, total > 0 ? *done / total : 1);
+                context.report("pack", 7, kPhases, total > 0 ? *done / total : 1);
             });
         };
     }
@@ -94,7 +94,15 @@ double range_of(const VolumeView& volume) {
 
 class Build {
 public:
-    Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {}
+    Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {
+        context_.progress = [this, told = context.progress](const Progress& progress) {
+            folder_.say(clock_.at(progress));
+            if (told) told(progress);
+        };
+    }
+
+    /// That of the caller; what is told is said to other processes too. Valid while this lives.
+    [[nodiscard]] const Context& context() const { return context_; }
 
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
 
@@ -119,11 +127,14 @@ public:
             std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
             ZoneSums sums;
             if (analysis->element_count() <= kTableElements) {
-                complete(*analysis, volume, part);
-                Context quiet = part;
+                Context quiet = context_;
                 quiet.progress = nullptr;
+                context_.report("objects", 6, kPhases, 0);
+                complete(*analysis, volume, quiet);
+                context_.report("objects", 6, kPhases, 0.3);
                 const BothTables tables = rank_both(volume, *analysis, kStoredEntries, quiet);
                 const auto add = [&arrays](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(arrays)); };
+                context_.report("objects", 6, kPhases, 0.9);
                 add(object_arrays(tables.bright));
                 if (store::stores_events(*analysis)) {
                     add(dark_arrays(tables.dark));
@@ -157,7 +168,8 @@ private:
 
     std::string path_;
     BuildFolder folder_;
-    const Context& context_;
+    BuildClock clock_;
+    Context context_;
     BuildReport report_;
 };
 
@@ -173,9 +185,9 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
         samples.resize(bytes);
         return std::span<std::byte>(samples);
     };
-    VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(context, 0, reader.info().extent));
+    VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(build.context(), 0, reader.info().extent));
     if (options.geometry) info.geometry = *options.geometry;
-    if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, context);
+    if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, build.context());
     const VolumeView volume(info, samples.data());
     AnalysisOptions analysis = options.analysis;
     if (options.tunnel_height_percent > 0) analysis.tunnel_height = options.tunnel_height_percent / 100 * range_of(volume);

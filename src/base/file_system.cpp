@@ -11,6 +11,8 @@ FileSystem*& in_use() {
     return files;
 }
 
+thread_local FileSystem* own = nullptr;
+
 }  // namespace
 
 File::~File() = default;
@@ -25,6 +27,7 @@ FileSystem::~FileSystem() = default;
 std::string FileSystem::link(const std::string&) { return {}; }
 OpenedFile FileSystem::open_stream(const std::string&) { return {nullptr, -EROFS}; }
 OpenedFile FileSystem::create(const std::string&) { return {nullptr, -EROFS}; }
+bool FileSystem::is_held(const std::string&) { return false; }
 int FileSystem::set_mode(const std::string&, unsigned) { return -EROFS; }
 int FileSystem::rename(const std::string&, const std::string&) { return -EROFS; }
 int FileSystem::remove(const std::string&) { return -EROFS; }
@@ -33,10 +36,13 @@ int FileSystem::remove_folder(const std::string&) { return -EROFS; }
 std::vector<std::string> FileSystem::entries(const std::string&, std::size_t) { return {}; }
 int FileSystem::sync_folder(const std::string&) { return -EROFS; }
 
-FileSystem& file_system() { return *in_use(); }
+FileSystem& file_system() { return own == nullptr ? *in_use() : *own; }
 
 ReplacedFileSystem::ReplacedFileSystem(FileSystem& files) : before_(std::exchange(in_use(), &files)) {}
 ReplacedFileSystem::~ReplacedFileSystem() { in_use() = before_; }
+
+OwnFileSystem::OwnFileSystem(FileSystem& files) : before_(std::exchange(own, &files)) {}
+OwnFileSystem::~OwnFileSystem() { own = before_; }
 
 int write_fully(File& file, std::int64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {

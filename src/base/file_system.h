@@ -65,6 +65,8 @@ public:
     [[nodiscard]] virtual OpenedFile open_stream(const std::string& path);
     /// Makes an empty file, or empties the one that is there, and locks it until it is closed: -EWOULDBLOCK when somebody else holds it.
     [[nodiscard]] virtual OpenedFile create(const std::string& path);
+    /// Does somebody hold a file that create() gave him? For the time of the question create() may say that it is held.
+    [[nodiscard]] virtual bool is_held(const std::string& path);
     [[nodiscard]] virtual int set_mode(const std::string& path, unsigned mode);
     [[nodiscard]] virtual int rename(const std::string& from, const std::string& to);
     [[nodiscard]] virtual int remove(const std::string& path);
@@ -78,7 +80,7 @@ public:
     [[nodiscard]] virtual int sync_folder(const std::string& path);
 };
 
-/// The one in use.
+/// The one in use: this thread's own one, or that of all.
 [[nodiscard]] FileSystem& file_system();
 /// That of the operating system.
 [[nodiscard]] FileSystem& system_files();
@@ -90,6 +92,18 @@ public:
     ~ReplacedFileSystem();
     ReplacedFileSystem(const ReplacedFileSystem&) = delete;
     ReplacedFileSystem& operator=(const ReplacedFileSystem&) = delete;
+
+private:
+    FileSystem* before_;
+};
+
+/// While it lives, `files` is in use in the thread that made it; others do not notice.
+class OwnFileSystem {
+public:
+    explicit OwnFileSystem(FileSystem& files);
+    ~OwnFileSystem();
+    OwnFileSystem(const OwnFileSystem&) = delete;
+    OwnFileSystem& operator=(const OwnFileSystem&) = delete;
 
 private:
     FileSystem* before_;

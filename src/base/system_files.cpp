@@ -108,6 +108,12 @@ public:
             return result;
         }
     }
+    bool is_held(const std::string& path) override {
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        if (descriptor < 0) return false;
+        const SystemFile closes(descriptor);
+        return repeated([&] { return ::flock(descriptor, LOCK_SH | LOCK_NB); }) == -EWOULDBLOCK;
+    }
     int set_mode(const std::string& path, unsigned mode) override { return error_of(::chmod(path.c_str(), mode)); }
     int rename(const std::string& from, const std::string& to) override { return error_of(::rename(from.c_str(), to.c_str())); }
     int remove(const std::string& path) override { return error_of(::unlink(path.c_str())); }

@@ -5,6 +5,7 @@
 #include "base/big_vector.h"
 #include "critical/bodies.h"
 #include "field/slab_work.h"
+#include "isoatlas/error.h"
 #include "mesh/cells.h"
 #include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
@@ -49,6 +50,7 @@ public:
     void run(Surface& surface) {
         if (domain_.is_empty()) return for_arrays(surface, [](auto& array) { array.clear(); });
         count();
+        check_size();
         allocate(surface);
         write_hits(surface);
         write_cells(surface);
@@ -91,6 +93,14 @@ private:
         });
         layout_.back() = {};
         turn_counts_into_places(layout_);
+    }
+
+    void check_size() const {
+        const std::int64_t simplices = layout_.back().triangle, most = options_.most_triangles;
+        if (most == 0 || simplices <= most) return;
+        throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(simplices) + " triangles",
+                                          .expected = "at most " + std::to_string(most),
+                                          .next = "ask for one object or another isovalue; isoatlas extract writes surfaces of any size"});
     }
 
     /// Every entry will be written.

@@ -1,7 +1,10 @@
 #include "server/answers.h"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 
+#include "atlas/surface_size.h"
 #include "output/json_stream.h"
 #include "page/contents.h"
 #include "page/page_json.h"
@@ -23,6 +26,22 @@ std::string document(const char* kind, Write&& write) {
 
 void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
     json.key(name).begin_array().value(bounds.least).value(bounds.most).end_array();
+}
+
+void put_error(JsonStream& json, const Error& error) {
+    const ErrorText& text = error.text();
+    json.key("error").begin_object().key("code").value(static_cast<int>(error.kind())).key("message").value(error.what());
+    json.key("where").value(text.where).key("what").value(text.what);
+    json.key("expected").value(text.expected).key("next").value(text.next).end_object();
+}
+
+void put_build(JsonStream& json, const BuildState& build) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();  // null
+    json.key("build").begin_object().key("phase").value(build.phase);
+    json.key("phase_index").value(build.phase_index).key("phase_count").value(build.phase_count).key("fraction").value(build.fraction);
+    json.key("seconds_left").value(build.seconds_left.value_or(unknown));
+    json.key("voxels_per_second").value(build.voxels_per_second.value_or(unknown));
+    json.key("peak_memory").value(build.peak_memory).end_object();
 }
 
 }  // namespace
@@ -60,13 +79,40 @@ std::string active_json(const ActiveObjects& active, double tau, std::int64_t to
     });
 }
 
-std::string error_json(const Error& error) {
-    const ErrorText& text = error.text();
-    return document("error", [&](JsonStream& json) {
-        json.key("error").begin_object().key("code").value(static_cast<int>(error.kind())).key("message").value(error.what());
-        json.key("where").value(text.where).key("what").value(text.what);
-        json.key("expected").value(text.expected).key("next").value(text.next).end_object();
+std::string measures_json(const Surface& surface, const ActiveObjects& active, double tau) {
+    std::map<std::int64_t, const ActiveObject*> topology;
+    for (const ActiveObject& object : active.objects) topology[object.id] = &object;
+    return document("measures", [&](JsonStream& json) {
+        json.key("tau").value(tau).key("unit").value(surface.unit).key("objects").begin_array();
+        for (const ObjectSize& size : sizes_of_objects(surface)) {
+            const ActiveObject& object = *topology.at(size.object);
+            json.line().begin_object().key("id").value(size.object).key("area").value(size.area).key("volume").value(size.measure);
+            json.key("tunnels").value(object.b1).key("cavities").value(object.b2).key("triangles").value(size.triangles);
+            put_bounds(json, "voxels", {object.voxels_least, object.voxels_most});
+            json.key("box").begin_array().value(size.low).value(size.high).end_array().end_object();
+        }
+        json.end_array();
     });
+}
+
+std::string error_json(const Error& error) {
+    return document("error", [&](JsonStream& json) { put_error(json, error); });
+}
+
+std::string events_json(const Opening::State& state, const std::vector<Turns::Pending>& pending) {
+    std::string text = document("events", [&](JsonStream& json) {
+        json.key("state").value(state.is_open ? "open" : state.failure ? "failed" : "building");
+        if (!state.is_open && state.failure) put_error(json, *state.failure);
+        if (!state.is_open && !state.failure) put_build(json, state.build);
+        json.key("questions").begin_array();
+        for (const Turns::Pending& question : pending) {
+            json.begin_object().key("client").value(question.client).key("place").value(question.place);
+            json.key("fraction").value(question.fraction).end_object();
+        }
+        json.end_array();
+    });
+    std::erase(text, '\n');
+    return text;
 }
 
 }  // namespace isoatlas::server

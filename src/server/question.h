@@ -3,7 +3,11 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
+
+#include "server/event_stream.h"
+#include "server/turns.h"
 
 namespace isoatlas::server {
 
@@ -12,6 +16,7 @@ struct Question {
     std::multimap<std::string, std::string> words;  ///< what follows '?'
     std::string token;                              ///< who may ask; empty: none was sent
     std::string client;                             ///< who asks; of one client a newer question ends an older one for a surface
+    Left left{};                                    ///< is nobody there any more to hear the answer?
 };
 
 struct Answer {
@@ -19,6 +24,7 @@ struct Answer {
     std::string type = "application/json";
     std::string bytes{};
     std::map<std::string, std::string> headers{};
+    std::shared_ptr<EventStream> events{};  ///< instead of bytes: what is still to come
 };
 
 }  // namespace isoatlas::server

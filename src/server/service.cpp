@@ -2,20 +2,22 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 
-#include "base/parallel.h"
+#include "base/memory_limit.h"
 #include "isoatlas/error.h"
+#include "isoatlas/output.h"
 #include "page/template.h"
 #include "server/answers.h"
-#include "server/mesh_file.h"
+#include "server/file_bytes.h"
 #include "server/wire_mesh.h"
-#include "server/words.h"
 
 namespace isoatlas::server {
 namespace {
 
-constexpr int kSurfacesAtOnce = 2, kMostWaiting = 256;
+constexpr int kAtOnce = 2, kMostWaiting = 256;
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000;
+constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
 
@@ -37,26 +39,45 @@ int status_of(ErrorKind kind) {
     }
 }
 
+Answer refusal(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
+Answer json_answer(std::string text) { return {200, "application/json", std::move(text)}; }
+Answer file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
+
 double required_tau(Words& words) {
     const std::optional<double> tau = words.number("tau");
     if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "the isovalue is missing", .next = "add tau=NUMBER"});
     return *tau;
 }
 
+/// In stored values.
+double stored_tau(const Atlas& atlas, double reported) { return atlas.info().calibration.stored(reported); }
+
 }  // namespace
 
-Service::Service(const Atlas& atlas, std::string token, const Context& context)
-    : atlas_(atlas), token_(std::move(token)), context_(context), turns_(kSurfacesAtOnce, kMostWaiting) {
+Service::Service(std::string token, const Context& context, std::int64_t memory)
+    : token_(std::move(token)),
+      context_(context),
+      memory_((memory > 0 ? memory : available_memory() / 4) / kAtOnce),
+      opening_(changes_),
+      turns_(kAtOnce, kMostWaiting, &changes_),
+      events_(opening_, turns_, changes_) {
     context_.progress = {};
+}
+
+void Service::end() {
+    turns_.end();
+    events_.end();
 }
 
 Answer Service::answer(const Question& question) {
     try {
         return answer_known(question);
     } catch (const Error& error) {
-        return {status_of(error.kind()), "application/json", error_json(error), {}};
+        return refusal(status_of(error.kind()), error);
+    } catch (const std::bad_alloc&) {
+        return refusal(503, Error(ErrorKind::resource, {.what = "not enough memory", .next = "ask for less, or again later"}));
     } catch (const std::exception& exception) {
-        return {500, "application/json", error_json(Error(ErrorKind::internal, {.what = exception.what()})), {}};
+        return refusal(500, Error(ErrorKind::internal, {.what = exception.what()}));
     }
 }
 
@@ -64,31 +85,40 @@ Answer Service::answer_known(const Question& question) {
     if (question.path == "/") {
         if (page::viewer_template().empty())
             throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "ask /api/atlas"});
-        return {200, "text/html; charset=utf-8", std::string(page::viewer_template()), {}};
+        return {200, "text/html; charset=utf-8", std::string(page::viewer_template())};
     }
     if (!is_token(question.token, token_)) {
-        const Error error(ErrorKind::usage,
-                          {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"});
-        return {403, "application/json", error_json(error), {}};
+        return refusal(
+            403, Error(ErrorKind::usage, {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"}));
     }
+    if (question.path == "/api/events") return events_answer(question);
     if (question.path == "/api/atlas") return atlas_answer();
     if (question.path == "/api/preview") return preview_answer(question);
     if (question.path == "/api/objects") return objects_answer(question);
+    if (question.path == "/api/measures") return measures_answer(question);
     if (question.path == "/api/surface") return surface_answer(question);
+    if (question.path == "/api/label") return label_answer(question);
     throw Error(ErrorKind::not_found, {.where = question.path.substr(0, 100),
                                        .what = "there is nothing here",
-                                       .expected = "/api/atlas, /api/preview, /api/objects or /api/surface"});
+                                       .expected = "/api/ and one of: events, atlas, preview, objects, measures, surface, label"});
+}
+
+Answer Service::events_answer(const Question& question) {
+    Words(question.words).refuse_others();
+    Answer answer{200, "text/event-stream"};
+    answer.events = events_.listen(question.client, question.left);
+    return answer;
 }
 
 Answer Service::atlas_answer() {
-    return {200, "application/json", atlas_json_.get([this] { return atlas_json(atlas_, context_); }), {}};
+    return json_answer(atlas_json_.get([&atlas = atlas(), this] { return atlas_json(atlas, context_); }));
 }
 
 Answer Service::preview_answer(const Question& question) const {
     Words words(question.words);
     const double tau = required_tau(words);
     words.refuse_others();
-    return {200, "application/json", preview_json(atlas_.preview(stored_tau(tau)), tau), {}};
+    return json_answer(preview_json(atlas().preview(stored_tau(atlas(), tau)), tau));
 }
 
 Answer Service::objects_answer(const Question& question) const {
@@ -96,18 +126,31 @@ Answer Service::objects_answer(const Question& question) const {
     const double tau = required_tau(words);
     const std::int64_t top = words.whole("top", 1, kMostListed).value_or(1000);
     words.refuse_others();
-    return {200, "application/json", active_json(atlas_.active(stored_tau(tau), false), tau, top), {}};
+    return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false), tau, top));
+}
+
+Answer Service::measures_answer(const Question& question) {
+    const Atlas& atlas = atlas_of_volume();
+    Words words(question.words);
+    const double tau = required_tau(words);
+    const std::vector<std::int64_t> objects = voxels(words, "object");
+    words.refuse_others();
+    if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
+    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    ExtractOptions options;
+    options.objects = objects;
+    options.normals = false;
+    const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
+    return json_answer(measures_json(surface, atlas.active(surface.tau, false), tau));
 }
 
 Answer Service::surface_answer(const Question& question) {
-    if (atlas_.info().extent.rank != 3) {
-        throw Error(ErrorKind::unsupported, {.what = "the contours of an image are no surface", .next = "isoatlas extract writes them"});
-    }
+    const Atlas& atlas = atlas_of_volume();
     Words words(question.words);
     const double tau = required_tau(words);
     ExtractOptions options;
-    options.objects = words.list("object", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
-    options.contours = words.list("contour", 0, atlas_.info().extent.voxels() - 1, kMostObjects);
+    options.objects = voxels(words, "object");
+    options.contours = voxels(words, "contour");
     const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
@@ -115,17 +158,55 @@ Answer Service::surface_answer(const Question& question) {
     const std::int64_t most = words.whole("most", 1, kMostTriangles).value_or(kMostTriangles);
     words.refuse_others();
 
-    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client);
-    Context context = context_;
-    context.cancelled = [&turn] { return turn->is_over(); };
-    const Surface surface = atlas_.extract(stored_tau(tau), options, context);
-    if (format) return {200, "application/octet-stream", mesh_file(surface, "." + *format), {}};
-    const Vec3& spacing = atlas_.info().geometry.spacing;
+    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
+    if (format) return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }));
+    const Vec3& spacing = atlas.info().geometry.spacing;
     const WireMesh mesh = wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most});
-    Answer answer{200, "application/octet-stream", std::string(reinterpret_cast<const char*>(mesh.bytes.data()), mesh.bytes.size()), {}};
+    Answer answer = file_answer({reinterpret_cast<const char*>(mesh.bytes.data()), mesh.bytes.size()});
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
     return answer;
+}
+
+Answer Service::label_answer(const Question& question) {
+    const Atlas& atlas = this->atlas();
+    Words words(question.words);
+    const double tau = required_tau(words);
+    const std::vector<std::int64_t> objects = voxels(words, "object");
+    const std::string format = words.choice("format", {"nrrd", "nii", "nii.gz", "tif"}).value_or("nrrd");
+    words.refuse_others();
+    if (atlas.info().extent.voxels() > memory_ / kLabelBytes) {
+        throw Error(ErrorKind::resource, {.what = "the labels of so many voxels are more than this server may hold",
+                                          .next = "isoatlas label writes them; or start the viewer with more --memory"});
+    }
+    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    const Cut cut = atlas.cut(stored_tau(atlas, tau), {.label = true}, context_of(*turn));
+    const LabelOrigin origin{.interpolant = cut.interpolant, .tunnel_height = cut.tunnel_height, .tau = cut.tau};
+    const std::vector<std::uint32_t> labels = object_labels(cut, objects);
+    return file_answer(file_bytes("." + format, [&](const std::string& path) { write_labels(path, atlas.info(), labels, origin); }));
+}
+
+const Atlas& Service::atlas_of_volume() const {
+    const Atlas& found = atlas();
+    if (found.info().extent.rank == 3) return found;
+    throw Error(ErrorKind::unsupported, {.what = "the contours of an image are no surface", .next = "isoatlas extract writes them"});
+}
+
+std::vector<std::int64_t> Service::voxels(Words& words, std::string_view name) const {
+    return words.list(name, 0, atlas().info().extent.voxels() - 1, kMostObjects);
+}
+
+Context Service::context_of(Turns::Turn& turn) const {
+    Context context = context_;
+    context.cancelled = [&turn] { return turn.is_over(); };
+    context.progress = [&turn](const Progress& progress) { turn.tell((progress.phase_index + progress.fraction) / progress.phase_count); };
+    return context;
+}
+
+Surface Service::extract(double tau, ExtractOptions options, Turns::Turn& turn) const {
+    options.most_triangles = std::min(memory_ / kTriangleBytes, kMostTriangles);
+    return atlas().extract(tau, options, context_of(turn));
 }
 
 }  // namespace isoatlas::server

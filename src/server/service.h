@@ -1,10 +1,13 @@
 // What the server knows: answers to the questions of a viewer, from a store. Any question is safe; refusals are answers.
 //
+//   /api/events                             where the server is, and where the questions of this client are: a stream that goes on
 //   /api/atlas                              what a page shows, without pictures: docs/schema/page.schema.json
 //   /api/preview?tau=T                      what the surface at T is and costs, before it is made
 //   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
+//   /api/measures?tau=T&object=ID,...       how large these objects are, in physical units
 //   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&most=N]   a mesh (server/wire_mesh.h)
 //   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
+//   /api/label?tau=T[&object=ID,...]&format=nrrd                  the file that `isoatlas label` writes
 //
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
 #pragma once
@@ -14,34 +17,53 @@
 #include "base/lazy.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
+#include "server/changes.h"
+#include "server/event_stream.h"
+#include "server/opening.h"
 #include "server/question.h"
 #include "server/turns.h"
+#include "server/words.h"
 
 namespace isoatlas::server {
 
 class Service {
 public:
-    /// atlas must live as long as this.
-    Service(const Atlas& atlas, std::string token, const Context& context);
+    /// memory: bytes for what is being made at a time; 0: a quarter of what there is.
+    Service(std::string token, const Context& context, std::int64_t memory = 0);
 
+    /// The store that answers come from, or where it stands; nothing is answered before.
+    [[nodiscard]] Opening& opening() { return opening_; }
     /// Never throws but for want of memory. From many threads.
     [[nodiscard]] Answer answer(const Question& question);
     /// Ends what is being answered.
-    void end() { turns_.end(); }
+    void end();
 
 private:
     [[nodiscard]] Answer answer_known(const Question& question);
+    [[nodiscard]] Answer events_answer(const Question& question);
     [[nodiscard]] Answer atlas_answer();
     [[nodiscard]] Answer preview_answer(const Question& question) const;
     [[nodiscard]] Answer objects_answer(const Question& question) const;
+    [[nodiscard]] Answer measures_answer(const Question& question);
     [[nodiscard]] Answer surface_answer(const Question& question);
-    /// In stored values.
-    [[nodiscard]] double stored_tau(double reported) const { return atlas_.info().calibration.stored(reported); }
+    [[nodiscard]] Answer label_answer(const Question& question);
 
-    const Atlas& atlas_;
-    std::string token_;
+    [[nodiscard]] const Atlas& atlas() const { return opening_.atlas(); }
+    /// Throws Error{unsupported} for an image.
+    [[nodiscard]] const Atlas& atlas_of_volume() const;
+    [[nodiscard]] std::vector<std::int64_t> voxels(Words& words, std::string_view name) const;
+    /// Of a long call for who holds the turn.
+    [[nodiscard]] Context context_of(Turns::Turn& turn) const;
+    /// Refuses what would take more memory than one answer may.
+    [[nodiscard]] Surface extract(double tau, ExtractOptions options, Turns::Turn& turn) const;
+
+    const std::string token_;
     Context context_;
+    const std::int64_t memory_;  ///< of one answer
+    Changes changes_;
+    Opening opening_;
     Turns turns_;
+    EventStreams events_;
     Lazy<std::string> atlas_json_;
 };
 

@@ -2,45 +2,24 @@
 import concurrent.futures
 import gzip
 import json
-import signal
 import socket
-import subprocess
 import unittest
-import urllib.error
-import urllib.request
 
 import harness
+import served
 
 
 class View(harness.CliTest):
     phantoms = {"field.nrrd": ["random-field", "--size", "24", "--noise", "0.02"]}
 
     def setUp(self):
-        self.process = subprocess.Popen([harness.CLI, "view", "field.nrrd", "--no-browser", "--json"], cwd=self.folder, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
-        lines = []
-        while True:
-            lines.append(self.process.stdout.readline())
-            self.assertNotEqual(lines[-1], "", "the server ended: " + (self.process.stderr.read() if lines[-1] == "" else ""))
-            if lines[-1] == "}\n":
-                break
-        self.document = json.loads("".join(lines))
-        self.port = self.document["port"]
-        self.token = self.document["address"].split("token=")[1]
+        self.viewer = served.Viewer(self.folder, "field.nrrd")
+        self.ask, self.port, self.token = self.viewer.ask, self.viewer.port, self.viewer.token
+        self.states = self.viewer.until("open")
 
     def tearDown(self):
-        self.process.send_signal(signal.SIGINT)
-        _, errors = self.process.communicate(timeout=30)
-        self.assertEqual(self.process.returncode, 0, errors)
-
-    def ask(self, path, token=None, **headers):
-        request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", headers=headers)
-        request.add_header("Authorization", "Bearer " + (self.token if token is None else token))
-        try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
-                return answer.status, dict(answer.headers), answer.read()
-        except urllib.error.HTTPError as error:
-            return error.code, dict(error.headers), error.read()
+        code, errors = self.viewer.stop()
+        self.assertEqual(code, 0, errors)
 
     def json_of(self, path):
         status, _, body = self.ask(path)
@@ -48,7 +27,7 @@ class View(harness.CliTest):
         return json.loads(body)
 
     def raw(self, text):
-        with socket.create_connection(("127.0.0.1", self.port), timeout=30) as connection:
+        with self.viewer.connect() as connection:
             connection.sendall(text)
             connection.shutdown(socket.SHUT_WR)
             answer = b""
@@ -57,7 +36,9 @@ class View(harness.CliTest):
             return answer
 
     def test_story(self):
-        self.assert_schema(self.document, "view")
+        self.assert_schema(self.viewer.document, "view")
+        for state in self.states:
+            self.assert_schema(state, "server-events")
         atlas = self.json_of("/api/atlas")
         self.assert_schema(atlas, "page")
         table = self.run_json("objects", "field.atlas")
@@ -80,8 +61,27 @@ class View(harness.CliTest):
             self.assert_schema(objects, "server-objects")
             self.assertEqual(objects["count"], preview["objects"])
 
+    def test_measures(self):
+        tau = self.run_json("objects", "field.atlas")["objects"][0]["best_tau"]
+        listed = self.run_json("objects", "field.atlas", "--tau", repr(tau))["objects"][:5]
+        measures = self.json_of(f"/api/measures?tau={tau!r}&object=" + ",".join(str(entry["id"]) for entry in listed))
+        self.assert_schema(measures, "server-measures")
+        self.assertEqual(sorted(one["id"] for one in measures["objects"]), sorted(entry["id"] for entry in listed))
+        for entry in listed:
+            one = next(one for one in measures["objects"] if one["id"] == entry["id"])
+            extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x.ply")
+            self.assertEqual((one["triangles"], one["tunnels"], one["cavities"]), (extracted["triangles"], entry["b1"], entry["b2"]))
+
+    def test_labels(self):
+        tau = self.run_json("objects", "field.atlas")["objects"][0]["best_tau"]
+        for format in ("nrrd", "nii", "nii.gz", "tif"):
+            self.run_json("label", "field.atlas", "--tau", repr(tau), "-o", "x." + format)
+            status, _, body = self.ask(f"/api/label?tau={tau!r}&format={format}")
+            self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
+
     def test_who_may_ask(self):
-        self.assertEqual(self.ask("/api/atlas", token="")[0], 403)
+        for path in ("/api/atlas", "/api/events", "/api/label?tau=0"):
+            self.assertEqual(self.ask(path, token="")[0], 403)
         self.assertEqual(self.ask("/api/atlas", token=self.token[:-1] + "x")[0], 403)
         self.assertEqual(self.ask("/", token="")[0], 200)
         self.assertEqual(self.ask("/", Host="evil.example")[0], 421)
@@ -91,6 +91,7 @@ class View(harness.CliTest):
 
     def test_refusals(self):
         for path, status in (("/api/surface?tau=nan", 400), ("/api/surface", 400), ("/api/preview?tau=1&x=2", 400), ("/api/none", 404),
+                             ("/api/measures?tau=0", 400), ("/api/label?tau=0&format=exe", 400), ("/api/events?x=1", 400),
                              ("/../../etc/passwd", 404), ("/%2e%2e/%2e%2e/etc/passwd", 404), ("/api/surface?tau=0&object=99999999999", 400),
                              ("/api/surface?tau=0&object=" + ",".join(["1"] * 257), 400)):
             got, _, body = self.ask(path)

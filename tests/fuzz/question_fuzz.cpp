@@ -50,11 +50,12 @@ server::Question question_of(std::string_view text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size > 8192) return 0;  // what HTTP lets through
-    static server::Service service(small_atlas(), "right", [] {
+    static server::Service service("right", [] {
         Context context;
         context.threads = 1;
         return context;
     }());
+    service.opening().open(small_atlas());
     const server::Question question = question_of({reinterpret_cast<const char*>(data), size});
     const server::Answer answer = service.answer(question);
     ISOATLAS_CHECK(answer.status == 200 || answer.status == 400 || answer.status == 403 || answer.status == 404);

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 
 #include "isoatlas/build.h"
+#include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
 #include "oracle/stores.h"
 
@@ -19,15 +22,17 @@ protected:
     void SetUp() override {
         build_atlas(path_, make_phantom("torus-chain", {.size = 24}));
         atlas_.emplace(path_);
-        service_.emplace(*atlas_, "secret", Context{});
+        service_.emplace("secret", Context{});
+        service_->opening().open(*atlas_);
     }
 
     Answer ask(const std::string& path, std::multimap<std::string, std::string> words = {}, const std::string& token = "secret") {
-        return service_->answer({path, std::move(words), token, "test"});
+        return service_->answer({path, std::move(words), token, "test", left_});
     }
 
     std::optional<Atlas> atlas_;
     std::optional<Service> service_;
+    Left left_;
 };
 
 TEST_F(ServiceTest, NothingWithoutTheToken) {
@@ -67,6 +72,11 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/surface", {{"tau", "0.5"}, {"most", "0"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"x", "1"}}, 400},
                                   {"/api/objects", {{"tau", "0.5"}, {"top", "1e9"}}, 400},
+                                  {"/api/measures", {{"tau", "0.5"}}, 400},
+                                  {"/api/measures", {{"tau", "0.5"}, {"object", "0"}}, 404},
+                                  {"/api/label", {{"tau", "0.5"}, {"format", "stl"}}, 400},
+                                  {"/api/label", {{"tau", "0.5"}, {"object", "0"}}, 404},
+                                  {"/api/events", {{"tau", "0.5"}}, 400},
                                   {"/api", {}, 404},
                                   {"", {}, 404}};
     for (const Case& c : cases) {
@@ -79,7 +89,16 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
 
 TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     std::mt19937 random(7);
-    const std::vector<std::string> paths{"/", "/api/atlas", "/api/preview", "/api/objects", "/api/surface", "/api/../api/atlas", "//"};
+    const std::vector<std::string> paths{"/",
+                                         "/api/atlas",
+                                         "/api/preview",
+                                         "/api/objects",
+                                         "/api/surface",
+                                         "/api/measures",
+                                         "/api/label",
+                                         "/api/events",
+                                         "/api/../api/atlas",
+                                         "//"};
     const std::vector<std::string> names{"tau", "object", "most", "top", "", "TAU"};
     const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan", "", "0", "1", "99999999999999999999",
                                           "1,2,3", "\xff\0x", "0.5;"};
@@ -89,6 +108,74 @@ TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
         const Answer answer = ask(paths[random() % paths.size()], words);
         EXPECT_TRUE(answer.status == 200 || answer.status == 400 || answer.status == 404 || answer.status == 500) << answer.status;
         EXPECT_EQ(answer.bytes.find("a bug"), std::string::npos) << answer.bytes;
+    }
+}
+
+TEST_F(ServiceTest, LabelsAreThoseOfTheCommandLine) {
+    const Cut cut = atlas_->cut(0.5, {.label = true});
+    ASSERT_GE(cut.objects.size(), 1U);
+    const std::string file = path_ + ".nrrd";
+    write_labels(file, atlas_->info(), object_labels(cut), {.interpolant = cut.interpolant, .tau = cut.tau});
+    const Answer all = ask("/api/label", {{"tau", "0.5"}, {"format", "nrrd"}});
+    ASSERT_EQ(all.status, 200) << all.bytes;
+    std::ifstream stream(file, std::ios::binary);
+    EXPECT_EQ(all.bytes, std::string(std::istreambuf_iterator<char>(stream), {}));
+    std::filesystem::remove(file);
+    for (const char* format : {"nii", "nii.gz", "tif"})
+        EXPECT_EQ(ask("/api/label", {{"tau", "0.5"}, {"format", format}, {"object", std::to_string(cut.objects[0].id)}}).status, 200)
+            << format;
+}
+
+TEST_F(ServiceTest, MeasuresAreThoseOfTheSurface) {
+    const Cut cut = atlas_->cut(0.5);
+    const std::int64_t id = cut.objects[0].id;
+    const auto json = nlohmann::json::parse(ask("/api/measures", {{"tau", "0.5"}, {"object", std::to_string(id)}}).bytes);
+    ASSERT_EQ(json["objects"].size(), 1U);
+    const auto& object = json["objects"][0];
+    EXPECT_EQ(object["id"], id);
+    EXPECT_EQ(object["tunnels"], cut.objects[0].b1);
+    EXPECT_EQ(object["cavities"], cut.objects[0].b2);
+    ExtractOptions options;
+    options.objects = {id};
+    const Surface surface = atlas_->extract(0.5, options);
+    EXPECT_EQ(object["triangles"], surface.triangles.size());
+    for (const auto& point : surface.points) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(point[axis], object["box"][0][axis].get<double>());
+            EXPECT_LE(point[axis], object["box"][1][axis].get<double>());
+        }
+    }
+    EXPECT_NEAR(object["volume"].get<double>(), cut.objects[0].measure, 0.2 * cut.objects[0].measure);
+    EXPECT_GT(object["area"].get<double>(), 0);
+}
+
+TEST_F(ServiceTest, WithoutAStoreItSaysHowFarItIs) {
+    Service service("secret", {});
+    const auto status = [&](const char* path) { return service.answer({path, {{"tau", "0.5"}}, "secret", ""}).status; };
+    for (const char* path : {"/api/preview", "/api/objects", "/api/surface", "/api/label", "/api/measures"})
+        EXPECT_EQ(status(path), 503) << path;
+    service.opening().fail(Error(ErrorKind::input, {.what = "no such volume", .next = "find it"}));
+    EXPECT_EQ(status("/api/preview"), 500);
+    service.opening().open(*atlas_);
+    EXPECT_EQ(status("/api/preview"), 200);
+}
+
+TEST_F(ServiceTest, AnExtractionEndsWhenWhoAskedHasLeft) {
+    int asked = 0;
+    left_ = [&asked] { return ++asked > 1; };  // there while it waits, gone at the first slab
+    EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 409);
+    EXPECT_LE(asked, 3);
+    left_ = {};
+    EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 200);
+}
+
+TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
+    Service small("secret", {}, 1000);
+    small.opening().open(*atlas_);
+    for (const char* path : {"/api/surface", "/api/label"}) {
+        const Answer answer = small.answer({path, {{"tau", "0.5"}}, "secret", ""});
+        EXPECT_EQ(answer.status, 503);
+        EXPECT_NE(nlohmann::json::parse(answer.bytes)["error"]["next"].get<std::string>().find("isoatlas"), std::string::npos);
     }
 }
 

@@ -12,9 +12,9 @@
 namespace isoatlas::server {
 namespace {
 
-ErrorKind kind_of_refusal(Turns& turns, const std::string& client) {
+ErrorKind kind_of_refusal(Turns& turns, const std::string& client, const Left& left = {}) {
     try {
-        (void)turns.take(client);
+        (void)turns.take(client, left);
     } catch (const Error& error) {
         return error.kind();
     }
@@ -95,6 +95,78 @@ TEST(Turns, ComeInTheOrderOfTheQuestions) {
     holder.reset();
     for (std::thread& asker : askers) asker.join();
     EXPECT_EQ(served, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
+}
+
+TEST(Turns, WhoHasLeftIsEnded) {
+    Turns turns(1, 10);
+    auto holder = turns.take("a");
+    std::atomic<bool> gone = false;
+    std::atomic<int> cancelled = 0;
+    std::thread asker([&] { cancelled += kind_of_refusal(turns, "b", [&gone] { return gone.load(); }) == ErrorKind::cancelled; });
+    while (turns.waiting() < 1) std::this_thread::yield();
+    gone = true;
+    asker.join();  // though nobody gives a turn back
+    EXPECT_EQ(cancelled, 1);
+    EXPECT_EQ(turns.waiting(), 0);
+    const auto with_left = [&gone] { return gone.load(); };
+    holder.reset();
+    gone = false;
+    const auto turn = turns.take("c", with_left);
+    EXPECT_FALSE(turn->is_over());
+    gone = true;
+    EXPECT_TRUE(turn->is_over());
+}
+
+TEST(Turns, ALeavingClientEndsItsLanesAlone) {
+    Turns turns(4, 10);
+    const auto a = turns.take("a/surface 1"), b = turns.take("a/file"), plain = turns.take("a"), other = turns.take("ab/surface 1");
+    turns.leave("a");
+    EXPECT_TRUE(a->is_over());
+    EXPECT_TRUE(b->is_over());
+    EXPECT_TRUE(plain->is_over());
+    EXPECT_FALSE(other->is_over());
+}
+
+TEST(Turns, ANewerQuestionKeepsThePlace) {
+    Turns turns(1, 10);
+    auto holder = turns.take("holder");
+    std::vector<std::string> served;
+    std::atomic<int> ended = 0;
+    std::vector<std::thread> askers;
+    const auto ask = [&](const std::string& client, int waiting) {
+        askers.emplace_back([&turns, &served, &ended, client] {
+            try {
+                const auto turn = turns.take(client);
+                served.push_back(client);  // one at a time
+            } catch (const Error&) {
+                ++ended;
+            }
+        });
+        while (turns.waiting() < waiting) std::this_thread::yield();
+    };
+    ask("a", 1);
+    ask("b", 2);
+    ask("a", 2);
+    while (ended < 1) std::this_thread::yield();  // the first
+    EXPECT_EQ(turns.pending("a")[0].place, 1);
+    EXPECT_EQ(turns.pending("b")[0].place, 2);
+    holder.reset();
+    for (std::thread& asker : askers) asker.join();
+    EXPECT_EQ(served, (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(Turns, TellWhatIsPending) {
+    Changes changes;
+    Turns turns(1, 10, &changes);
+    const auto turn = turns.take("a/one");
+    const std::uint64_t before = changes.count();
+    turn->tell(0.5);
+    EXPECT_GT(changes.count(), before);
+    ASSERT_EQ(turns.pending("a").size(), 1U);
+    EXPECT_EQ(turns.pending("a")[0].client, "a/one");
+    EXPECT_EQ(turns.pending("a")[0].place, 0);
+    EXPECT_EQ(turns.pending("a")[0].fraction, 0.5);
+    EXPECT_TRUE(turns.pending("b").empty());
 }
 
 TEST(Turns, TooManyAreRefused) {

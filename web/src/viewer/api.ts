@@ -1,5 +1,6 @@
 // Questions to `isoatlas view`: docs/server.md. A question for a surface ends the one before it of the same lane.
 import { readPage, type Page } from "../page";
+import { messages, type ServerState } from "./server_state";
 import type { Walls } from "./state";
 import { decodeMesh, type Mesh } from "./wire";
 
@@ -76,6 +77,13 @@ export class Api {
   /** The file that `isoatlas label` writes: of one object, or of all. */
   async labels(tau: number, object: number | null, format: string): Promise<Blob> {
     return (await this.ask(`/api/label?tau=${tau}${object === null ? "" : `&object=${object}`}&format=${format}`, "file")).blob();
+  }
+
+  /** The state of the server and of this page's questions, whenever it changes, until the connection ends. */
+  async *events(): AsyncGenerator<ServerState> {
+    const answer = await fetch(`${this.base}/api/events`, { headers: { Authorization: `Bearer ${this.token}`, "X-Client": this.client } });
+    if (!answer.ok || !answer.body) throw new Refusal(answer.status, await messageOf(answer));
+    yield* messages(answer.body);
   }
 
   /** Ends what a lane is waiting for. */

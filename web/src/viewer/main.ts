@@ -22,6 +22,7 @@ import { NOTHING, type State } from "./state";
 import { stepping } from "./stepping";
 import { theme } from "./theme";
 import { Tour } from "./tour";
+import { pageWhenThere } from "./waiting";
 import "./viewer.css";
 import "./scene.css";
 
@@ -123,7 +124,7 @@ class Viewer implements Desk {
 async function start(main: HTMLElement): Promise<void> {
   const api = new Api(new URLSearchParams(location.search).get("token") ?? "");
   try {
-    const page = await api.page();
+    const page = await pageWhenThere(api, main);
     document.title = `${page.volume.name} – isoatlas`;
     if (page.volume.size.length !== 3) throw new Error("The viewer shows volumes; isoatlas atlas makes a page of an image.");
     new Viewer(api, page, main);

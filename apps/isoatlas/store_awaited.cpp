@@ -1,0 +1,91 @@
+#include "store_awaited.h"
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "interrupt.h"
+#include "session.h"
+#include "store_beside.h"
+#include "terminal.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLook{300};  ///< how often another process is asked
+constexpr std::chrono::milliseconds kTellEvery{50};
+
+fs::file_time_type age_of(const std::string& path) {
+    std::error_code error;
+    return fs::last_write_time(path, error);
+}
+
+[[noreturn]] void no_store(const Arguments& arguments, const std::string& store, const std::string& what) {
+    const bool is_volume = arguments.file != store;
+    const std::string volume = is_volume ? shell_word(arguments.file) : "VOLUME";
+    throw Error(ErrorKind::resource, {.file = arguments.file,
+                                      .what = what,
+                                      .next = "isoatlas build " + volume + reading_options(arguments) + " -o " + shell_word(store)});
+}
+
+/// Waits for as long as somebody else builds the store. Is there a new one then?
+bool await_others(const std::string& store, const std::function<void(const BuildState&)>& tell) {
+    const fs::file_time_type before = age_of(store);
+    bool waited = false;
+    while (const std::optional<BuildState> state = build_state(store)) {
+        stop_if_interrupted();
+        tell(*state);
+        std::this_thread::sleep_for(kLook);
+        waited = true;
+    }
+    return waited && is_atlas(store) && age_of(store) != before;
+}
+
+void build(const Arguments& arguments, Terminal& terminal, const std::string& store, const std::function<void(const BuildState&)>& tell) {
+    Arguments build = arguments;
+    build.output = store;
+    BuildClock clock;
+    Clock::time_point told;
+    build_store(build, terminal, *open_volume(arguments.file, arguments.open), [&](const Progress& progress) {
+        const BuildState state = clock.at(progress);
+        if (Clock::now() - told < kTellEvery) return;
+        told = Clock::now();
+        tell(state);
+    });
+}
+
+}  // namespace
+
+std::string store_to_view(const Arguments& arguments) {
+    return is_atlas(arguments.file) || arguments.file.ends_with(".atlas") ? arguments.file : stem_of(arguments.file) + ".atlas";
+}
+
+bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string& store) {
+    if (is_atlas(arguments.file)) return true;
+    if (is_fresh(store, arguments.file) && !arguments.restart) {
+        terminal.say("note: " + store + " is there already" + (arguments.read_only ? "" : "; --restart builds it anew"));
+        return true;
+    }
+    if (build_state(store)) return false;
+    (void)open_volume(arguments.file, arguments.open);
+    if (arguments.read_only) no_store(arguments, store, "it has no store that is newer than it, and --read-only writes none");
+    return false;
+}
+
+void await_store(const Arguments& arguments, Terminal& terminal, const std::string& store,
+                 const std::function<void(const BuildState&)>& tell) {
+    while (!await_others(store, tell)) {
+        if (arguments.read_only || arguments.file == store) no_store(arguments, store, "the build that was waited for has left no store");
+        try {
+            return build(arguments, terminal, store, tell);
+        } catch (const Error&) {
+            if (!build_state(store)) throw;  // else somebody was faster
+        }
+    }
+}
+
+}  // namespace isoatlas::cli

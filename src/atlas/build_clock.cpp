@@ -1,0 +1,45 @@
+// Where a build is, and when it will be done, from what its phases tell.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/memory_limit.h"
+#include "isoatlas/build.h"
+
+namespace isoatlas {
+namespace {
+
+/// Of the time of a build, when each phase begins: read, classify, two that tell nothing, trees, zones, objects, pack.
+constexpr std::array kShares{0.0, 0.03, 0.17, 0.17, 0.17, 0.25, 0.4, 0.83, 1.0};
+constexpr double kEnoughToTell = 0.02, kShortest = 0.5;  ///< of the build, and seconds: earlier guesses are wild
+
+/// Of the whole build.
+double fraction_of(const Progress& progress) {
+    const double part = std::clamp(progress.fraction, 0.0, 1.0);
+    if (progress.phase_count + 1 != static_cast<int>(kShares.size())) return 0;
+    const auto phase = static_cast<std::size_t>(std::clamp(progress.phase_index, 0, progress.phase_count - 1));
+    return std::lerp(kShares[phase], kShares[phase + 1], part);
+}
+
+}  // namespace
+
+BuildState BuildClock::at(const Progress& progress) {
+    const auto now = Clock::now();
+    const double fraction = std::max(fraction_of(progress), furthest_);
+    if (!start_) start_ = now, first_ = fraction;
+    if (progress.phase_index != phase_) phase_ = progress.phase_index, phase_start_ = now, first_of_phase_ = progress.fraction;
+    furthest_ = fraction;
+    BuildState state{.phase = std::string(progress.phase),
+                     .phase_index = progress.phase_index,
+                     .phase_count = progress.phase_count,
+                     .fraction = fraction,
+                     .peak_memory = peak_memory()};
+    const double seconds = std::chrono::duration<double>(now - *start_).count();
+    if (fraction > first_ + kEnoughToTell && seconds > kShortest) state.seconds_left = seconds * (1 - fraction) / (fraction - first_);
+    const double of_phase = std::chrono::duration<double>(now - *phase_start_).count(), done = progress.fraction - first_of_phase_;
+    if (progress.voxels > 0 && of_phase > kShortest && done > 0)
+        state.voxels_per_second = done * static_cast<double>(progress.voxels) / of_phase;
+    return state;
+}
+
+}  // namespace isoatlas

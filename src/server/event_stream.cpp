@@ -1,0 +1,78 @@
+#include "server/event_stream.h"
+
+#include "isoatlas/error.h"
+#include "server/answers.h"
+
+namespace isoatlas::server {
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostStreams = 64;
+constexpr milliseconds kLook{250};        ///< how often one that waits asks whether somebody is still there
+constexpr milliseconds kApart{100};       ///< between two messages
+constexpr milliseconds kHeartbeat{5000};  ///< a comment at least so often: nobody in between gives the connection up
+
+}  // namespace
+
+EventStream::EventStream(EventStreams& streams, std::string client, Left left)
+    : streams_(streams), client_(std::move(client)), left_(std::move(left)) {}
+
+EventStream::~EventStream() {
+    bool last = false;
+    {
+        const std::lock_guard lock(streams_.mutex_);
+        streams_.clients_.erase(streams_.clients_.find(client_));
+        last = !streams_.clients_.contains(client_);
+    }
+    if (last && !client_.empty()) streams_.turns_.leave(client_);
+}
+
+std::string EventStream::state() const {
+    std::vector<Turns::Pending> pending;
+    if (!client_.empty()) pending = streams_.turns_.pending(client_);
+    return events_json(streams_.opening_.state(), pending);
+}
+
+std::string EventStream::next() {
+    while (!streams_.ended_ && !(left_ && left_())) {
+        const auto now = Clock::now();
+        const std::uint64_t count = streams_.changes_.count();
+        if (now - last_ < kApart) {
+            streams_.changes_.pause(std::chrono::duration_cast<milliseconds>(kApart - (now - last_)) + milliseconds(1));
+            continue;
+        }
+        if (told_.empty() || count != seen_) {
+            seen_ = count;
+            std::string text = state();
+            if (text != told_) {
+                told_ = text;
+                last_ = now;
+                return "event: state\ndata: " + text + "\n\n";
+            }
+        }
+        if (now - last_ >= kHeartbeat) {
+            last_ = now;
+            return ":\n\n";
+        }
+        streams_.changes_.wait(seen_, kLook);
+    }
+    return {};
+}
+
+std::shared_ptr<EventStream> EventStreams::listen(const std::string& client, Left left) {
+    const std::lock_guard lock(mutex_);
+    if (clients_.size() >= kMostStreams)
+        throw Error(ErrorKind::resource,
+                    {.what = "too many listen", .next = "close a page that shows this volume, then load this one again"});
+    clients_.insert(client);
+    return std::shared_ptr<EventStream>(new EventStream(*this, client, std::move(left)));  // the constructor is private
+}
+
+void EventStreams::end() {
+    ended_ = true;
+    changes_.note();
+}
+
+}  // namespace isoatlas::server

@@ -1,0 +1,13 @@
+// What a writer of files would write, for a client to keep. No disk is touched.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace isoatlas::server {
+
+/// Calls write(path), which writes one file of that name from the calling thread; returns the content. extension: of the path, with the
+/// dot. Throws what write() throws. Cost: memory for the file, twice while it grows.
+[[nodiscard]] std::string file_bytes(const std::string& extension, const std::function<void(const std::string&)>& write);
+
+}  // namespace isoatlas::server

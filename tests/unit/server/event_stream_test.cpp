@@ -1,0 +1,90 @@
+// Who listens hears every state, the last one at least; who stops listening has no questions any more.
+#include "server/event_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace isoatlas::server {
+namespace {
+
+class EventStreamTest : public testing::Test {
+protected:
+    /// The next message that is no comment; nothing when the stream ends.
+    static nlohmann::json next(EventStream& stream) {
+        for (;;) {
+            const std::string text = stream.next();
+            if (text.empty()) return {};
+            if (text.starts_with(':')) continue;
+            EXPECT_TRUE(text.starts_with("event: state\ndata: ") && text.ends_with("\n\n")) << text;
+            EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;
+            return nlohmann::json::parse(text.substr(text.find('{')));
+        }
+    }
+
+    Changes changes_;
+    Opening opening_{changes_};
+    Turns turns_{1, 10, &changes_};
+    EventStreams streams_{opening_, turns_, changes_};
+};
+
+TEST_F(EventStreamTest, TellsOfTheBuild) {
+    const auto stream = streams_.listen("", {});
+    EXPECT_EQ(next(*stream)["state"], "building");
+    opening_.tell({.phase = "trees", .phase_index = 3, .phase_count = 8, .fraction = 0.25, .seconds_left = 12});
+    const nlohmann::json build = next(*stream)["build"];
+    EXPECT_EQ(build["phase"], "trees");
+    EXPECT_EQ(build["fraction"], 0.25);
+    EXPECT_EQ(build["seconds_left"], 12);
+    EXPECT_TRUE(build["voxels_per_second"].is_null());
+    opening_.fail(Error(ErrorKind::resource, {.what = "the disk is full", .next = "make room"}));
+    const nlohmann::json failed = next(*stream);
+    EXPECT_EQ(failed["state"], "failed");
+    EXPECT_EQ(failed["error"]["next"], "make room");
+}
+
+TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
+    const auto stream = streams_.listen("me", {});
+    EXPECT_TRUE(next(*stream)["questions"].empty());
+    const auto other = turns_.take("you/surface");
+    std::thread asker([&] { EXPECT_THROW((void)turns_.take("me/surface"), Error); });
+    while (turns_.waiting() < 1) std::this_thread::yield();
+    const nlohmann::json questions = next(*stream)["questions"];
+    ASSERT_EQ(questions.size(), 1U);
+    EXPECT_EQ(questions[0]["client"], "me/surface");
+    EXPECT_EQ(questions[0]["place"], 1);
+    turns_.leave("me");
+    asker.join();
+}
+
+TEST_F(EventStreamTest, TheLastStreamOfAClientTakesItsQuestionsAlong) {
+    auto first = streams_.listen("me", {}), second = streams_.listen("me", {});
+    const auto turn = turns_.take("me/surface");
+    first.reset();
+    EXPECT_FALSE(turn->is_over());
+    second.reset();
+    EXPECT_TRUE(turn->is_over());
+}
+
+TEST_F(EventStreamTest, EndsWithTheServerOrTheClient) {
+    bool gone = false;
+    const auto stream = streams_.listen("me", [&gone] { return gone; });
+    EXPECT_FALSE(stream->next().empty());
+    gone = true;
+    EXPECT_TRUE(stream->next().empty());
+    const auto other = streams_.listen("you", {});
+    streams_.end();
+    EXPECT_TRUE(other->next().empty());
+}
+
+TEST_F(EventStreamTest, AreNotWithoutBound) {
+    std::vector<std::shared_ptr<EventStream>> all;
+    EXPECT_THROW(for (int i = 0; i < 1000; ++i) all.push_back(streams_.listen("me", {})), Error);
+    EXPECT_LT(all.size(), 1000U);
+    all.pop_back();
+    EXPECT_NO_THROW((void)streams_.listen("you", {}));
+}
+
+}  // namespace
+}  // namespace isoatlas::server
