@@ -26,14 +26,22 @@ const ladders: Record<string, [string, number][]> = {
 
 /** A volume in unit^3, in the largest unit in which it is at least 1. */
 export function volume(measure: number, unit: string | null): string {
-  if (unit === null) return plural(measure, "voxel");
+  return unit === null ? plural(measure, "voxel") : powerOf(measure, unit, 3);
+}
+
+/** The same for an area in unit^2; null: the sides of voxels are the unit. */
+export function area(measure: number, unit: string | null): string {
+  return unit === null ? `${count(measure)} faces of a voxel` : powerOf(measure, unit, 2);
+}
+
+function powerOf(measure: number, unit: string, power: 2 | 3): string {
   let name = unit;
   let size = measure;
   for (const [larger, factor] of ladders[unit] ?? []) {
-    if (size < factor ** 3) break;
-    size /= factor ** 3;
+    if (size < factor ** power) break;
+    size /= factor ** power;
     name = larger;
   }
   const digits = Number(size.toPrecision(3));
-  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}³`;
+  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}${power === 3 ? "³" : "²"}`;
 }

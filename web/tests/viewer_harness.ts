@@ -47,6 +47,7 @@ export class Served {
   }
 
   private static async begin(folder: string, name: string): Promise<Served> {
+    execFileSync(cli, ["build", `${name}.nrrd`, "-o", `${name}.atlas`, "--quiet"], { cwd: folder }); // the address comes before the store is there
     const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet"], { cwd: folder });
     const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });

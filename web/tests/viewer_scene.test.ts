@@ -160,6 +160,20 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     await tab.close();
   });
 
+  it("tells what is measured of an object, and gives its labels", async () => {
+    const { id, best_tau } = listed[0] as Listed;
+    const { tab } = await served.open(scene(1));
+    await settled(tab);
+    const { objects } = JSON.parse(served.isoatlas("objects", served.store, "--tau", String(best_tau), "--json")) as { objects: { id: number; voxels: number; b1: number }[] };
+    const there = objects.find((object) => object.id === id);
+    await expect.poll(() => tab.locator(".here").textContent()).toMatch(/area[\d.]+ .*²/);
+    await tab.keyboard.press("s");
+    const file = await save(tab, () => tab.getByRole("button", { name: "Save the labels" }).click(), "labels.nrrd");
+    const labels = JSON.parse(served.isoatlas("objects", file, "--tau", "0.5", "--json")) as { objects: { voxels: number }[] };
+    expect(labels.objects.reduce((sum, { voxels }) => sum + voxels, 0)).toBe(there?.voxels);
+    await tab.close();
+  });
+
   it("gives a table with a line for each object", async () => {
     const { tab } = await served.open(scene(1));
     await tab.keyboard.press("s");

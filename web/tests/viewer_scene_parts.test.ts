@@ -6,6 +6,7 @@ import { allText, bytesText } from "../src/viewer/badge";
 import type { Api } from "../src/viewer/api";
 import { eventNear, eventsOf } from "../src/viewer/events";
 import { Latest } from "../src/viewer/latest";
+import { factsOf } from "../src/viewer/measured";
 import { PALETTE } from "../src/viewer/palette";
 import { renderCommand, type Camera } from "../src/viewer/render_command";
 import { pieces } from "../src/viewer/pieces";
@@ -115,6 +116,15 @@ describe("the badge", () => {
     const preview = { tau: 3, objects: 1, contours: 3, tunnels: 0, cavities: 2, triangles: [1000, 2000] as [number, number], bytes: [0, 0] as [number, number] };
     expect(allText(preview)).toBe("all at 3: 1 object, no tunnels, 2 cavities, 1,000 to 2,000 triangles, at most 5 kB");
     expect([5, 999_999, 2_345_678].map(bytesText)).toEqual(["5 bytes", "1000 kB", "2.3 MB"]);
+  });
+});
+
+describe("what is measured", () => {
+  it("is told in units of the file", () => {
+    const there = { id: 4, tunnels: 1, cavities: 0, voxels: [10, 12] as [number, number], area: 250, volume: 1234 };
+    expect(factsOf(there, 4, 50, "mm")).toEqual([["at 50", "1.23 cm³, 10 to 12 voxels"], ["area", "2.5 cm²"], ["shape", "1 tunnel, no cavities"]]);
+    expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: 10 to 12 voxels");
+    expect(factsOf(there, 4, 50, null)[1]?.[1]).toBe("250 faces of a voxel");
   });
 });
 

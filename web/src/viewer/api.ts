@@ -27,6 +27,12 @@ export interface There {
   voxels: [number, number];
 }
 
+/** How large an object is at an isovalue, in the unit of the file. */
+export interface Measures extends There {
+  area: number;
+  volume: number;
+}
+
 /** What the server says when it cannot answer. */
 export class Refusal extends Error {
   constructor(
@@ -61,6 +67,12 @@ export class Api {
   objects(tau: number): Promise<There[]> {
     if (this.there?.tau !== tau) this.there = { tau, all: this.ask(`/api/objects?tau=${tau}`, `objects ${tau}`).then(objectsOf) };
     return this.there.all;
+  }
+
+  /** Of the objects that hold these voxels. */
+  async measures(tau: number, objects: number[]): Promise<Measures[]> {
+    const answer = (await (await this.ask(`/api/measures?tau=${tau}&object=${objects.join(",")}`, "measures")).json()) as { objects: Measures[] };
+    return answer.objects;
   }
 
   /** most: triangles; fewer come where there are more. */

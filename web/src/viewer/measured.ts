@@ -1,18 +1,31 @@
 // What the server measures of an object at the isovalue it is shown at.
-import { count, plural, value } from "../format";
+import { area, count, plural, value, volume } from "../format";
 import { entryOf } from "../page";
+import { isOvertaken, type Measures } from "./api";
 import type { Desk } from "./desk";
 import { branchOfShown } from "./shown";
 import type { Shown } from "./state";
 
-/** Nothing where it cannot be told: a dark object, all there is, or an object that another one has taken in. */
+/** Nothing where it cannot be told: of a dark object, of all there is, or of an object that is not there. */
 export async function measuredFacts({ api, page }: Desk, shown: Shown): Promise<[name: string, text: string][]> {
   if (branchOfShown(page, shown.entry)?.side !== "bright") return [];
   const { id } = entryOf(page, shown.entry);
-  const there = await api.objects(shown.tau).then((all) => all.find((object) => object.id === id), () => undefined);
-  const at = value(shown.tau);
-  if (!there) return [[`at ${at}`, "part of a larger object, or not there"]];
+  try {
+    const [there] = await api.measures(shown.tau, [id]);
+    return there ? factsOf(there, id, shown.tau, page.volume.unit) : [];
+  } catch (error) {
+    return isOvertaken(error) ? [] : [[`at ${value(shown.tau)}`, "it is not there"]];
+  }
+}
+
+/** id: of the object that was asked for. */
+export function factsOf(there: Measures, id: number, tau: number, unit: string | null): [name: string, text: string][] {
   const [least, most] = there.voxels;
   const voxels = least === most ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
-  return [[`at ${at}`, `${voxels}, ${plural(there.tunnels, "tunnel")}, ${plural(there.cavities, "cavity", "cavities")}`]];
+  const size = unit === null ? voxels : `${volume(there.volume, unit)}, ${voxels}`;
+  return [
+    [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${size}`],
+    ["area", area(there.area, unit)],
+    ["shape", `${plural(there.tunnels, "tunnel")}, ${plural(there.cavities, "cavity", "cavities")}`],
+  ];
 }
