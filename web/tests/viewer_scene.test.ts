@@ -22,7 +22,7 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
   afterAll(() => served?.close());
 
   const shownAs = (tab: Tab, name: string) => tab.locator(".scene li").filter({ has: tab.getByRole("button", { name: new RegExp(`^Select ${name} `) }) });
-  const settled = (tab: Tab): Promise<void> => expect.poll(() => tab.locator(".scene .note").allTextContents().then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))), { timeout: 10_000 }).toBe(true);
+  const settled = (tab: Tab): Promise<void> => expect.poll(() => tab.locator(".scene .state").allTextContents().then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))), { timeout: 10_000 }).toBe(true);
   const save = async (tab: Tab, run: () => Promise<void>, name: string): Promise<string> => {
     const [download] = await Promise.all([tab.waitForEvent("download"), run()]);
     const file = join(served.folder, name);
@@ -39,7 +39,7 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     const row = shownAs(tab, "Object 1");
     await row.getByRole("button", { name: "show object 1" }).click();
     expect(await row.getByRole("button", { name: "show object 1" }).getAttribute("aria-pressed")).toBe("false");
-    expect(await row.locator(".note").textContent()).toContain("hidden");
+    expect(await row.locator(".state").textContent()).toContain("hidden");
     await row.getByRole("button", { name: "show object 1" }).click();
     await row.getByRole("button", { name: "vermilion" }).click();
     await row.getByRole("slider", { name: "opacity" }).fill("0.5");
@@ -78,7 +78,7 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     await expect.poll(() => seen.filter(({ coarse }) => !coarse).length).toBe(1);
     const extracted = JSON.parse(served.isoatlas("extract", served.store, "--object", String(id), "--tau", String(best_tau), "--shell", "inner", "-o", "x.ply", "--json")) as { triangles: number };
     expect(seen.at(-1)?.triangles).toBe(extracted.triangles);
-    await expect.poll(() => tab.locator(".scene .note").textContent()).toContain(`${listed[at]?.cavities} cavit`);
+    await expect.poll(() => tab.locator(".scene .state").textContent()).toContain(`${listed[at]?.cavities} cavit`);
     await tab.close();
   });
 

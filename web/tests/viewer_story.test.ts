@@ -137,7 +137,7 @@ for (const [volume, there, serve] of volumes) {
         const object = listed[largest] as Listed;
         const title = `Object ${largest + 1}`;
         const other = `Object ${((largest + 1) % listed.length) + 1}`;
-        const note = (): Promise<string[]> => tab.locator(".scene .note").allTextContents();
+        const note = (): Promise<string[]> => tab.locator(".scene .state").allTextContents();
         await expect.poll(note, { timeout: 10_000 }).toEqual([expect.stringMatching(/triangles$/)]);
         await step("1-opened");
 
@@ -176,7 +176,7 @@ for (const [volume, there, serve] of volumes) {
         await hand.copyLink(tab);
         const link = await tab.evaluate(() => navigator.clipboard.readText());
         const restored = await served.open(new URL(link).hash, { viewport: { width: 1280, height: 800 } });
-        await expect.poll(() => restored.tab.locator(".scene .note").allTextContents(), { timeout: 10_000 }).toEqual(await note());
+        await expect.poll(() => restored.tab.locator(".scene .state").allTextContents(), { timeout: 10_000 }).toEqual(await note());
         expect(restored.tab.url()).toBe(link);
         await keepPicture(restored.tab, `${hand.name}-5-restored`);
         const drawn = (page: Tab): Promise<string> => page.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage canvas")?.toDataURL() ?? "");

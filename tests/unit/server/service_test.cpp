@@ -57,6 +57,16 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
     const Answer surface = ask("/api/surface", {{"tau", std::to_string(tau)}});
     ASSERT_EQ(surface.status, 200);
     EXPECT_EQ(surface.headers.at("X-Triangles"), std::to_string(atlas_->extract(tau).triangles.size()));
+    std::size_t parts = 0;
+    for (const auto& [shell, choice] : {std::pair{"inner", ShellChoice::inner}, std::pair{"outer", ShellChoice::outer}}) {
+        ExtractOptions options;
+        options.shell = choice;
+        const std::size_t triangles = atlas_->extract(tau, options).triangles.size();
+        const Answer part = ask("/api/surface", {{"tau", std::to_string(tau)}, {"shell", shell}});
+        EXPECT_EQ(part.headers.at("X-Triangles"), std::to_string(triangles)) << shell;
+        parts += triangles;
+    }
+    EXPECT_EQ(parts, atlas_->extract(tau).triangles.size());
 }
 
 TEST_F(ServiceTest, RefusalsSayWhy) {
@@ -70,6 +80,7 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/surface", {{"tau", "0.5"}, {"object", std::to_string(atlas_->info().extent.voxels())}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"object", "0"}}, 404},
                                   {"/api/surface", {{"tau", "0.5"}, {"most", "0"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"shell", "all"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"x", "1"}}, 400},
                                   {"/api/objects", {{"tau", "0.5"}, {"top", "1e9"}}, 400},
                                   {"/api/measures", {{"tau", "0.5"}}, 400},

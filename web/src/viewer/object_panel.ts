@@ -50,14 +50,20 @@ export class ObjectPanel {
     const { page } = this.desk;
     const entry = entryOf(page, i);
     const branch = branchOfShown(page, i);
-    const more = (branch?.isovalues ?? []).map(({ tau, why }) => `, also at ${value(tau)}: ${why}`).join("");
-    const texts: [string, string][] = [
-      ["on its own", branch ? `${rangeOf(branch)}${unitOf(page.volume.valueUnit)}` : ""],
-      ["best seen at", `${value(entry.tau)}${entry.why ? `: ${entry.why}` : ""}${more}`],
-      ["size there", `${volume(entry.measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(entry.voxels, "voxel")}`}`],
-      ["shape there", shapeOf(page, i)],
+    const more = (branch?.isovalues ?? []).slice(0, MOST_LINKS);
+    const facts: Fact[] = [
+      ["on its own", branch ? [`${rangeOf(branch)}${unitOf(page.volume.valueUnit)}`] : []],
+      ["best seen at", [this.place(entry.tau, entry.why), entry.why ? `: ${entry.why}` : ""]],
+      ["look also at", more.flatMap(({ tau, why }, n) => [n > 0 ? ", " : "", this.place(tau, why)])],
+      ["size there", [`${volume(entry.measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(entry.voxels, "voxel")}`}`]],
+      ["shape there", [shapeOf(page, i)]],
     ];
-    return texts.filter(([, text]) => text !== "").map(([name, text]): Fact => [name, [text]]);
+    return facts.filter(([, what]) => what.length > 0);
+  }
+
+  /** An isovalue that what is selected goes to. */
+  private place(tau: number, why: string): HTMLElement {
+    return html("button", { type: "button", class: "link", title: why, "aria-label": `Go to isovalue ${value(tau)}`, click: () => this.desk.editor.move(tau) }, value(tau));
   }
 
   /** Each as links, where the other one has an entry. */

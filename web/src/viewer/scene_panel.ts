@@ -63,7 +63,7 @@ export class ScenePanel {
     const { page, editor } = this.desk;
     const title = titleOf(page, shown.entry);
     const name = title.toLowerCase();
-    const note = html("span", { class: "note" });
+    const note = html("span", { class: "state" });
     const button = (mark: string, label: string, hint: string, run: () => void): HTMLElement =>
       html("button", { type: "button", class: `plain ${mark}`, "aria-label": `${label} ${name}`, title: hint, "data-focus": `${mark} ${shown.entry}`, click: run }, mark === "eye" && eye());
     const pick = html("button", { type: "button", class: "name", "data-focus": `name ${shown.entry}`, "aria-current": selected ? "true" : "false", click: () => editor.select(i) });
