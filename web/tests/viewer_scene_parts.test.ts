@@ -1,4 +1,6 @@
 // The parts of the scene and of what is taken away that need no browser.
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import { deflateSync } from "node:zlib";
 import { describe, expect, it } from "vitest";
 import { animatedPng, chunksOf } from "../src/viewer/apng";
@@ -17,6 +19,7 @@ import { cell, tableCsv } from "../src/viewer/table_csv";
 import type { Mesh } from "../src/viewer/wire";
 import { scene as page } from "./sample";
 
+const schemaFile = join(process.env.ISOATLAS_SCHEMAS ?? "nowhere", "scene.schema.json");
 const camera: Camera = { view: [-1, 2, 3, 0, 0, 0.5], flat: false, height: 12.5, cut: null };
 const two: State = { ...change(add(isolate(NOTHING, 0, 10), 1, 20.5), 1, { colour: "#12ab00", opacity: 0.5 }), view: [1, 2, 3, 4, 5, 6] };
 
@@ -146,6 +149,14 @@ describe("a scene as a file", () => {
   it("is the same after it was read", () => {
     expect(readScene(page, writeScene(page, two))).toEqual(two);
     expect(readScene(page, writeScene(page, NOTHING))).toEqual(NOTHING);
+  });
+  it.skipIf(!existsSync(schemaFile))("has what its schema says, no more and no less", () => {
+    const schema = JSON.parse(readFileSync(schemaFile, "utf8")) as { required: string[]; properties: { shown: { items: { required: string[]; properties: object } } } };
+    const file = JSON.parse(writeScene(page, two)) as { shown: object[] };
+    expect(Object.keys(file).sort()).toEqual([...schema.required].sort());
+    const { required, properties } = schema.properties.shown.items;
+    for (const shown of file.shown) expect(Object.keys(shown)).toEqual(expect.arrayContaining(required));
+    for (const shown of file.shown) expect(Object.keys(properties)).toEqual(expect.arrayContaining(Object.keys(shown)));
   });
   it("is refused with where and what was expected", () => {
     const good = JSON.parse(writeScene(page, two)) as Record<string, unknown> & { shown: Record<string, unknown>[] };

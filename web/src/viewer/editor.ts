@@ -1,9 +1,9 @@
 // What a reader does to the scene, each as one step of history.
 import type { Page } from "../page";
 import type { History } from "./history";
-import { bestOf, within } from "./shown";
+import { bestOf, branchOfShown, within } from "./shown";
 import { GHOSTS } from "./scene";
-import { add, change, changeAll, isolate, remove, select, type Shown, type State, type Walls } from "./state";
+import { add, change, changeAll, isolate, remove, select, type Shown, type State } from "./state";
 
 export class Editor {
   constructor(
@@ -64,8 +64,12 @@ export class Editor {
     if (shown) this.change({ visible: !shown.visible }, false, at);
   }
 
-  wall(walls?: Walls): void {
-    if (this.selected) this.change({ walls: walls ?? (this.selected.walls === "all" ? "cavities" : "all") });
+  /** Only an object has cavities of its own: neither a dark one nor all there is. */
+  get hasCavities(): boolean {
+    return this.selected !== undefined && branchOfShown(this.page, this.selected.entry)?.side === "bright";
+  }
+  wall(): void {
+    if (this.selected && this.hasCavities) this.change({ walls: this.selected.walls === "all" ? "cavities" : "all" });
   }
 
   get ghosts(): boolean {

@@ -78,6 +78,7 @@ export class ObjectPanel {
     facts.push(["contains", this.links(contentsOf(page, i))]);
     if (merges !== null) facts.push(["merges", [`at ${value(merges)} into `, this.branchLink(parent)]]);
     const arriving = page.branches.flatMap((other, b) => (other.parent === entry.branch ? [b] : [])).filter((b) => entriesOf(page, b).length > 0);
+    arriving.sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
     facts.push(["takes in", this.links(arriving.flatMap((b) => entriesOf(page, b).slice(0, 1)), (k) => ` at ${value(branchOfShown(page, k)?.merges ?? 0)}`)]);
     facts.push(["the same object", this.links(entriesOf(page, entry.branch).filter((k) => k !== i), (k) => ` at ${value(entryOf(page, k).tau)}`)]);
     return facts.filter(([, what]) => what.length > 0);

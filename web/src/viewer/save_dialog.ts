@@ -146,7 +146,7 @@ function tick(box: HTMLInputElement, text: string): HTMLElement {
 }
 
 function choice(name: string, formats: readonly string[]): HTMLSelectElement {
-  return html("select", { "aria-label": name }, ...formats.map((format) => html("option", { value: format }, format.toUpperCase())));
+  return html("select", { "aria-label": name, autofocus: formats === SURFACES }, ...formats.map((format) => html("option", { value: format }, format.toUpperCase())));
 }
 
 function numberBox(name: string, value: number): HTMLInputElement {

@@ -81,7 +81,9 @@ export class ScenePanel {
     const cavities = html("button", { type: "button", class: "cavities", click: () => editor.wall() }, "Cavities only");
     const isolate = html("button", { type: "button", click: () => editor.isolate(shown.entry) }, "Isolate");
     const level = html("button", { type: "button", title: "all objects to the isovalue of this one", click: () => editor.level() }, "All to its isovalue");
-    return html("div", { class: "more" }, this.colours(shown.entry, name), html("label", {}, "opacity ", opacity), html("div", { class: "line" }, isolate, cavities, level));
+    const others = this.desk.history.now.shown.length > 1;
+    const buttons = [others && isolate, editor.hasCavities && cavities, others && level];
+    return html("div", { class: "more" }, this.colours(shown.entry, name), html("label", {}, "opacity ", opacity), html("div", { class: "line" }, ...buttons));
   }
 
   /** The palette, any other colour, and the one it had. */
