@@ -11,20 +11,23 @@ import { colourOfShown, ownRange, within } from "./shown";
 import type { Shown, State } from "./state";
 import { DELTA, deltaOf } from "./stepping";
 
-const WIDTH = 800;
+/** pixels */
 const HEIGHT = 66;
 const LINE = 42;
 const MARGIN = 12;
 /** of the slider */
 const STEPS = 10_000;
-/** of the drawing, to either side of a tick */
+/** pixels to either side of a tick */
 const REACH = 6;
+/** pixels for a number under the axis */
+const ROOM = 90;
 
 export class AxisPanel {
   readonly element: HTMLElement;
   readonly player: Player;
-  private readonly axis: Axis;
+  private axis: Axis;
   private readonly events: Event[];
+  private readonly drawing = svg("svg", { "aria-hidden": "true" });
   private readonly others = svg("g", { class: "others" });
   private readonly mark = svg("line", { class: "mark", y1: 0, y2: LINE });
   private readonly range = svg("rect", { class: "range", y: 24, height: 8 });
@@ -39,7 +42,7 @@ export class AxisPanel {
 
   constructor(private readonly desk: Desk) {
     const { page, editor } = desk;
-    this.axis = Axis.of(page, WIDTH, MARGIN);
+    this.axis = Axis.of(page, 800, MARGIN);
     this.events = eventsOf(page);
     this.player = new Player(desk, () => this.sayWay());
     this.foresight = new Latest((shown) => this.foresee(shown));
@@ -49,7 +52,8 @@ export class AxisPanel {
     this.step.addEventListener("change", () => this.commitStep());
     const unit = page.volume.valueUnit ? ` ${page.volume.valueUnit}` : "";
     const line = html("div", { class: "line" }, html("label", {}, "isovalue ", this.box, unit), html("label", {}, "step ", this.step), this.controls(), this.badge);
-    const drawn = html("div", { class: "drawn" }, this.drawing(), this.slider, this.tip);
+    const drawn = html("div", { class: "drawn" }, this.drawing, this.slider, this.tip);
+    new ResizeObserver(() => this.draw(drawn.clientWidth)).observe(drawn);
     drawn.addEventListener("pointermove", (event) => this.point(event, drawn));
     drawn.addEventListener("pointerleave", () => (this.tip.hidden = true));
     this.element = html("section", { class: "axis", "aria-label": "isovalue" }, line, drawn);
@@ -71,17 +75,21 @@ export class AxisPanel {
     this.range.setAttribute("x", String(this.axis.x(low)));
     this.range.setAttribute("width", String(Math.max(1, this.axis.x(high) - this.axis.x(low))));
     this.box.value = String(Number(shown.tau.toPrecision(7)));
-    this.slider.value = String(Math.round(((this.axis.x(shown.tau) - MARGIN) / (WIDTH - 2 * MARGIN)) * STEPS));
+    this.slider.value = String(Math.round(((this.axis.x(shown.tau) - MARGIN) / (this.axis.width - 2 * MARGIN)) * STEPS));
     this.slider.setAttribute("aria-valuetext", value(shown.tau));
     this.foresight.want(shown, `${shown.entry} ${shown.tau}`);
   }
 
-  private drawing(): SVGSVGElement {
-    const { page } = this.desk;
+  /** As wide as it is, so that letters keep their shape. */
+  private draw(width: number): void {
+    if (width < 4 * MARGIN) return;
+    const { page, history } = this.desk;
+    this.axis = Axis.of(page, width, MARGIN);
     const ticks = this.events.map(({ tau }) => svg("line", { x1: this.axis.x(tau), x2: this.axis.x(tau), y1: LINE - 6, y2: LINE }));
     const histogram = svg("path", { class: "histogram", d: histogramPath(page.histogram, this.axis, 2, LINE) });
-    const all = [histogram, this.range, svg("g", { class: "events" }, ...ticks), drawTicks(this.axis, LINE, 8), this.others, this.mark];
-    return svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" }, ...all);
+    this.drawing.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
+    this.drawing.replaceChildren(histogram, this.range, svg("g", { class: "events" }, ...ticks), drawTicks(this.axis, LINE, Math.min(8, width / ROOM)), this.others, this.mark);
+    this.show(history.now);
   }
 
   private needle(shown: Shown): SVGLineElement {
@@ -122,18 +130,17 @@ export class AxisPanel {
 
   /** What happens at the tick under the pointer. */
   private point(event: PointerEvent, drawn: HTMLElement): void {
-    const { left, width } = drawn.getBoundingClientRect();
-    const near = eventNear(this.events, (tau) => this.axis.x(tau), ((event.clientX - left) / width) * WIDTH, REACH);
+    const near = eventNear(this.events, (tau) => this.axis.x(tau), event.clientX - drawn.getBoundingClientRect().left, REACH);
     this.tip.hidden = !near;
     if (!near) return;
-    const at = this.axis.x(near.tau) / WIDTH;
+    const at = this.axis.x(near.tau) / this.axis.width;
     this.tip.textContent = near.text;
     this.tip.style.left = `${100 * at}%`;
     this.tip.style.transform = `translateX(${-100 * at}%)`;
   }
 
   private tauOf(step: number): number {
-    return Number(this.axis.tau(MARGIN + (step / STEPS) * (WIDTH - 2 * MARGIN)).toPrecision(7));
+    return Number(this.axis.tau(MARGIN + (step / STEPS) * (this.axis.width - 2 * MARGIN)).toPrecision(7));
   }
 
   private commit(): void {
