@@ -29,19 +29,17 @@ Selection selection_of(Words& words, const Calibration& scale) {
     return selection;
 }
 
-template <class Of>
-void put_column(JsonStream& json, const char* name, std::span<const std::int64_t> ranks, Of&& of) {
-    json.line().key(name).begin_array();
-    for (const std::int64_t rank : ranks) json.value(of(rank));
-    json.end_array();
-}
-
 page::PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
-    const std::array<double, 3> top = AtlasAccess::analysis(atlas).event(branch.top).position;  // in it wherever it is on its own
+    const Analysis& analysis = AtlasAccess::analysis(atlas);
+    Event event = analysis.event(branch.top);
+    const std::array<double, 3> top = event.position;  // in it wherever it is on its own
     page::PageEntry entry;
     entry.id = atlas.info().extent.index(std::llround(top[0]), std::llround(top[1]), std::llround(top[2]));
     entry.tau = branch.parent < 0 ? std::midpoint(atlas.range()[0], branch.appears)
                                   : branch.merges + (branch.appears - branch.merges) * kShareAboveMerge;
+    while (event.zone.tau_low >= entry.tau) event = analysis.event(event.parent);
+    entry.tau_low = std::max(event.zone.tau_low, atlas.range()[0]), entry.tau_high = event.zone.tau_high;
+    entry.tunnels = event.b1, entry.cavities = event.b2;
     entry.voxels = branch.voxels, entry.measure = branch.measure;
     return entry;
 }
@@ -67,26 +65,37 @@ std::string Branches::json(const Atlas& atlas, Words& words, const Context& cont
     const Selection selection = selection_of(words, scale);
     const std::int64_t top = words.whole("top", 1, kMostListed).value_or(kDefaultListed);
     words.refuse_others();
-    const std::span<const BranchInfo> all = hierarchy(atlas, context).branches();
-    const std::vector<std::int64_t>& essential = hierarchy(atlas, context).essential();
-    const std::vector<std::int64_t> kept = hierarchy(atlas, context).kept(selection);
+    const BranchHierarchy& of = hierarchy(atlas, context);
+    const std::span<const BranchInfo> all = of.branches();
+    const std::vector<std::int64_t> kept = of.kept(selection);
     const std::span<const std::int64_t> listed = std::span(kept).first(std::min(kept.size(), static_cast<std::size_t>(top)));
-    const auto branch = [&](std::int64_t rank) -> const BranchInfo& { return all[static_cast<std::size_t>(rank)]; };
-    const auto stands_out = [&](std::int64_t rank) { return std::ranges::binary_search(essential, rank); };
+    std::vector<page::PageEntry> entries;
+    for (const std::int64_t rank : listed) entries.push_back(entry_of(atlas, all[static_cast<std::size_t>(rank)]));
     return document("branches", [&](JsonStream& json) {
         json.key("source").value(shell_word(atlas.info().path)).key("all").value(all.size()).key("kept").value(kept.size());
-        put_column(json, "rank", listed, [](std::int64_t rank) { return rank; });
-        put_column(json, "id", listed, [&](std::int64_t rank) { return branch(rank).id; });
-        put_column(json, "voxel", listed, [&](std::int64_t rank) { return entry_of(atlas, branch(rank)).id; });
-        put_column(json, "tau", listed, [&](std::int64_t rank) { return scale.reported(entry_of(atlas, branch(rank)).tau); });
-        put_column(json, "appears", listed, [&](std::int64_t rank) { return scale.reported(branch(rank).appears); });
-        put_column(json, "merges", listed, [&](std::int64_t rank) { return scale.reported(branch(rank).merges); });
-        put_column(json, "parent", listed, [&](std::int64_t rank) { return branch(rank).parent; });
-        put_column(json, "persistence", listed, [&](std::int64_t rank) { return scale.reported_difference(branch(rank).persistence); });
-        put_column(json, "hypervolume", listed, [&](std::int64_t rank) { return scale.reported_difference(branch(rank).hypervolume); });
-        put_column(json, "voxels", listed, [&](std::int64_t rank) { return branch(rank).voxels; });
-        put_column(json, "measure", listed, [&](std::int64_t rank) { return branch(rank).measure; });
-        put_column(json, "standsOut", listed, stands_out);
+        const auto put = [&](const char* name, auto&& value) {
+            json.line().key(name).begin_array();
+            for (std::size_t i = 0; i < listed.size(); ++i) json.value(value(all[static_cast<std::size_t>(listed[i])], entries[i]));
+            json.end_array();
+        };
+        using Branch = const BranchInfo&;
+        using Entry = const page::PageEntry&;
+        put("rank", [&](Branch branch, Entry) { return &branch - all.data(); });
+        put("id", [](Branch branch, Entry) { return branch.id; });
+        put("voxel", [](Branch, Entry entry) { return entry.id; });
+        put("tau", [&](Branch, Entry entry) { return scale.reported(entry.tau); });
+        put("low", [&](Branch, Entry entry) { return scale.reported(entry.tau_low); });
+        put("high", [&](Branch, Entry entry) { return scale.reported(entry.tau_high); });
+        put("tunnels", [](Branch, Entry entry) { return entry.tunnels; });
+        put("cavities", [](Branch, Entry entry) { return entry.cavities; });
+        put("appears", [&](Branch branch, Entry) { return scale.reported(branch.appears); });
+        put("merges", [&](Branch branch, Entry) { return scale.reported(branch.merges); });
+        put("parent", [](Branch branch, Entry) { return branch.parent; });
+        put("persistence", [&](Branch branch, Entry) { return scale.reported_difference(branch.persistence); });
+        put("hypervolume", [&](Branch branch, Entry) { return scale.reported_difference(branch.hypervolume); });
+        put("voxels", [](Branch branch, Entry) { return branch.voxels; });
+        put("measure", [](Branch branch, Entry) { return branch.measure; });
+        put("standsOut", [&](Branch branch, Entry) { return std::ranges::binary_search(of.essential(), &branch - all.data()); });
     });
 }
 

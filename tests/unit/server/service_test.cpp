@@ -89,7 +89,10 @@ TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
         EXPECT_LE(tau, branch.appears);
         const ActiveObjects there = atlas_->active(tau, false);
         const Surface surface = atlas_->extract(tau, {.objects = {json["voxel"][i].get<std::int64_t>()}, .contours = {}});
-        EXPECT_TRUE(std::ranges::any_of(there.objects, [&](const ActiveObject& object) { return object.id == surface.object[0]; }));
+        const auto object = std::ranges::find(there.objects, surface.object[0], &ActiveObject::id);
+        ASSERT_NE(object, there.objects.end());
+        EXPECT_EQ(json["tunnels"][i], object->b1);
+        EXPECT_EQ(json["cavities"][i], object->b2);
     }
     EXPECT_EQ(standing_out, hierarchy.essential().size());
 }
