@@ -36,5 +36,5 @@ export default defineConfig({
   },
   plugins: [intoOneFile()],
   server: { host: "127.0.0.1" }, // of the tests: no name need be known
-  test: { include: ["tests/**/*.test.ts"] },
+  test: { include: ["tests/**/*.test.ts"], testTimeout: 60_000 },
 } as Parameters<typeof defineConfig>[0]);

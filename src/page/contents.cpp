@@ -67,6 +67,7 @@ private:
             place[i] = static_cast<std::int64_t>(contents_.branches.size());
             place_of_top_.emplace(b.top, place[i]);
             contents_.branches.push_back({.id = b.id,
+                                          .rank = static_cast<std::int64_t>(i),
                                           .appears = b.appears,
                                           .merges = b.merges,
                                           .parent = b.parent,
@@ -124,6 +125,7 @@ private:
             const auto branch = static_cast<std::int64_t>(contents_.branches.size());
             contents_.branches.push_back({.dark = true,
                                           .id = entry.id,
+                                          .rank = branch - first_branch,
                                           .appears = entry.appears,
                                           .merges = entry.merges,
                                           .parent = inside < 0 ? -1 : first_branch + inside,
@@ -178,6 +180,12 @@ PageContents page_contents(const Atlas& atlas, const PageOptions& options, const
     return Gatherer(atlas, options, context).gather();
 }
 
+Turntable draw_object(const Atlas& atlas, bool dark, const PageEntry& entry, const PageOptions& options, const Context& context) {
+    ExtractOptions chosen;
+    (dark ? chosen.contours : chosen.objects) = {entry.id};
+    return draw_turntable(atlas.extract(entry.tau, chosen, context), entry.colour, options, context);
+}
+
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context) {
     Context silent = context;
     silent.progress = nullptr;
@@ -187,13 +195,8 @@ void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions
     for (std::size_t i = 0; i < entries.size(); ++i) {
         PageEntry& entry = entries[i];
         context.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
-        if (image) {
-            entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
-            continue;
-        }
-        ExtractOptions chosen;
-        (contents.branches[entry.branch].dark ? chosen.contours : chosen.objects) = {entry.id};
-        entry.picture = draw_turntable(atlas.extract(entry.tau, chosen, silent), entry.colour, options, silent);
+        entry.picture = image ? draw_still(*image, entry.tau, entry.colour, options, silent)
+                              : draw_object(atlas, contents.branches[entry.branch].dark, entry, options, silent);
     }
 }
 

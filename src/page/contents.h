@@ -19,6 +19,7 @@ namespace isoatlas::page {
 struct PageBranch {
     bool dark = false;
     std::int64_t id = 0;
+    std::int64_t rank = 0;           ///< among all of its side, from 0: BranchHierarchy::branches(), DarkTable::entries
     double appears = 0, merges = 0;  ///< merges of the trunk: -infinity
     std::int64_t parent = -1;        ///< position of the branch it merges into, or of the closest one on the page that goes on from there
     double hypervolume = 0;
@@ -59,6 +60,9 @@ struct PageContents {
 
 /// Without pictures. Throws as write_page(). Cost: Atlas::hierarchy() and Atlas::histogram().
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context);
+/// What an entry shows of a volume, as a turntable. dark: id is that of a contour. Cost: Atlas::extract(), and options.frames pictures.
+[[nodiscard]] Turntable draw_object(const Atlas& atlas, bool dark, const PageEntry& entry, const PageOptions& options,
+                                    const Context& context);
 /// Cost: options.frames pictures for every entry.
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);
 

@@ -163,6 +163,7 @@ private:
 
     void write_branch(const PageBranch& branch) {
         json_.line().begin_object().key("side").value(branch.dark ? "dark" : "bright").key("id").value(branch.id);
+        json_.key("rank").value(branch.rank);
         put_value("appears", branch.appears);
         put_value("merges", branch.merges);  // null: never
         json_.key("parent").value(branch.parent).key("hypervolume").value(scale_.reported_difference(branch.hypervolume));

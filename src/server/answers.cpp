@@ -5,24 +5,13 @@
 #include <map>
 
 #include "atlas/surface_size.h"
-#include "output/json_stream.h"
-#include "page/contents.h"
 #include "page/page_json.h"
+#include "server/document.h"
 
 namespace isoatlas::server {
 namespace {
 
 using output::JsonStream;
-
-template <class Write>
-std::string document(const char* kind, Write&& write) {
-    std::string text;
-    JsonStream json([&text](std::string_view piece) { text += piece; });
-    json.begin_object().key("schema").value("isoatlas/server/1").key("kind").value(kind);
-    write(json);
-    json.end_object().finish();
-    return text;
-}
 
 void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
     json.key(name).begin_array().value(bounds.least).value(bounds.most).end_array();
@@ -46,10 +35,10 @@ void put_build(JsonStream& json, const BuildState& build) {
 
 }  // namespace
 
-std::string atlas_json(const Atlas& atlas, const Context& context) {
+std::string atlas_json(const Atlas& atlas, const page::PageContents& contents) {
     std::string text;
     JsonStream json([&text](std::string_view piece) { text += piece; });
-    page::write_page_json(json, atlas, page::page_contents(atlas, {}, context), atlas.info().path);
+    page::write_page_json(json, atlas, contents, atlas.info().path);
     return text;
 }
 

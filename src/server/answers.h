@@ -6,13 +6,14 @@
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/error.h"
+#include "page/contents.h"
 #include "server/opening.h"
 #include "server/turns.h"
 
 namespace isoatlas::server {
 
-/// What `isoatlas FILE` puts into a page, without pictures. Cost: reads the trees and some samples.
-[[nodiscard]] std::string atlas_json(const Atlas& atlas, const Context& context);
+/// What `isoatlas FILE` puts into a page.
+[[nodiscard]] std::string atlas_json(const Atlas& atlas, const page::PageContents& contents);
 [[nodiscard]] std::string preview_json(const SurfacePreview& preview, double tau);
 /// The first `top` objects.
 [[nodiscard]] std::string active_json(const ActiveObjects& active, double tau, std::int64_t top);

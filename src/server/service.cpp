@@ -16,7 +16,7 @@ namespace isoatlas::server {
 namespace {
 
 constexpr int kAtOnce = 2, kMostWaiting = 256;
-constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000;
+constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
@@ -62,10 +62,13 @@ Service::Service(std::string token, const Context& context, std::int64_t memory)
       turns_(kAtOnce, kMostWaiting, &changes_),
       events_(opening_, turns_, changes_) {
     context_.progress = {};
+    context_.cancelled = [this] { return ended_.load(); };
 }
 
 void Service::end() {
+    ended_ = true;
     turns_.end();
+    cards_.end();
     events_.end();
 }
 
@@ -96,11 +99,14 @@ Answer Service::answer_known(const Question& question) {
     if (question.path == "/api/preview") return preview_answer(question);
     if (question.path == "/api/objects") return objects_answer(question);
     if (question.path == "/api/measures") return measures_answer(question);
+    if (question.path == "/api/branches") return branches_answer(question);
+    if (question.path == "/api/card") return card_answer(question);
     if (question.path == "/api/surface") return surface_answer(question);
     if (question.path == "/api/label") return label_answer(question);
-    throw Error(ErrorKind::not_found, {.where = question.path.substr(0, 100),
-                                       .what = "there is nothing here",
-                                       .expected = "/api/ and one of: events, atlas, preview, objects, measures, surface, label"});
+    throw Error(ErrorKind::not_found,
+                {.where = question.path.substr(0, 100),
+                 .what = "there is nothing here",
+                 .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label"});
 }
 
 Answer Service::events_answer(const Question& question) {
@@ -111,7 +117,11 @@ Answer Service::events_answer(const Question& question) {
 }
 
 Answer Service::atlas_answer() {
-    return json_answer(atlas_json_.get([&atlas = atlas(), this] { return atlas_json(atlas, context_); }));
+    return json_answer(atlas_json_.get([&atlas = atlas(), this] { return atlas_json(atlas, contents()); }));
+}
+
+const page::PageContents& Service::contents() const {
+    return contents_.get([&atlas = atlas(), this] { return page::page_contents(atlas, {}, context_); });
 }
 
 Answer Service::preview_answer(const Question& question) const {
@@ -142,6 +152,40 @@ Answer Service::measures_answer(const Question& question) {
     options.normals = false;
     const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
     return json_answer(measures_json(surface, atlas.active(surface.tau, false), tau));
+}
+
+Answer Service::branches_answer(const Question& question) const {
+    Words words(question.words);
+    return json_answer(branches_.json(atlas(), words, context_));
+}
+
+CardSubject Service::card_subject(Words& words) const {
+    const std::optional<std::int64_t> entry = words.whole("entry", 0, kMostListed), branch = words.whole("branch", 0, kMostBranches);
+    if (entry.has_value() == branch.has_value())
+        throw Error(ErrorKind::usage,
+                    {.where = "entry", .what = "which object is meant is not said once", .next = "add entry=N or branch=RANK"});
+    if (branch) {
+        page::PageEntry drawn = branches_.entry(atlas(), *branch, context_);
+        drawn.colour = palette(*branch);
+        return {"branch " + std::to_string(*branch), false, std::move(drawn)};
+    }
+    const std::vector<page::PageEntry>& entries = contents().entries;
+    if (*entry >= std::ssize(entries)) {
+        throw Error(ErrorKind::not_found, {.where = "entry " + std::to_string(*entry),
+                                           .what = "the atlas has no such entry",
+                                           .expected = "less than " + std::to_string(entries.size())});
+    }
+    const page::PageEntry& drawn = entries[static_cast<std::size_t>(*entry)];
+    return {"entry " + std::to_string(*entry), contents().branches[static_cast<std::size_t>(drawn.branch)].dark, drawn};
+}
+
+Answer Service::card_answer(const Question& question) {
+    const Atlas& atlas = atlas_of_volume();
+    Words words(question.words);
+    const CardSubject subject = card_subject(words);
+    const std::int64_t frames = words.whole("frames", 1, kMostFrames).value_or(kMostFrames);
+    words.refuse_others();
+    return json_answer(cards_.json(atlas, subject, frames, question, context_));
 }
 
 Answer Service::surface_answer(const Question& question) {

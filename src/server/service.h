@@ -5,6 +5,8 @@
 //   /api/preview?tau=T                      what the surface at T is and costs, before it is made
 //   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
 //   /api/measures?tau=T&object=ID,...       how large these objects are, in physical units
+//   /api/branches?top=N[&persistence=H...]  all bright objects by rank, or those that a selection keeps (server/branches.h)
+//   /api/card?entry=I|branch=R[&frames=N]   a picture of one (server/cards.h)
 //   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&most=N]   a mesh (server/wire_mesh.h)
 //   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
 //   /api/label?tau=T[&object=ID,...]&format=nrrd                  the file that `isoatlas label` writes
@@ -12,11 +14,14 @@
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "base/lazy.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
+#include "server/branches.h"
+#include "server/cards.h"
 #include "server/changes.h"
 #include "server/event_stream.h"
 #include "server/opening.h"
@@ -45,8 +50,12 @@ private:
     [[nodiscard]] Answer preview_answer(const Question& question) const;
     [[nodiscard]] Answer objects_answer(const Question& question) const;
     [[nodiscard]] Answer measures_answer(const Question& question);
+    [[nodiscard]] Answer branches_answer(const Question& question) const;
+    [[nodiscard]] Answer card_answer(const Question& question);
     [[nodiscard]] Answer surface_answer(const Question& question);
     [[nodiscard]] Answer label_answer(const Question& question);
+    [[nodiscard]] const page::PageContents& contents() const;
+    [[nodiscard]] CardSubject card_subject(Words& words) const;
 
     [[nodiscard]] const Atlas& atlas() const { return opening_.atlas(); }
     /// Throws Error{unsupported} for an image.
@@ -64,7 +73,11 @@ private:
     Opening opening_;
     Turns turns_;
     EventStreams events_;
+    Branches branches_;
+    Cards cards_;
+    Lazy<page::PageContents> contents_;
     Lazy<std::string> atlas_json_;
+    std::atomic<bool> ended_ = false;
 };
 
 }  // namespace isoatlas::server

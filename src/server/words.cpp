@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "isoatlas/error.h"
+#include "output/byte_writer.h"
 
 namespace isoatlas::server {
 namespace {
@@ -49,6 +50,12 @@ std::optional<double> Words::number(std::string_view name) {
     const std::optional<double> number = read<double>(*text);
     if (!number || !std::isfinite(*number)) refuse(name, *text, "a finite number");
     return number;
+}
+
+std::optional<double> Words::number(std::string_view name, double least) {
+    const std::optional<double> any = number(name);
+    if (any && *any < least) refuse(name, words_.find(std::string(name))->second, "a number from " + output::number_text(least) + " on");
+    return any;
 }
 
 std::optional<std::int64_t> Words::whole(std::string_view name, std::int64_t least, std::int64_t most) {

@@ -16,6 +16,7 @@ public:
 
     /// All throw Error{usage}: not a number, not finite, out of range, more than one.
     [[nodiscard]] std::optional<double> number(std::string_view name);
+    [[nodiscard]] std::optional<double> number(std::string_view name, double least);
     [[nodiscard]] std::optional<std::int64_t> whole(std::string_view name, std::int64_t least, std::int64_t most);
     [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
     /// Numbers between commas, at most `count`.

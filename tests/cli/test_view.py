@@ -79,6 +79,20 @@ class View(harness.CliTest):
             status, _, body = self.ask(f"/api/label?tau={tau!r}&format={format}")
             self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
 
+    def test_choosing(self):
+        everything = self.json_of("/api/branches")
+        self.assert_schema(everything, "server-branches")
+        for height, size in ((0.05, 3), (0.2, 1)):
+            chosen = self.json_of(f"/api/branches?persistence={height}&min-voxels={size}")
+            table = self.run_json("objects", "field.atlas", "--persistence", str(height), "--min-voxels", str(size))
+            self.assertEqual(chosen["kept"], table["branches"] - table["hidden"])
+            self.assertEqual(chosen["all"], table["branches"])
+            expected = [r for r, p, n in zip(everything["rank"], everything["persistence"], everything["voxels"]) if p >= height and n >= size]
+            self.assertEqual(chosen["rank"], expected or [0])
+        card = self.json_of("/api/card?entry=0&frames=3")
+        self.assert_schema(card, "server-card")
+        self.assertEqual(card["picture"]["frames"], 3)
+
     def test_who_may_ask(self):
         for path in ("/api/atlas", "/api/events", "/api/label?tau=0"):
             self.assertEqual(self.ask(path, token="")[0], 403)

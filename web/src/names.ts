@@ -6,13 +6,15 @@ export function isDark(page: Page, i: number): boolean {
   return branchOf(page, entryOf(page, i).branch).side === "dark";
 }
 
-/** Its place among those of its side. */
+/** Its place among those of its side; of an object that is not on the page, its place among all. */
 export function numberOf(page: Page, i: number): number {
+  if (i >= page.entries.length) return branchOf(page, entryOf(page, i).branch).rank + 1;
   const dark = isDark(page, i);
   return page.entries.filter((_, k) => k <= i && isDark(page, k) === dark).length;
 }
 
 export function nameOf(page: Page, i: number): string {
+  if (i >= page.entries.length) return `Object of rank ${numberOf(page, i)}`;
   return `${isDark(page, i) ? "Dark object" : "Object"} ${numberOf(page, i)}`;
 }
 

@@ -33,9 +33,12 @@ export function keptParent(page: Page, kept: Set<number>, b: number): number {
   return parent;
 }
 
-export function overview(page: Page, kept: Set<number>, open: (i: number) => void): SVGSVGElement {
-  const width = drawingWidth();
-  const axis = Axis.of(page, width, 14);
+/** In drawings of all objects, left and right of the axis. */
+export const sideMargin = 14;
+
+/** Lines carry their branch as data-branch, marks their entry as data-entry. */
+export function overview(page: Page, kept: Set<number>, open: (i: number) => void, width = drawingWidth()): SVGSVGElement {
+  const axis = Axis.of(page, width, sideMargin);
   const lane = lanesOf(page, kept);
   const heights = laneHeights(page, kept, lane);
   const top = heights.reduce<number[]>((all, height) => [...all, (all.at(-1) ?? head) + height], [head]);
@@ -46,7 +49,7 @@ export function overview(page: Page, kept: Set<number>, open: (i: number) => voi
   for (const b of kept) drawing.append(...branchLines(page, kept, b, axis, y));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(steadyLine(page, i, axis, y(b)));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), open));
-  drawing.append(svg("text", { class: "caption", x: width - 14, y: bottom + 32, "text-anchor": "end" }, axisName(page)));
+  drawing.append(svg("text", { class: "caption", x: width - sideMargin, y: bottom + 32, "text-anchor": "end" }, axisName(page)));
   return drawing;
 }
 
@@ -64,7 +67,7 @@ function branchLines(page: Page, kept: Set<number>, b: number, axis: Axis, y: (b
   const stroke = first === undefined ? neutral : entryOf(page, first).colour;
   const end = axis.x(branch.merges ?? page.axis.low);
   const kind = first === undefined ? "branch thin" : `branch ${branch.side}`;
-  const lines = [svg("line", { class: kind, x1: end, x2: axis.x(branch.appears), y1: y(b), y2: y(b), style: `--colour: ${stroke}` })];
+  const lines = [svg("line", { class: kind, "data-branch": b, x1: end, x2: axis.x(branch.appears), y1: y(b), y2: y(b), style: `--colour: ${stroke}` })];
   const parent = keptParent(page, kept, b);
   if (parent >= 0) lines.push(svg("line", { class: "merge", x1: end, x2: end, y1: y(b), y2: y(parent), style: `--colour: ${stroke}` }));
   return lines;
@@ -81,7 +84,7 @@ function mark(page: Page, i: number, axis: Axis, y: number, open: (i: number) =>
   const radius = 9;
   const entry = entryOf(page, i);
   const x = axis.x(entry.tau);
-  const group = svg("g", { class: `mark ${isDark(page, i) ? "dark" : "bright"}`, tabindex: 0, role: "button", "aria-label": describe(page, i) });
+  const group = svg("g", { class: `mark ${isDark(page, i) ? "dark" : "bright"}`, "data-entry": i, tabindex: 0, role: "button", "aria-label": describe(page, i) });
   const shape = isDark(page, i)
     ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
     : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });

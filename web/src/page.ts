@@ -42,6 +42,8 @@ export interface Spectrum {
 export interface Branch {
   side: Side;
   id: number;
+  /** among all of its side, from 0 */
+  rank: number;
   appears: number;
   /** null: it never merges into another one */
   merges: number | null;
@@ -129,6 +131,8 @@ export interface Page {
   curve: Curve;
   branches: Branch[];
   entries: Entry[];
+  /** entries that are not on the page, by number from entries.length on: viewer/catalogue.ts */
+  further?: (i: number) => Entry | undefined;
 }
 
 export function readPage(text: string): Page | null {
@@ -138,7 +142,7 @@ export function readPage(text: string): Page | null {
 }
 
 export function entryOf(page: Page, i: number): Entry {
-  const entry = page.entries[i];
+  const entry = page.entries[i] ?? page.further?.(i);
   if (!entry) throw new Error(`no entry ${i}`);
   return entry;
 }

@@ -3,7 +3,7 @@ import type { Branch, Counts, Entry, Page } from "../src/page";
 
 export function branch(changes: Partial<Branch>): Branch {
   return {
-    side: "bright", id: 1, appears: 90, merges: null, parent: -1, hypervolume: 5000, voxels: 1000, measure: 1000, joined: 0, standsOut: true,
+    side: "bright", id: 1, rank: 0, appears: 90, merges: null, parent: -1, hypervolume: 5000, voxels: 1000, measure: 1000, joined: 0, standsOut: true,
     ...changes,
   };
 }

@@ -97,7 +97,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     const { tab } = await open();
     await tab.waitForTimeout(500);
     const colours = await tab.evaluate(() => {
-      const canvas = document.querySelector("canvas") as HTMLCanvasElement;
+      const canvas = document.querySelector(".stage canvas") as HTMLCanvasElement;
       const copy = document.createElement("canvas");
       [copy.width, copy.height] = [64, 64];
       const context = copy.getContext("2d") as CanvasRenderingContext2D;

@@ -73,7 +73,7 @@ export class Served {
     tab.on("pageerror", (error) => problems.push(error.message));
     tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));
     await tab.goto(this.address + hash);
-    await tab.waitForSelector(".objects li");
+    await tab.waitForSelector(".objects [role=tab]");
     return { tab, problems };
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,59 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
     EXPECT_EQ(parts, atlas_->extract(tau).triangles.size());
 }
 
+TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
+    const BranchHierarchy hierarchy = atlas_->hierarchy();
+    const auto json = nlohmann::json::parse(ask("/api/branches").bytes);
+    ASSERT_EQ(json["all"], hierarchy.branches().size());
+    ASSERT_EQ(json["rank"].size(), std::min<std::size_t>(hierarchy.branches().size(), 1000));
+    std::size_t standing_out = 0;
+    for (std::size_t i = 0; i < json["rank"].size(); ++i) {
+        const BranchInfo& branch = hierarchy.branches()[i];
+        EXPECT_EQ(json["rank"][i], i);
+        EXPECT_EQ(json["id"][i], branch.id);
+        EXPECT_EQ(json["persistence"][i], branch.persistence);
+        EXPECT_EQ(json["voxels"][i], branch.voxels);
+        EXPECT_EQ(json["parent"][i], branch.parent);
+        standing_out += json["standsOut"][i].get<bool>();
+        const double tau = json["tau"][i];
+        EXPECT_GT(tau, branch.merges);
+        EXPECT_LE(tau, branch.appears);
+        const ActiveObjects there = atlas_->active(tau, false);
+        const Surface surface = atlas_->extract(tau, {.objects = {json["voxel"][i].get<std::int64_t>()}, .contours = {}});
+        const auto object = std::ranges::find(there.objects, surface.object[0], &ActiveObject::id);
+        ASSERT_NE(object, there.objects.end());
+        EXPECT_EQ(json["tunnels"][i], object->b1);
+        EXPECT_EQ(json["cavities"][i], object->b2);
+    }
+    EXPECT_EQ(standing_out, hierarchy.essential().size());
+}
+
+TEST_F(ServiceTest, BranchesAreChosenAsOnTheCommandLine) {
+    const BranchHierarchy hierarchy = atlas_->hierarchy();
+    for (const double height : {0.0, 0.1, 0.5, 2.0}) {
+        const auto json =
+            nlohmann::json::parse(ask("/api/branches", {{"persistence", std::to_string(height)}, {"min-voxels", "5"}, {"top", "3"}}).bytes);
+        const auto kept = hierarchy.kept({.least_voxels = 5, .least_persistence = height});
+        EXPECT_EQ(json["kept"], kept.size());
+        ASSERT_EQ(json["rank"].size(), std::min<std::size_t>(kept.size(), 3));
+        for (std::size_t i = 0; i < json["rank"].size(); ++i) EXPECT_EQ(json["rank"][i], kept[i]);
+    }
+}
+
+TEST_F(ServiceTest, CardsAreDrawnOnce) {
+    for (const char* of : {"entry", "branch"}) {
+        const Answer first = ask("/api/card", {{of, "0"}, {"frames", "2"}});
+        ASSERT_EQ(first.status, 200) << first.bytes;
+        const auto json = nlohmann::json::parse(first.bytes);
+        EXPECT_EQ(json["of"], std::string(of) + " 0");
+        EXPECT_EQ(json["picture"]["frames"], 2);
+        EXPECT_TRUE(json["picture"]["image"].get<std::string>().starts_with("data:image/webp;base64,"));
+        const AtlasReads before = atlas_->reads();
+        EXPECT_EQ(ask("/api/card", {{of, "0"}, {"frames", "2"}}).bytes, first.bytes);
+        EXPECT_EQ(atlas_->reads().extents, before.extents);
+    }
+}
+
 TEST_F(ServiceTest, RefusalsSayWhy) {
     struct Case {
         std::string path;
@@ -88,6 +142,15 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/label", {{"tau", "0.5"}, {"format", "stl"}}, 400},
                                   {"/api/label", {{"tau", "0.5"}, {"object", "0"}}, 404},
                                   {"/api/events", {{"tau", "0.5"}}, 400},
+                                  {"/api/branches", {{"top", "20001"}}, 400},
+                                  {"/api/branches", {{"persistence", "-1"}}, 400},
+                                  {"/api/branches", {{"min-voxels", "nan"}}, 400},
+                                  {"/api/card", {}, 400},
+                                  {"/api/card", {{"entry", "0"}, {"branch", "0"}}, 400},
+                                  {"/api/card", {{"entry", "9999"}}, 404},
+                                  {"/api/card", {{"branch", "1000000000"}}, 404},
+                                  {"/api/card", {{"entry", "0"}, {"frames", "17"}}, 400},
+                                  {"/api/card", {{"entry", "-1"}}, 400},
                                   {"/api", {}, 404},
                                   {"", {}, 404}};
     for (const Case& c : cases) {
@@ -100,17 +163,9 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
 
 TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     std::mt19937 random(7);
-    const std::vector<std::string> paths{"/",
-                                         "/api/atlas",
-                                         "/api/preview",
-                                         "/api/objects",
-                                         "/api/surface",
-                                         "/api/measures",
-                                         "/api/label",
-                                         "/api/events",
-                                         "/api/../api/atlas",
-                                         "//"};
-    const std::vector<std::string> names{"tau", "object", "most", "top", "", "TAU"};
+    const std::vector<std::string> paths{"/",          "/api/atlas",  "/api/preview",  "/api/objects", "/api/surface",      "/api/measures",
+                                         "/api/label", "/api/events", "/api/branches", "/api/card",    "/api/../api/atlas", "//"};
+    const std::vector<std::string> names{"tau", "object", "most", "top", "entry", "branch", "keep", "persistence", "", "TAU"};
     const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan", "", "0", "1", "99999999999999999999",
                                           "1,2,3", "\xff\0x", "0.5;"};
     for (int i = 0; i < 2000; ++i) {
@@ -193,6 +248,7 @@ TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
 TEST_F(ServiceTest, AfterTheEndNothingIsMade) {
     service_->end();
     EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 409);
+    EXPECT_EQ(ask("/api/card", {{"branch", "0"}}).status, 409);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What a reader can do: each thing once, with its name, its keys and the menu it stands in. Keys, menus and help are made from this list.
-export type Group = "Isovalue" | "Scene" | "Look" | "Tools" | "Save" | "Help";
+export type Group = "Objects" | "Isovalue" | "Scene" | "Look" | "Tools" | "Save" | "Help";
 
 export interface Action {
   group: Group;
@@ -19,12 +19,12 @@ export class Actions {
     this.all.push(...actions);
   }
 
-  /** The action of a key, where nothing is being typed. */
+  /** The action of a key, where nothing is being typed and what has the focus has no use for it. */
   listen(target: Document): void {
     target.addEventListener("keydown", (event) => {
       const key = keyOf(event);
       const action = this.all.find(({ keys }) => keys?.includes(key));
-      if (!action || event.altKey || (isTyping(event) && !key.startsWith("Ctrl+")) || target.querySelector("dialog[open]")) return;
+      if (!action || event.defaultPrevented || event.altKey || (isTyping(event) && !key.startsWith("Ctrl+")) || target.querySelector("dialog[open]")) return;
       action.run();
       event.preventDefault();
     });

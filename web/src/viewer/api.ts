@@ -1,5 +1,6 @@
 // Questions to `isoatlas view`: docs/server.md. A question for a surface ends the one before it of the same lane.
-import { readPage, type Page } from "../page";
+import { readPage, type Page, type Picture } from "../page";
+import type { Branches } from "./catalogue";
 import { messages, type ServerState } from "./server_state";
 import type { Walls } from "./state";
 import { decodeMesh, type Mesh } from "./wire";
@@ -45,6 +46,7 @@ export class Refusal extends Error {
 
 export class Api {
   private readonly client = crypto.randomUUID();
+  private surfaces = 0;
   private readonly lanes = new Map<string, AbortController>();
   private there: { tau: number; all: Promise<There[]> } | null = null;
 
@@ -57,6 +59,23 @@ export class Api {
     const page = readPage(await (await this.ask("/api/atlas", "atlas")).text());
     if (page === null) throw new Error("the server sent no atlas");
     return page;
+  }
+
+  /** The most important ones, at most so many. */
+  branches(top: number): Promise<Branches> {
+    return this.ask(`/api/branches?top=${top}`, "branches").then((answer) => answer.json() as Promise<Branches>);
+  }
+
+  /** How many objects a selection keeps: choosing.ts, selectionWords(). */
+  async kept(selection: [string, number][]): Promise<number> {
+    const answer = await this.ask(`/api/branches?top=1${selection.map(([name, number]) => `&${name}=${number}`).join("")}`, "kept");
+    return ((await answer.json()) as { kept: number }).kept;
+  }
+
+  /** null: there is nothing to draw. */
+  async card(of: { entry: number } | { branch: number }, frames: number): Promise<Picture | null> {
+    const answer = await this.ask(`/api/card?frames=${frames}${words(of)}`, "card");
+    return ((await answer.json()) as { picture: Picture | null }).picture;
   }
 
   preview(tau: number): Promise<Preview> {
@@ -77,8 +96,13 @@ export class Api {
 
   /** most: triangles; fewer come where there are more. */
   async surface(lane: string, tau: number, which: Which, most: number, walls: Walls = "all"): Promise<Mesh> {
-    const answer = await this.ask(`/api/surface?tau=${tau}${words(which)}${shell(walls)}&most=${most}`, lane);
-    return decodeMesh(await answer.arrayBuffer(), answer.headers.get("X-Coarse") === "1");
+    ++this.surfaces;
+    try {
+      const answer = await this.ask(`/api/surface?tau=${tau}${words(which)}${shell(walls)}&most=${most}`, lane);
+      return await decodeMesh(await answer.arrayBuffer(), answer.headers.get("X-Coarse") === "1");
+    } finally {
+      --this.surfaces;
+    }
   }
 
   /** The file that `isoatlas extract` writes. */
@@ -96,6 +120,11 @@ export class Api {
     const answer = await fetch(`${this.base}/api/events`, { headers: { Authorization: `Bearer ${this.token}`, "X-Client": this.client } });
     if (!answer.ok || !answer.body) throw new Refusal(answer.status, await messageOf(answer));
     yield* messages(answer.body);
+  }
+
+  /** Is a surface on its way? What nobody waits for should wait. */
+  get isBusy(): boolean {
+    return this.surfaces > 0;
   }
 
   /** Ends what a lane is waiting for. */
@@ -123,7 +152,7 @@ function shell(walls: Walls): string {
   return walls === "cavities" ? "&shell=inner" : "";
 }
 
-function words(which: Which): string {
+function words(which: Which | { entry: number } | { branch: number }): string {
   return Object.entries(which ?? {})
     .map(([name, id]) => `&${name}=${id}`)
     .join("");

@@ -45,6 +45,13 @@ export class History {
     this.tell(before, false);
   }
 
+  /** Changes what is never undone: it is the same in all states. */
+  everywhere(change: (state: State) => State): void {
+    const before = this.now;
+    this.states = this.states.map(change);
+    this.tell(before, false);
+  }
+
   undo(): boolean {
     return this.move(-1);
   }

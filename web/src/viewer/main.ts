@@ -1,15 +1,15 @@
 // The viewer: what is to be seen (state.ts), a picture of it (scene.ts, stage.ts), and what a reader can do (actions.ts).
 import { html } from "../dom";
-import { overview } from "../overview";
 import type { Page } from "../page";
 import { Actions } from "./actions";
 import { fromHash, toHash } from "./address";
 import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
+import { Catalogue, MOST_LISTED, numbersOf } from "./catalogue";
+import { ChoosePanel } from "./choose_panel";
 import type { Desk } from "./desk";
 import { Editor } from "./editor";
 import { History } from "./history";
-import { ListPanel } from "./list_panel";
 import { look } from "./look";
 import { help, menus } from "./menus";
 import { ObjectPanel } from "./object_panel";
@@ -38,45 +38,42 @@ class Viewer implements Desk {
   readonly scene: Scene;
   private readonly said = html("p", { class: "said", role: "status" });
   private readonly axis: AxisPanel;
-  private readonly list: ListPanel;
+  private readonly choosing: ChoosePanel;
   private readonly shown: ScenePanel;
   private readonly panel: ObjectPanel;
-  private readonly tree = html("dialog", { class: "tree", "aria-label": "all objects over the isovalue" });
 
   constructor(
     readonly api: Api,
     readonly page: Page,
+    catalogue: Catalogue,
     main: HTMLElement,
   ) {
-    const asked = fromHash(location.hash, page.entries.length);
+    const asked = fromHash(location.hash, numbersOf(page));
     this.history = new History(asked ?? NOTHING);
     this.editor = new Editor(page, this.history);
     this.scene = new Scene(this);
-    this.list = new ListPanel(
-      page,
-      (entry) => this.editor.isolate(entry),
-      (entry) => this.editor.toggle(entry),
-    );
+    this.choosing = new ChoosePanel(this, catalogue);
     stepping(this);
     this.axis = new AxisPanel(this);
     sceneActions(this);
     this.shown = new ScenePanel(this);
     this.panel = new ObjectPanel(this);
-    this.actions.add({ group: "Scene", name: "all objects over the isovalue: choose one", keys: ["t"], run: () => this.tree.showModal() });
     look(this);
     theme(this);
     const tour = new Tour(this);
-    const side = html("div", { class: "side" }, this.list.element);
+    const side = html("div", { class: "side" }, this.choosing.element);
     const inspector = html("div", { class: "inspector" }, this.shown.element, this.panel.element);
     this.overlay.append(this.stage.canvas, menus(this.actions), this.said, tour.element);
-    main.append(side, this.overlay, inspector, this.axis.element, new SaveDialog(this).element, help(this.actions), this.tree);
-    this.growTree();
+    main.append(side, this.overlay, inspector, this.axis.element, new SaveDialog(this).element, help(this.actions));
     this.history.listen((state, before, dragging) => this.show(state, before, dragging));
     this.actions.listen(document);
     this.listenToClicks();
     if (asked) this.show(asked, NOTHING, false);
     else if (page.entries.length > 0) this.editor.isolate(0);
-    else this.say("There is nothing to show: noise explains all there is.");
+    else {
+      this.show(NOTHING, NOTHING, false);
+      this.say("There is nothing to show: noise explains all there is.");
+    }
     tour.begin();
   }
 
@@ -86,16 +83,6 @@ class Viewer implements Desk {
 
   fail(error: unknown): void {
     if (!isOvertaken(error)) this.say(error instanceof Error ? error.message : String(error));
-  }
-
-  /** The objects over the isovalue, as on the page; what is chosen there is isolated. */
-  private growTree(): void {
-    const choose = (entry: number): void => {
-      this.tree.close();
-      this.editor.isolate(entry);
-    };
-    const drawing = overview(this.page, new Set(this.page.entries.map((entry) => entry.branch)), choose);
-    this.tree.append(html("h2", {}, "Objects over the isovalue"), drawing, html("button", { type: "button", click: () => this.tree.close() }, "Close"));
   }
 
   private listenToClicks(): void {
@@ -112,7 +99,7 @@ class Viewer implements Desk {
 
   private show(state: State, before: State, dragging: boolean): void {
     if (!dragging) history.replaceState(null, "", toHash(state));
-    this.list.show(state);
+    this.choosing.show(state, before);
     this.shown.show(state);
     this.panel.show(state, dragging);
     this.axis.show(state);
@@ -127,7 +114,7 @@ async function start(main: HTMLElement): Promise<void> {
     const page = await pageWhenThere(api, main);
     document.title = `${page.volume.name} – isoatlas`;
     if (page.volume.size.length !== 3) throw new Error("The viewer shows volumes; isoatlas atlas makes a page of an image.");
-    new Viewer(api, page, main);
+    new Viewer(api, page, new Catalogue(page, await api.branches(MOST_LISTED)), main);
   } catch (error) {
     main.append(html("p", { role: "alert" }, error instanceof Error ? error.message : String(error)));
   }

@@ -2,12 +2,12 @@
 import { html } from "../dom";
 import type { Action, Actions, Group } from "./actions";
 
-const GROUPS: Group[] = ["Isovalue", "Scene", "Look", "Tools", "Save", "Help"];
+const GROUPS: Group[] = ["Objects", "Isovalue", "Scene", "Look", "Tools", "Save", "Help"];
 const SIGNS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
 /** what is done without an action */
 const GESTURES: [string, string][] = [
-  ["click", "in the list: show this object alone; in the picture: select"],
-  ["shift and click", "in the list: add this object, or take it out"],
+  ["click", "a card, a line or a dot: show this object alone; in the picture: select"],
+  ["shift and click", "a card, a line or a dot: add this object, or take it out"],
   ["Enter", "in the box: use this isovalue"],
 ];
 

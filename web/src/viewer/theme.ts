@@ -11,6 +11,12 @@ export function isDarkPage(): boolean {
   return colorScheme === "dark" || (colorScheme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
 }
 
+/** Calls when the page may look different. */
+export function onTheme(listener: () => void): void {
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", listener);
+  new MutationObserver(listener).observe(document.documentElement, { attributes: true, attributeFilter: ["style"] });
+}
+
 export function theme(desk: Desk): void {
   const { actions } = desk;
   let now: Theme = THEMES.find((name) => name === recall("theme")) ?? "system";

@@ -1,0 +1,39 @@
+#include "server/cards.h"
+
+#include "server/document.h"
+
+namespace isoatlas::server {
+namespace {
+
+constexpr std::int64_t kPixels = 160;
+
+std::string card_json(const std::string& name, const page::Turntable& picture) {
+    return document("card", [&](output::JsonStream& json) {
+        json.key("of").value(name).key("picture");
+        if (picture.image.empty()) {
+            json.null();
+            return;
+        }
+        json.begin_object().key("image").value(picture.image).key("frames").value(picture.frames);
+        json.key("side").value(picture.side).end_object();
+    });
+}
+
+}  // namespace
+
+std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question,
+                        const Context& context) {
+    const std::string name = subject.name + ", frames " + std::to_string(frames);
+    if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);
+    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);  // another client has asked for it meanwhile
+    Context own = context;
+    own.threads = 1;  // surfaces that somebody waits for go first
+    own.cancelled = [&turn] { return turn->is_over(); };
+    std::string answer =
+        card_json(subject.name, page::draw_object(atlas, subject.dark, subject.entry, {.picture_size = kPixels, .frames = frames}, own));
+    answers_.keep(name, answer);
+    return answer;
+}
+
+}  // namespace isoatlas::server

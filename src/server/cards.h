@@ -1,0 +1,40 @@
+// Pictures of objects, drawn when they are asked for, one at a time, and kept: /api/card.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/text_cache.h"
+#include "isoatlas/atlas.h"
+#include "page/contents.h"
+#include "server/question.h"
+#include "server/turns.h"
+
+namespace isoatlas::server {
+
+/// What is drawn, and its name among all that may be: "entry 3".
+struct CardSubject {
+    std::string name;
+    bool dark = false;
+    page::PageEntry entry{};
+};
+
+class Cards {
+public:
+    /// docs/schema/server-card. frames: of the turntable, 1 to 64. Throws Error: cancelled (a newer question of the same client came, who
+    /// asked has left, or end() was called), resource (too many wait). Cost: the first time Atlas::extract() and `frames` pictures; one
+    /// thread.
+    [[nodiscard]] std::string json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question,
+                                   const Context& context);
+    /// Ends what is being drawn; nothing is drawn from now on.
+    void end() { turns_.end(); }
+
+private:
+    static constexpr int kMostWaiting = 16;
+    static constexpr std::size_t kMostKept = 512;  ///< some 30 kB each
+
+    Turns turns_{1, kMostWaiting};
+    TextCache answers_{kMostKept};
+};
+
+}  // namespace isoatlas::server

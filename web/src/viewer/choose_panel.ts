@@ -1,0 +1,183 @@
+// The objects to choose from, left of the picture: as cards, in a list, in their tree, or by contrast and size; what is hidden, and why.
+import { orders } from "../choice";
+import { hiddenWords } from "../curve";
+import { html } from "../dom";
+import { count, plural } from "../format";
+import { commandList } from "../commands";
+import type { Catalogue } from "./catalogue";
+import { ANY, CHOICE, commandOf, isSelection, selectionWords, TAB, type Choice, type TabName } from "./choosing";
+import { selectedOf, type Desk } from "./desk";
+import { find, type Found } from "./found";
+import { card, row } from "./items";
+import { ItemsTab } from "./items_tab";
+import { Pictures } from "./pictures";
+import { ScatterTab } from "./scatter_tab";
+import type { State } from "./state";
+import { Tabs } from "./tabs";
+import { TreeTab } from "./tree_tab";
+import "./choose.css";
+
+export class ChoosePanel {
+  readonly element: HTMLElement;
+  private readonly tabs: Tabs<TabName>;
+  private readonly cards: ItemsTab;
+  private readonly list: ItemsTab;
+  private readonly tree: TreeTab;
+  private readonly scatter: ScatterTab;
+  private readonly text = html("input", { type: "search", placeholder: "find: 3, cavity, sharp", "aria-label": "find objects by name, number or reason" });
+  private readonly order = html("select", { "aria-label": "order" }, ...orders.map(([name]) => html("option", { value: name }, name === "rank" ? "by importance" : `by ${name}`)));
+  private readonly words = html("p", { role: "status" });
+  private readonly command = html("div", { class: "same-list" });
+  private readonly tools = html("div", { class: "tools" }, this.text, this.order);
+  private chosen: number[] = [];
+  private kept = 0;
+  private found: Found = { bright: [], dark: [], also: [] };
+  /** what has not been filled with what is found now */
+  private readonly stale = new Set<TabName>(["cards", "list", "tree"]);
+
+  constructor(
+    private readonly desk: Desk,
+    private readonly catalogue: Catalogue,
+  ) {
+    const { page, editor: chooser } = desk;
+    const pictures = new Pictures(desk.api, page);
+    this.cards = new ItemsTab("cards", (i) => card(page, i, chooser, pictures));
+    this.list = new ItemsTab("rows", (i) => row(page, i, chooser));
+    this.tree = new TreeTab(page, catalogue, chooser);
+    this.scatter = new ScatterTab(page, catalogue, chooser, (choice, transient) => this.choose(choice, transient));
+    this.tabs = new Tabs<TabName>(
+      [
+        { name: "cards", title: "Cards", panel: this.cards.panel },
+        { name: "list", title: "List", panel: this.list.panel },
+        { name: "tree", title: "Tree", panel: this.tree.panel },
+        { name: "scatter", title: "Essential?", panel: html("div", {}, this.scatter.panel, this.command) },
+      ],
+      "how objects are listed",
+      (name) => this.open(name),
+    );
+    this.element = html("nav", { class: "objects", "aria-label": "objects" }, html("h1", {}, page.volume.name), this.words, this.hidden(), this.tools, this.tabs.element);
+    for (const input of [this.text, this.order]) input.addEventListener("input", () => this.refresh(desk.history.now));
+    this.addActions();
+  }
+
+  show(state: State, before: State): void {
+    if (state.parts.choice !== before.parts.choice || this.chosen.length === 0) {
+      this.chosen = this.catalogue.chosen(CHOICE.of(state));
+      void this.countKept(CHOICE.of(state));
+    }
+    const tab = TAB.of(state);
+    this.tabs.show(tab);
+    this.tools.hidden = tab === "scatter";
+    this.order.hidden = tab === "tree";
+    this.refresh(state);
+  }
+
+  private refresh(state: State): void {
+    const found = find(this.desk.page, this.chosen, state.shown, { text: this.text.value, order: this.order.value });
+    if (JSON.stringify(found) !== JSON.stringify(this.found)) {
+      this.found = found;
+      for (const name of ["cards", "list", "tree"] as const) this.stale.add(name);
+    }
+    this.say(CHOICE.of(state));
+    const open = TAB.of(state);
+    if (open === "scatter") return this.scatter.mark(state, this.chosen);
+    const tab = { cards: this.cards, list: this.list, tree: this.tree }[open];
+    if (this.stale.delete(open)) tab.fill(found);
+    tab.mark(state);
+  }
+
+  private say(choice: Choice | null): void {
+    const { page } = this.desk;
+    const words = [this.countWords(choice)];
+    if (this.found.dark.length > 0) words.push(`and ${plural(this.catalogue.objectsOf(this.found.dark), "dark object")}`);
+    if (this.text.value.trim() !== "") words.push(`found: ${count(this.found.bright.length + this.found.dark.length + this.found.also.length)}`);
+    if (this.words.textContent !== words.join(", ")) this.words.textContent = words.join(", "); // what is said again is read out again
+    const { line, same } = commandOf(choice, this.catalogue.source, page.objects.bright.standingOut, page.volume.unit !== null);
+    const name = same ? "the same list on the command line" : "on the command line, which knows only lower limits: a list that holds these";
+    if (this.command.dataset.line !== line + name) this.command.replaceChildren(commandList([{ name, line }]));
+    this.command.dataset.line = line + name;
+  }
+
+  /** Such as "37 of 18,204 objects shown"; more may be chosen than are listed. */
+  private countWords(choice: Choice | null): string {
+    const { all } = this.catalogue;
+    const shown = this.catalogue.objectsOf(this.chosen);
+    const hidden = choice !== null && this.kept > shown ? ` ${count(this.kept)} chosen ones, of` : "";
+    const isovalues = this.chosen.length > shown ? `, at ${count(this.chosen.length)} isovalues` : "";
+    return `${count(shown)} of${hidden} ${plural(all, "object")} shown${isovalues}`;
+  }
+
+  /** How many are chosen, where not all objects are known here. */
+  private async countKept(choice: Choice | null): Promise<void> {
+    this.kept = 0;
+    if (choice === null || !isSelection(choice) || this.catalogue.sizes.length === this.catalogue.all) return;
+    try {
+      this.kept = await this.desk.api.kept(selectionWords(choice, this.desk.page.volume.unit !== null));
+      this.say(CHOICE.of(this.desk.history.now));
+    } catch (error) {
+      this.desk.fail(error);
+    }
+  }
+
+  /** What is not listed at first, why, and how to see it. */
+  private hidden(): HTMLElement {
+    const { page } = this.desk;
+    const { standingOut } = page.objects.bright;
+    const pictured = this.catalogue.objectsOf(this.catalogue.chosen(null));
+    const more = (name: string, choice: Choice | null): HTMLElement => html("button", { type: "button", click: () => this.choose(choice, false) }, name);
+    return html(
+      "details",
+      { class: "hidden-words" },
+      html("summary", {}, "What is hidden, and why"),
+      ...hiddenWords(page).map((words) => html("p", {}, words)),
+      html(
+        "div",
+        { class: "line" },
+        more("As at first", null),
+        standingOut > pictured && more(`All ${count(standingOut)} that stand out`, { ...ANY, standsOut: true }),
+        more("The 100 most important", { ...ANY, keep: 100 }),
+        html("button", { type: "button", click: () => this.open("scatter") }, "Choose by contrast and size"),
+      ),
+    );
+  }
+
+  private choose(choice: Choice | null, transient: boolean): void {
+    const { history } = this.desk;
+    history.go(CHOICE.in(history.now, choice), transient);
+  }
+
+  private open(tab: TabName): void {
+    this.desk.history.everywhere((state) => TAB.in(state, tab));
+  }
+
+  private focusTab(tab: TabName): void {
+    this.open(tab);
+    document.getElementById(`tab-${tab}`)?.focus();
+  }
+
+  /** The next object of the list, or the one before. */
+  private step(by: number): void {
+    const numbers = [...this.found.bright, ...this.found.also, ...this.found.dark];
+    const at = numbers.indexOf(selectedOf(this.desk.history.now)?.entry ?? NaN);
+    const next = numbers[at < 0 ? 0 : (at + by + numbers.length) % numbers.length];
+    if (next !== undefined) this.desk.editor.isolate(next);
+  }
+
+  private addActions(): void {
+    this.desk.actions.add(
+      { group: "Objects", name: "as cards", keys: ["1"], run: () => this.focusTab("cards") },
+      { group: "Objects", name: "in a list", keys: ["2"], run: () => this.focusTab("list") },
+      { group: "Objects", name: "in their tree, over the isovalue", keys: ["3", "t"], run: () => this.focusTab("tree") },
+      { group: "Objects", name: "by contrast and size: what is essential?", keys: ["4"], run: () => this.focusTab("scatter") },
+      { group: "Objects", name: "find by name, number or reason", keys: ["/"], run: () => this.find() },
+      { group: "Objects", name: "the next one alone", keys: ["n"], run: () => this.step(1) },
+      { group: "Objects", name: "the one before alone", keys: ["N"], run: () => this.step(-1) },
+    );
+  }
+
+  private find(): void {
+    if (TAB.of(this.desk.history.now) === "scatter") this.open("cards");
+    this.text.focus();
+    this.text.select();
+  }
+}
