@@ -39,7 +39,11 @@ describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () =>
         expect(await violations(tab), `menu ${(await menu.textContent()) ?? ""}`).toEqual([]);
         await tab.keyboard.press("Escape");
       }
-      for (const key of ["s", "?", "t"]) {
+      for (const key of ["1", "2", "3", "4"]) {
+        await tab.keyboard.press(key);
+        expect(await violations(tab), `objects, ${key}`).toEqual([]);
+      }
+      for (const key of ["s", "?"]) {
         await tab.keyboard.press(key);
         await tab.waitForSelector("dialog[open]");
         expect(await violations(tab), `dialog of ${key}`).toEqual([]);

@@ -170,7 +170,7 @@ describe("a scene as a file", () => {
       [{ ...good, shown: [{ ...first, opacity: 2 }] }, "shown[0].opacity is 2; a number from 0 to 1"],
       [{ ...good, shown: [first, { ...second, colour: "red" }] }, "shown[1].colour"],
       [{ ...good, shown: [{ ...first, id: 1e9 }] }, "of another volume"],
-      [{ ...good, shown: [{ ...first, entry: 4000 }] }, "shown[0].entry is 4000"],
+      [{ ...good, shown: [{ ...first, entry: 400_000 }] }, "shown[0].entry is 400000"],
       [{ ...good, shown: [first, first] }, "shown[1] is in the scene twice"],
       [{ ...good, shown: 7 }, "shown is 7; a list"],
       [{ ...good, selected: 2 }, "selected is 2"],

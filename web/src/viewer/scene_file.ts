@@ -1,5 +1,6 @@
 // A scene as a file: docs/scene.md. What is not right is refused with where and what was expected.
 import { entryOf, type Page } from "../page";
+import { numbersOf } from "./catalogue";
 import { partNamed } from "./part";
 import { titleOf } from "./shown";
 import type { Shown, State } from "./state";
@@ -36,7 +37,7 @@ function parsed(text: string): unknown {
 }
 
 function shownOf(page: Page, at: Reader): Shown {
-  const entry = at.whole("entry", -1, page.entries.length - 1);
+  const entry = at.whole("entry", -1, numbersOf(page) - 1);
   const id = at.value("id");
   const expected = entry < 0 ? null : entryOf(page, entry).id;
   if (id !== expected) throw new Error(`${at.where}.id is ${JSON.stringify(id)}, but entry ${entry} of this volume is ${expected}: the scene is of another volume.`);

@@ -1,13 +1,15 @@
 // The objects that matter as a table, one line each, and where they are shown.
 import { nameOf } from "../names";
-import { branchOf, type Page } from "../page";
+import { branchOf, entryOf, type Page } from "../page";
 import type { State } from "./state";
 
 const COLUMNS = ["name", "id", "side", "best_tau", "appears", "merges", "voxels", "volume", "unit", "tunnels", "cavities", "inside", "cavity_of", "shown_at"];
 
-/** Comma-separated values; a name with a comma or a quote is quoted. Lengths are in the unit of the file, or voxels. */
+/** Those of the page, and what else is shown. Comma-separated values; volumes in the unit of the file, or voxels. */
 export function tableCsv(page: Page, state: State): string {
-  const lines = page.entries.map((entry, i) => {
+  const further = state.shown.map(({ entry }) => entry).filter((i) => i >= page.entries.length);
+  const lines = [...page.entries.keys(), ...further].map((i) => {
+    const entry = entryOf(page, i);
     const branch = branchOf(page, entry.branch);
     const name = (k: number): string => (k >= 0 ? nameOf(page, k) : "");
     const shown = state.shown.find((one) => one.entry === i);
