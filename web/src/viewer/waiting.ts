@@ -13,7 +13,7 @@ class Waiting {
   private readonly bar = html("progress", { max: 1, "aria-label": "how much of the store is built" });
   private readonly details = html("p", { role: "status" });
   private readonly card = html("div", { class: "waiting" }, this.title, this.bar, this.details);
-  private readonly note = html("p", { class: "note", role: "alert", hidden: true });
+  private readonly note = html("p", { class: "alert", role: "alert", hidden: true });
   private readonly busy = html("p", { class: "busy", hidden: true });
   private soon = 0;
 
