@@ -72,10 +72,10 @@ export class Eye {
   get isFlat(): boolean {
     return this.flat;
   }
-
-  toggleFlat(): void {
+  set isFlat(flat: boolean) {
+    if (flat === this.flat) return;
     const offset = this.offset();
-    this.flat = !this.flat;
+    this.flat = flat;
     this.controls.object = this.camera;
     this.place(this.controls.target.clone(), offset);
   }

@@ -10,7 +10,7 @@ import type { Desk } from "./desk";
 import { Editor } from "./editor";
 import { History } from "./history";
 import { ListPanel } from "./list_panel";
-import { look } from "./look";
+import { looking } from "./looking";
 import { help, menus } from "./menus";
 import { ObjectPanel } from "./object_panel";
 import { SaveDialog } from "./save_dialog";
@@ -63,7 +63,7 @@ class Viewer implements Desk {
     this.shown = new ScenePanel(this);
     this.panel = new ObjectPanel(this);
     this.actions.add({ group: "Scene", name: "all objects over the isovalue: choose one", keys: ["t"], run: () => this.tree.showModal() });
-    look(this);
+    looking(this);
     theme(this);
     const tour = new Tour(this);
     const side = html("div", { class: "side" }, this.list.element);

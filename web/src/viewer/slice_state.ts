@@ -1,0 +1,52 @@
+// What slices keep in a state.
+import type { Histogram, Page } from "../page";
+import { AXES, type Triple } from "./grid";
+import { flag, Part } from "./part";
+
+function numbers(text: string, count: number): number[] | null {
+  const list = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
+  return list.length === count && list.every(Number.isFinite) ? list : null;
+}
+
+/** Shortest text of a list of numbers; digits: significant. */
+export function textOf(list: readonly number[], digits = 7): string {
+  return list.map((n) => Number(n.toPrecision(digits))).join(",");
+}
+
+/** A part that is a list of numbers, null at first. */
+export function list(key: string, title: string, count: number, isGood: (numbers: number[]) => boolean = () => true): Part<number[] | null> {
+  const read = (text: string): number[] | null => {
+    const found = numbers(text, count);
+    return found && isGood(found) ? found : null;
+  };
+  return new Part<number[] | null>(key, title, null, (value) => (value === null ? "" : textOf(value)), read);
+}
+
+export const SLICES = flag("slices", "slices");
+export const PLANES = flag("planes", "slices in the picture");
+/** the sample at the crosshair; null: the middle of the volume */
+export const CROSSHAIR = list("cross", "the crosshair", 3, (voxel) => voxel.every((n) => Number.isInteger(n) && n >= 0));
+/** values that are black and white; null: as the histogram says */
+export const GREY = list("grey", "brightness", 2, ([black, white]) => (black ?? 0) < (white ?? 0));
+
+export function middleOf({ volume }: Page): Triple {
+  return AXES.map((axis) => Math.floor((volume.size[axis] ?? 1) / 2)) as Triple;
+}
+
+/** Between which values all but a two-hundredth of the samples at each end lie. */
+export function greyRange({ edges, counts }: Histogram): [number, number] {
+  const all = counts.reduce((sum, count) => sum + count, 0);
+  const low = edges[0] ?? 0;
+  const high = edges[edges.length - 1] ?? 1;
+  const quantile = (share: number): number => {
+    let sum = 0;
+    for (let i = 0; i < counts.length; ++i) {
+      const count = counts[i] ?? 0;
+      if (count > 0 && sum + count >= share * all) return (edges[i] ?? low) + ((share * all - sum) / count) * ((edges[i + 1] ?? high) - (edges[i] ?? low));
+      sum += count;
+    }
+    return high;
+  };
+  const [black, white] = [quantile(0.005), quantile(0.995)];
+  return black < white ? [black, white] : [low, high];
+}
