@@ -85,6 +85,11 @@ export class Eye {
     return 2 * this.offset().length() * Math.tan(HALF_ANGLE) / this.camera.zoom;
   }
 
+  /** What is a scale of 1 for a label that keeps its size: the height of the picture, at a distance of 1 where there is perspective. */
+  get labelUnit(): number {
+    return this.flat ? this.height : 2 * Math.tan(HALF_ANGLE);
+  }
+
   /** Where the camera stands and what it looks at, in digits that an address has room for; ours: what was got here before. */
   get view(): number[] {
     return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map((n) => Number(n.toPrecision(7)));

@@ -3,8 +3,11 @@ import { html } from "../dom";
 import { cube } from "./cube";
 import { cutting } from "./cutting";
 import type { Desk } from "./desk";
+import { Grid } from "./grid";
 import { look } from "./look";
-import { Slices } from "./slices";
+import { Matter } from "./matter";
+import { Measuring } from "./measuring";
+import { crosshairOf, Slices } from "./slices";
 import "./looking.css";
 
 export function looking(desk: Desk): void {
@@ -13,5 +16,9 @@ export function looking(desk: Desk): void {
   look(desk);
   cube(desk);
   cutting(desk, tools);
-  if (desk.page.volume.spacing) new Slices(desk);
+  if (!desk.page.volume.spacing) return; // uneven steps between samples
+  const grid = new Grid(desk.page);
+  const measuring = new Measuring(desk, tools, () => grid.place(crosshairOf(desk)));
+  new Slices(desk, (place) => measuring.take(place));
+  new Matter(desk, tools);
 }

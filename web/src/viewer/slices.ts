@@ -36,7 +36,11 @@ export class Slices {
   private readonly element: HTMLElement;
   private asked = false;
 
-  constructor(private readonly desk: Desk) {
+  /** measured: a place that is clicked is taken for a measure. */
+  constructor(
+    private readonly desk: Desk,
+    private readonly measured: (place: Triple) => boolean,
+  ) {
     const { page, stage, overlay, api } = desk;
     this.grid = new Grid(page);
     this.store = new SliceStore(api, () => this.redraw(), (error) => desk.fail(error));
@@ -45,7 +49,7 @@ export class Slices {
     this.mark = new Mark(stage, this.grid);
     this.held = new HeldHere(desk);
     this.views = AXES.map(
-      (axis) => new SliceView(axis, this.grid, { move: (voxel, dragging) => this.move(voxel, dragging), choose: (voxel) => void this.held.choose(voxel) }),
+      (axis) => new SliceView(axis, this.grid, { move: (voxel, dragging) => this.move(voxel, dragging), choose: (voxel) => this.choose(voxel) }),
     );
     const foot = html("div", { class: "foot" }, this.said, this.held.element, greyBar(desk));
     this.element = html("section", { class: "slices", "aria-label": "slices", hidden: true }, html("div", { class: "views" }, ...this.views.map((view) => view.element)), foot);
@@ -57,6 +61,10 @@ export class Slices {
   move(voxel: Triple, dragging = false): void {
     const { history } = this.desk;
     if (!dragging || String(voxel) !== String(crosshairOf(this.desk))) history.go(CROSSHAIR.in(history.now, voxel), dragging);
+  }
+
+  private choose(voxel: Triple): void {
+    if (!this.measured(this.grid.place(voxel))) void this.held.choose(voxel);
   }
 
   private listen(): void {

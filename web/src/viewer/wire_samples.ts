@@ -25,7 +25,7 @@ export interface CoarseVolume {
   step: number;
   low: number;
   high: number;
-  bytes: Uint8Array;
+  bytes: Uint8Array<ArrayBuffer>;
 }
 
 function headerOf(bytes: ArrayBuffer, magic: number, what: string): DataView {
