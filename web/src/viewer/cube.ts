@@ -15,7 +15,7 @@ export function cube(desk: Desk): void {
   const faces = facesOf(page.volume.space).map((face) => {
     const from = (): void => {
       stage.eye.along(face.normal.map((n) => 0 - n) as [number, number, number]);
-      history.go({ ...history.now, view: stage.eye.view }, true);
+      history.go({ ...history.now, view: stage.eye.view });
     };
     const title = `look from ${face.name}`;
     const button = html("button", { type: "button", title, "aria-label": title, click: from }, face.letter);
@@ -54,7 +54,7 @@ function turning({ stage, actions, overlay, history, say }: Desk): void {
   const stop = (): void => {
     if (last === null) return;
     last = null;
-    history.go({ ...history.now, view: stage.eye.view }, true);
+    history.go({ ...history.now, view: stage.eye.view });
   };
   const start = (): void => {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return say("your system asks for less motion: the arrow keys turn");

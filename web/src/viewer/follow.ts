@@ -2,6 +2,7 @@
 import type { Desk } from "./desk";
 import type { History } from "./history";
 import type { Part } from "./part";
+import type { State } from "./state";
 
 /** Calls with the value of a part now, and whenever it is another one. */
 export function follow<T>(history: History, part: Part<T>, apply: (value: T) => void): void {
@@ -13,6 +14,19 @@ export function follow<T>(history: History, part: Part<T>, apply: (value: T) => 
   });
   text = history.now.parts[part.key];
   apply(part.of(history.now));
+}
+
+/** milliseconds without another change: then it is done */
+const SETTLED = 400;
+
+/** For keys and wheels: changes that come quickly one after the other are one step of history. */
+export function quickly(history: History): (state: State) => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  return (state) => {
+    clearTimeout(timer);
+    history.go(state, true);
+    timer = setTimeout(() => history.go(history.now), SETTLED);
+  };
 }
 
 /** Of an action that turns a part on and off. */

@@ -4,8 +4,7 @@ import { isOvertaken } from "./api";
 import type { Desk } from "./desk";
 import type { Triple } from "./grid";
 import { holdersOf, type Held } from "./holders";
-import { bestOf, colourOf, titleOf } from "./shown";
-import { add } from "./state";
+import { colourOf, titleOf } from "./shown";
 
 /** milliseconds after the crosshair has stopped */
 const RESTED = 200;
@@ -34,8 +33,7 @@ export class HeldHere {
   }
 
   private take(entry: number): void {
-    const { history, page } = this.desk;
-    history.go(add(history.now, entry, bestOf(page, entry)));
+    this.desk.editor.add(entry);
     this.desk.say("");
   }
 

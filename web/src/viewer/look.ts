@@ -2,7 +2,7 @@
 import * as three from "three";
 import type { Desk } from "./desk";
 import { VIEWS } from "./eye";
-import { follow, switching } from "./follow";
+import { follow, quickly, switching } from "./follow";
 import { AXES, Grid } from "./grid";
 import { flag } from "./part";
 import { ScaleBar } from "./scale_bar";
@@ -18,10 +18,11 @@ export function look(desk: Desk): void {
   overlay.append(bar.element);
   showEdges(desk);
   follow(history, FLAT, (flat) => (stage.eye.isFlat = flat));
+  const go = quickly(history);
   const see = (name: string, keys: string[], move: () => void): void => {
     const run = (): void => {
       move();
-      history.go({ ...history.now, view: stage.eye.view }, true);
+      go({ ...history.now, view: stage.eye.view });
     };
     actions.add({ group: "Look", name, keys, run });
   };

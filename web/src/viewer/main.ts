@@ -31,7 +31,7 @@ const CLICK_PIXELS = 4;
 
 class Viewer implements Desk {
   readonly history: History;
-  readonly stage = new Stage(() => this.history.go({ ...this.history.now, view: this.stage.eye.view }, true));
+  readonly stage = new Stage(() => this.history.go({ ...this.history.now, view: this.stage.eye.view }));
   readonly actions = new Actions();
   readonly overlay = html("div", { class: "stage" });
   readonly editor: Editor;

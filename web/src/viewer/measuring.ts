@@ -76,7 +76,7 @@ export class Measuring {
     this.drawing.show(measures, texts, this.pending);
     this.element.hidden = measures.length === 0 && this.places === 0;
     this.desk.overlay.classList.toggle("measuring", this.places > 0);
-    this.hint.textContent = this.places > 0 ? `${WHAT[this.places as 2 | 3]}: click the ${NUMBERS[this.pending.length]} place, or press m for the crosshair; Escape ends` : "";
+    this.hint.textContent = this.places > 0 ? `${WHAT[this.places as 2 | 3]}: click the ${NUMBERS[this.pending.length]} place, or press e for the crosshair; Escape ends` : "";
     this.list.replaceChildren(
       ...measures.map((measure, i) => {
         const what = measure.length === 3 ? "angle" : "distance";
@@ -93,9 +93,9 @@ export class Measuring {
       this.take(this.crosshair());
     };
     this.desk.actions.add(
-      { group: "Tools", name: "measure a distance", keys: ["d"], run: () => this.begin(2), isOn: isOn(2) },
-      { group: "Tools", name: "measure an angle", keys: ["D"], run: () => this.begin(3), isOn: isOn(3) },
-      { group: "Tools", name: "take the crosshair as a place of the measure", keys: ["m"], run: atCrosshair },
+      { group: "Tools", name: "measure a distance", keys: ["m"], run: () => this.begin(2), isOn: isOn(2) },
+      { group: "Tools", name: "measure an angle", keys: ["M"], run: () => this.begin(3), isOn: isOn(3) },
+      { group: "Tools", name: "take the crosshair as a place of the measure", keys: ["e"], run: atCrosshair },
       { group: "Tools", name: "end measuring", keys: ["Escape"], run: () => this.begin(0) },
       { group: "Tools", name: "remove all measures", run: () => this.go([]) },
     );
@@ -110,8 +110,8 @@ export class Measuring {
       if (this.places === 0 || moved || event.target !== stage.canvas) return;
       event.stopPropagation();
       const frame = stage.canvas.getBoundingClientRect();
-      const hit = stage.hit(event.clientX - frame.left, event.clientY - frame.top);
-      if (hit) this.take(hit.point.toArray());
+      const place = stage.touch(event.clientX - frame.left, event.clientY - frame.top);
+      if (place) this.take(place.toArray());
       else this.desk.say("there is no surface: click one, or a slice");
     };
     overlay.addEventListener("click", click, { capture: true });

@@ -11,6 +11,8 @@ export interface Ray {
 }
 
 const NEARLY_PARALLEL = 1e-12;
+/** no ray goes through between two triangles */
+const ROUND = 1e-7;
 
 /** t of the first hit, from either side; null: none. Cost: a pass over the triangles (Möller and Trumbore, 1997). */
 export function firstHit(mesh: Mesh, ray: Ray): number | null {
@@ -41,12 +43,12 @@ export function firstHit(mesh: Mesh, ray: Ray): number | null {
     const sy = oy - ay;
     const sz = oz - az;
     const u = (sx * hx + sy * hy + sz * hz) / determinant;
-    if (u < 0 || u > 1) continue;
+    if (u < -ROUND || u > 1 + ROUND) continue;
     const kx = sy * pz - sz * py;
     const ky = sz * px - sx * pz;
     const kz = sx * py - sy * px;
     const v = (dx * kx + dy * ky + dz * kz) / determinant;
-    if (v < 0 || u + v > 1) continue;
+    if (v < -ROUND || u + v > 1 + ROUND) continue;
     const t = (qx * kx + qy * ky + qz * kz) / determinant;
     if (t >= ray.begin && t < first) {
       first = t;

@@ -45,6 +45,7 @@ export class SlicePlanes {
     geometry.setAttribute("uv", new three.BufferAttribute(new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]), 2));
     geometry.setIndex([0, 1, 2, 2, 1, 3]);
     const plane = new three.Mesh(geometry, new three.MeshBasicMaterial({ map, side: three.DoubleSide }));
+    plane.userData.touchable = true;
     this.planes.set(axis, plane);
     this.stage.add(plane);
     return plane;

@@ -1,6 +1,7 @@
 // Slices that are there, and those that are on their way: of each axis the one asked for last.
-import { isOvertaken, type Api } from "./api";
+import type { Api } from "./api";
 import { AXES, type AxisNumber } from "./grid";
+import { Latest } from "./latest";
 import { decodeSlice, type Slice } from "./wire_samples";
 
 /** of each axis */
@@ -8,8 +9,7 @@ const KEPT = 12;
 
 export class SliceStore {
   private readonly kept = new Map<AxisNumber, Slice[]>(AXES.map((axis) => [axis, []]));
-  private readonly wanted = new Map<AxisNumber, number>();
-  private readonly loading = new Set<AxisNumber>();
+  private readonly asked = AXES.map((axis) => new Latest<number>((index) => this.load(axis, index)));
 
   /** arrived: a slice that was wanted. most: samples of a slice; fewer come of larger ones. */
   constructor(
@@ -23,23 +23,17 @@ export class SliceStore {
   get(axis: AxisNumber, index: number): Slice | null {
     const slice = this.kept.get(axis)?.find((one) => one.index === index);
     if (slice) return slice;
-    this.wanted.set(axis, index);
-    if (!this.loading.has(axis)) void this.load(axis);
+    this.asked[axis]?.want(index, String(index));
     return null;
   }
 
-  private async load(axis: AxisNumber): Promise<void> {
-    this.loading.add(axis);
-    for (let index = this.wanted.get(axis); index !== undefined; index = this.wanted.get(axis)) {
-      this.wanted.delete(axis);
-      try {
-        const answer = await this.api.ask(`/api/slice?axis=${axis}&index=${index}&most=${this.most}`, `slice ${axis}`);
-        this.keep(decodeSlice(await answer.arrayBuffer(), axis, index));
-      } catch (error) {
-        if (!isOvertaken(error)) this.failed(error);
-      }
+  private async load(axis: AxisNumber, index: number): Promise<void> {
+    try {
+      const answer = await this.api.ask(`/api/slice?axis=${axis}&index=${index}&most=${this.most}`, `slice ${axis}`);
+      this.keep(decodeSlice(await answer.arrayBuffer(), axis, index));
+    } catch (error) {
+      this.failed(error);
     }
-    this.loading.delete(axis);
   }
 
   private keep(slice: Slice): void {

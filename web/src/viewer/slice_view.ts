@@ -12,6 +12,7 @@ const CROSSHAIR = "#ffd400";
 export interface Wishes {
   /** the crosshair to a sample; dragging: more will come */
   move(voxel: Triple, dragging: boolean): void;
+  step(axis: AxisNumber, by: number): void;
   /** what holds this sample */
   choose(voxel: Triple): void;
 }
@@ -168,15 +169,9 @@ export class SliceView {
     });
     this.canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.step(this.axis, event.deltaY < 0 ? 1 : -1, true);
+      this.wishes.step(this.axis, event.deltaY < 0 ? 1 : -1);
     }, { passive: false });
     this.canvas.addEventListener("keydown", (event) => this.press(event));
-  }
-
-  private step(axis: AxisNumber, by: number, dragging = false): void {
-    const voxel: Triple = [...this.cross];
-    voxel[axis] += by;
-    this.wishes.move(this.grid.inside(voxel), dragging);
   }
 
   private press(event: KeyboardEvent): void {
@@ -193,7 +188,7 @@ export class SliceView {
     if (event.ctrlKey || event.metaKey || event.altKey || (!step && event.key !== "Enter")) return;
     event.preventDefault();
     event.stopPropagation();
-    if (step) this.step(step[0], event.shiftKey ? 10 * step[1] : step[1]);
+    if (step) this.wishes.step(step[0], event.shiftKey ? 10 * step[1] : step[1]);
     else this.wishes.choose(this.cross);
   }
 }

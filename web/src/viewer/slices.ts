@@ -3,7 +3,7 @@ import { html } from "../dom";
 import { value } from "../format";
 import { Contours } from "./contours";
 import type { Desk } from "./desk";
-import { follow, switching } from "./follow";
+import { follow, quickly, switching } from "./follow";
 import { AXES, AXIS_NAMES, Grid, type AxisNumber, type Triple } from "./grid";
 import { greyBar } from "./grey_bar";
 import { HeldHere } from "./held_here";
@@ -12,6 +12,7 @@ import { SlicePlanes } from "./slice_planes";
 import { CROSSHAIR, GREY, greyRange, middleOf, PLANES, SLICES } from "./slice_state";
 import { SliceStore } from "./slice_store";
 import { SliceView } from "./slice_view";
+import type { State } from "./state";
 import { valueAt } from "./wire_samples";
 
 /** Where the crosshair is. */
@@ -32,8 +33,9 @@ export class Slices {
   private readonly planes: SlicePlanes;
   private readonly mark: Mark;
   private readonly held: HeldHere;
-  private readonly said = html("output", { class: "here", "aria-live": "polite" });
+  private readonly said = html("output", { class: "at-crosshair", "aria-live": "polite" });
   private readonly element: HTMLElement;
+  private readonly quickly: (state: State) => void;
   private asked = false;
 
   /** measured: a place that is clicked is taken for a measure. */
@@ -43,13 +45,14 @@ export class Slices {
   ) {
     const { page, stage, overlay, api } = desk;
     this.grid = new Grid(page);
+    this.quickly = quickly(desk.history);
     this.store = new SliceStore(api, () => this.redraw(), (error) => desk.fail(error));
     this.contours = new Contours(stage, this.grid);
     this.planes = new SlicePlanes(stage, this.grid);
     this.mark = new Mark(stage, this.grid);
     this.held = new HeldHere(desk);
     this.views = AXES.map(
-      (axis) => new SliceView(axis, this.grid, { move: (voxel, dragging) => this.move(voxel, dragging), choose: (voxel) => this.choose(voxel) }),
+      (axis) => new SliceView(axis, this.grid, { move: (voxel, dragging) => this.move(voxel, dragging), step: (axis, by) => this.step(axis, by), choose: (voxel) => this.choose(voxel) }),
     );
     const foot = html("div", { class: "foot" }, this.said, this.held.element, greyBar(desk));
     this.element = html("section", { class: "slices", "aria-label": "slices", hidden: true }, html("div", { class: "views" }, ...this.views.map((view) => view.element)), foot);
@@ -61,6 +64,12 @@ export class Slices {
   move(voxel: Triple, dragging = false): void {
     const { history } = this.desk;
     if (!dragging || String(voxel) !== String(crosshairOf(this.desk))) history.go(CROSSHAIR.in(history.now, voxel), dragging);
+  }
+
+  private step(axis: AxisNumber, by: number): void {
+    const voxel = crosshairOf(this.desk);
+    voxel[axis] += by;
+    this.quickly(CROSSHAIR.in(this.desk.history.now, this.grid.inside(voxel)));
   }
 
   private choose(voxel: Triple): void {
@@ -123,14 +132,10 @@ export class Slices {
 
   private addActions(): void {
     const { actions } = this.desk;
-    const step = (axis: AxisNumber, by: number) => (): void => {
-      const voxel = crosshairOf(this.desk);
-      voxel[axis] += by;
-      this.move(this.grid.inside(voxel), true);
-    };
+    const step = (axis: AxisNumber, by: number) => (): void => this.step(axis, by);
     actions.add(
-      { group: "Tools", name: "slices", keys: ["s"], ...switching(this.desk, SLICES) },
-      { group: "Tools", name: "slices in the picture", keys: ["S"], ...switching(this.desk, PLANES) },
+      { group: "Tools", name: "slices", keys: ["k"], ...switching(this.desk, SLICES) },
+      { group: "Tools", name: "slices in the picture", keys: ["K"], ...switching(this.desk, PLANES) },
       { group: "Tools", name: "select what holds the sample at the crosshair", keys: ["a"], run: () => void this.held.choose(crosshairOf(this.desk)) },
     );
     for (const axis of AXES) {

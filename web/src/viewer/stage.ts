@@ -139,17 +139,9 @@ export class Stage {
     return this.plane;
   }
 
-  /** The ray through a place of the picture, in pixels from its left and its top. */
-  rayAt(left: number, top: number): three.Ray {
-    const { clientWidth, clientHeight } = this.canvas;
-    const caster = new three.Raycaster();
-    caster.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.eye.camera);
-    return caster.ray;
-  }
-
-  /** The nearest surface there; null: none. */
+  /** The nearest surface at a place of the picture, in pixels from its left and its top; null: none. */
   hit(left: number, top: number): Hit | null {
-    const { origin, direction } = this.rayAt(left, top);
+    const { origin, direction } = this.casterAt(left, top).ray;
     let ray: Ray = { origin: origin.toArray(), direction: direction.toArray(), begin: 0, end: Infinity };
     if (this.plane) ray = clipped(ray, this.plane.normal.toArray(), this.plane.constant);
     let key: number | null = null;
@@ -161,6 +153,16 @@ export class Stage {
       key = other;
     }
     return key === null ? null : { key, point: origin.clone().addScaledVector(direction, ray.end) };
+  }
+
+  /** The nearest place there: of a surface, or of something beside them that can be touched (its userData says so). */
+  touch(left: number, top: number): three.Vector3 | null {
+    const caster = this.casterAt(left, top);
+    const places = caster.intersectObjects(this.scene.children.filter(({ userData }) => userData.touchable === true), false).map(({ point }) => point);
+    const hit = this.hit(left, top);
+    if (hit) places.push(hit.point);
+    const { origin } = caster.ray;
+    return places.sort((a, b) => origin.distanceToSquared(a) - origin.distanceToSquared(b))[0] ?? null;
   }
 
   /** What stands under this key at a place of the picture; null: nothing. */
@@ -193,6 +195,13 @@ export class Stage {
       this.render();
       for (const listener of this.drawn) listener();
     });
+  }
+
+  private casterAt(left: number, top: number): three.Raycaster {
+    const { clientWidth, clientHeight } = this.canvas;
+    const caster = new three.Raycaster();
+    caster.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.eye.camera);
+    return caster;
   }
 
   private take(key: number): void {
