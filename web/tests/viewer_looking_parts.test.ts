@@ -171,9 +171,10 @@ describe("samples", () => {
     expect(() => decodeVolume(new ArrayBuffer(10))).toThrow("no volume");
   });
   it("are grey between where all but a hundredth lie", () => {
-    expect(greyRange({ edges: [0, 1, 2, 3], counts: [1, 998, 1] })).toEqual([expect.closeTo(1.004, 3), expect.closeTo(1.996, 3)]);
-    expect(greyRange({ edges: [0, 100], counts: [7] })).toEqual([0.5, 99.5]);
-    expect(greyRange({ edges: [4, 4], counts: [7] })).toEqual([4, 4]);
+    const of = (edges: number[], counts: number[], low: number, high: number): number[] => greyRange({ histogram: { edges, counts }, axis: { low, high, bend: null } });
+    expect(of([0, 1, 2, 3], [1, 998, 1], 0, 3)).toEqual([expect.closeTo(1.004, 3), expect.closeTo(1.996, 3)]);
+    expect(of([-0.5, 0.5, 100.5], [1000, 1000], 0, 100)).toEqual([0, 99.5]);
+    expect(of([4, 4], [7], 4, 4)).toEqual([4, 4]);
   });
 });
 

@@ -178,8 +178,9 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.waitForTimeout(300);
     expect(view()).toEqual(after);
     const calm = await served.open("", { reducedMotion: "reduce" });
+    await calm.tab.waitForTimeout(800);
     await calm.tab.keyboard.press("T");
-    expect(await calm.tab.locator(".said").textContent()).toContain("less motion");
+    await expect.poll(() => calm.tab.locator(".said").textContent()).toContain("less motion");
     expect(problems).toEqual([]);
     await tab.close();
     await calm.tab.close();

@@ -43,7 +43,8 @@ function placed({ normal }: Face, seen: three.Matrix4): number[] {
 }
 
 /** Around the vertical until anything is touched. */
-function turning({ stage, actions, overlay, history, say }: Desk): void {
+function turning(desk: Desk): void {
+  const { stage, actions, overlay, history } = desk;
   let last: number | null = null;
   const turn = (time: number): void => {
     if (last === null) return;
@@ -57,7 +58,7 @@ function turning({ stage, actions, overlay, history, say }: Desk): void {
     history.go({ ...history.now, view: stage.eye.view });
   };
   const start = (): void => {
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return say("your system asks for less motion: the arrow keys turn");
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return desk.say("your system asks for less motion: the arrow keys turn");
     last = performance.now();
     requestAnimationFrame(turn);
   };

@@ -11,7 +11,7 @@ const STEPS = 1000;
 
 export function greyBar({ page, history }: Desk): HTMLElement {
   const axis = Axis.of(page, STEPS, 0);
-  const first = greyRange(page.histogram);
+  const first = greyRange(page);
   const slider = (label: string): HTMLInputElement => html("input", { type: "range", min: 0, max: STEPS, "aria-label": label });
   const [black, white] = [slider("value that is black"), slider("value that is white")];
   const text = html("span", { class: "soft" });

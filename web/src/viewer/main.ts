@@ -68,7 +68,8 @@ class Viewer implements Desk {
     const tour = new Tour(this);
     const side = html("div", { class: "side" }, this.list.element);
     const inspector = html("div", { class: "inspector" }, this.shown.element, this.panel.element);
-    this.overlay.append(this.stage.canvas, menus(this.actions), this.said, tour.element);
+    this.overlay.prepend(this.stage.canvas, menus(this.actions));
+    this.overlay.append(this.said, tour.element);
     main.append(side, this.overlay, inspector, this.axis.element, new SaveDialog(this).element, help(this.actions), this.tree);
     this.growTree();
     this.history.listen((state, before, dragging) => this.show(state, before, dragging));

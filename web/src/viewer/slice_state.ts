@@ -1,5 +1,5 @@
 // What slices keep in a state.
-import type { Histogram, Page } from "../page";
+import type { Page } from "../page";
 import { AXES, type Triple } from "./grid";
 import { flag, Part } from "./part";
 
@@ -34,10 +34,10 @@ export function middleOf({ volume }: Page): Triple {
 }
 
 /** Between which values all but a two-hundredth of the samples at each end lie. */
-export function greyRange({ edges, counts }: Histogram): [number, number] {
+export function greyRange({ histogram, axis }: Pick<Page, "histogram" | "axis">): [number, number] {
+  const { edges, counts } = histogram;
   const all = counts.reduce((sum, count) => sum + count, 0);
-  const low = edges[0] ?? 0;
-  const high = edges[edges.length - 1] ?? 1;
+  const { low, high } = axis;
   const quantile = (share: number): number => {
     let sum = 0;
     for (let i = 0; i < counts.length; ++i) {
@@ -47,6 +47,6 @@ export function greyRange({ edges, counts }: Histogram): [number, number] {
     }
     return high;
   };
-  const [black, white] = [quantile(0.005), quantile(0.995)];
+  const [black, white] = [Math.max(quantile(0.005), axis.low), Math.min(quantile(0.995), axis.high)];
   return black < white ? [black, white] : [low, high];
 }

@@ -109,7 +109,7 @@ export class Slices {
     const cross = crosshairOf(this.desk);
     this.mark.show(open || inPicture ? cross : null);
     if (!open && !inPicture) return this.planes.hide();
-    const grey = (GREY.of(history.now) as [number, number] | null) ?? greyRange(page.histogram);
+    const grey = (GREY.of(history.now) as [number, number] | null) ?? greyRange(page);
     const slices = AXES.map((axis) => this.store.get(axis, cross[axis]));
     this.views.forEach((view, axis) => {
       const contours = open ? this.contours.on(view.axis, cross[view.axis]) : [];
