@@ -6,7 +6,7 @@ import { AXES, distance, dot, Grid, type Triple } from "../src/viewer/grid";
 import { innermostFirst } from "../src/viewer/holders";
 import { colouredAs } from "../src/viewer/matter";
 import { angleOf, arcOf, lengthOf, MEASURES } from "../src/viewer/measures";
-import { cutMesh } from "../src/viewer/plane_cut";
+import { SlicedMesh } from "../src/viewer/plane_cut";
 import { clipped, firstHit } from "../src/viewer/ray";
 import { greyRange } from "../src/viewer/slice_state";
 import { EVERYTHING } from "../src/viewer/shown";
@@ -61,7 +61,7 @@ describe("a contour on a slice", () => {
       const mesh = ball(middle, 8);
       for (const axis of AXES) {
         const index = [20, 20, 10][axis]! + 2;
-        const pieces = cutMesh(mesh, grid, axis, index);
+        const pieces = new SlicedMesh(mesh, grid).cut(axis, index);
         const [u, v] = axis === 0 ? [1, 2] as const : axis === 1 ? [0, 2] as const : [0, 1] as const;
         const apart = 2 * grid.spacing(axis);
         const seen = new Map<string, number>();
@@ -80,7 +80,7 @@ describe("a contour on a slice", () => {
         expect([...seen.values()].every((count) => count % 2 === 0)).toBe(true);
         expect(area * grid.spacing(u) * grid.spacing(v)).toBeCloseTo(Math.PI * (64 - apart * apart), -0.5);
       }
-      expect(cutMesh(mesh, grid, 0, 0).length).toBe(0);
+      expect(new SlicedMesh(mesh, grid).cut(0, 0).length).toBe(0);
     }
   });
 });

@@ -2,7 +2,7 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Api } from "../src/viewer/api";
 import { acrossAndDown, AXES, Grid, type AxisNumber } from "../src/viewer/grid";
-import { cutMesh } from "../src/viewer/plane_cut";
+import { SlicedMesh } from "../src/viewer/plane_cut";
 import { decodeSlice } from "../src/viewer/wire_samples";
 import { canServe, Served } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
@@ -25,7 +25,7 @@ describe.skipIf(!canServe)("slices", () => {
   async function farthest(axis: AxisNumber, index: number, tau: number): Promise<{ crossings: number; distance: number }> {
     const page = await api.page();
     const mesh = await api.surface("all", tau, null, 10_000_000);
-    const pieces = cutMesh(mesh, new Grid(page), axis, index);
+    const pieces = new SlicedMesh(mesh, new Grid(page)).cut(axis, index);
     const slice = decodeSlice(await (await api.ask(`/api/slice?axis=${axis}&index=${index}`, "slice")).arrayBuffer(), axis, index);
     const { columns, rows, samples } = slice;
     const near = (u: number, v: number): number => {

@@ -1,6 +1,6 @@
 // The contours of all surfaces of the stage on slices; each is cut once for every place of a slice.
-import { cutMesh } from "./plane_cut";
 import { AXES, type AxisNumber, type Grid } from "./grid";
+import { SlicedMesh } from "./plane_cut";
 import type { Stage } from "./stage";
 import type { Mesh } from "./wire";
 
@@ -10,13 +10,14 @@ export interface Contour {
   pieces: Float32Array;
 }
 
-interface Cut {
-  index: number;
-  pieces: Float32Array;
+interface Known {
+  sliced: SlicedMesh;
+  /** per axis: the slice that was cut last */
+  cuts: ({ index: number; pieces: Float32Array } | undefined)[];
 }
 
 export class Contours {
-  private readonly cuts = new WeakMap<Mesh, (Cut | undefined)[]>();
+  private readonly known = new WeakMap<Mesh, Known>();
 
   constructor(
     private readonly stage: Stage,
@@ -28,12 +29,12 @@ export class Contours {
   }
 
   private cut(mesh: Mesh, axis: AxisNumber, index: number): Float32Array {
-    const cuts = this.cuts.get(mesh) ?? AXES.map(() => undefined);
-    this.cuts.set(mesh, cuts);
-    const before = cuts[axis];
+    const known = this.known.get(mesh) ?? { sliced: new SlicedMesh(mesh, this.grid), cuts: AXES.map(() => undefined) };
+    this.known.set(mesh, known);
+    const before = known.cuts[axis];
     if (before?.index === index) return before.pieces;
-    const pieces = cutMesh(mesh, this.grid, axis, index);
-    cuts[axis] = { index, pieces };
+    const pieces = known.sliced.cut(axis, index);
+    known.cuts[axis] = { index, pieces };
     return pieces;
   }
 }
