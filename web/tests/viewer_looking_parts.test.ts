@@ -1,14 +1,16 @@
 import { describe, expect, it } from "vitest";
 import { facesOf } from "../src/viewer/axis_names";
+import { besideWords } from "../src/viewer/beside";
 import { march } from "../src/viewer/compositing";
 import { CUT, moved, outlineOf, planeOf, turned } from "../src/viewer/cut_plane";
 import { AXES, distance, dot, Grid, type Triple } from "../src/viewer/grid";
 import { innermostFirst } from "../src/viewer/holders";
 import { colouredAs } from "../src/viewer/matter";
+import { MATTER } from "../src/viewer/matter_state";
 import { angleOf, arcOf, lengthOf, MEASURES } from "../src/viewer/measures";
 import { SlicedMesh } from "../src/viewer/plane_cut";
 import { clipped, firstHit } from "../src/viewer/ray";
-import { greyRange } from "../src/viewer/slice_state";
+import { CROSSHAIR, greyRange, PLANES } from "../src/viewer/slice_state";
 import { EVERYTHING } from "../src/viewer/shown";
 import { NOTHING } from "../src/viewer/state";
 import { linearOf, meanBetween, PLACES, transferTable, type Bump } from "../src/viewer/transfer";
@@ -181,6 +183,16 @@ describe("samples", () => {
 describe("what holds a sample", () => {
   it("is named from the inside", () => {
     expect(innermostFirst(scene, [0, EVERYTHING, 1, 2])).toEqual([2, 1, 0, EVERYTHING]);
+  });
+});
+
+describe("what stands beside surfaces", () => {
+  it("is drawn by a command too", () => {
+    expect(besideWords(scene, NOTHING)).toEqual([]);
+    const slices = CROSSHAIR.in(PLANES.in(NOTHING, true), [3, 4, 99]);
+    expect(besideWords(scene, MATTER.in(slices, 0.5))).toEqual(["--slice x=3", "--slice y=4", "--slice z=29", "--volume"]);
+    for (const bad of ["0", "-1", "17", "x", ""]) expect(MATTER.takes(bad), bad).toBe(false);
+    for (const bad of ["1,2", "1,2,-3", "1,2,3.5", "1,2,3,4"]) expect(CROSSHAIR.takes(bad), bad).toBe(false);
   });
 });
 

@@ -1,9 +1,9 @@
 // Where a volume is cut open: which direction goes first, and how much stays.
 import { cross, dot, type Triple } from "./grid";
-import { list } from "./slice_state";
+import { numbers } from "./part";
 
 /** A unit vector that points from what is cut away to what stays, and which share of the volume's extent along it stays. */
-export const CUT = list("cut", "the cut", 4, ([x, y, z, share]) => Math.abs(Math.hypot(x!, y!, z!) - 1) < 1e-3 && share! >= 0 && share! <= 1);
+export const CUT = numbers("cut", "the cut", 4, ([x, y, z, share]) => Math.abs(Math.hypot(x!, y!, z!) - 1) < 1e-3 && share! >= 0 && share! <= 1);
 
 export interface Plane {
   normal: Triple;

@@ -5,7 +5,7 @@ import { cutting } from "./cutting";
 import type { Desk } from "./desk";
 import { Grid } from "./grid";
 import { look } from "./look";
-import { Matter } from "./matter";
+import { MatterPanel } from "./matter";
 import { Measuring } from "./measuring";
 import { crosshairOf, Slices } from "./slices";
 import "./looking.css";
@@ -20,5 +20,5 @@ export function looking(desk: Desk): void {
   const grid = new Grid(desk.page);
   const measuring = new Measuring(desk, tools, () => grid.place(crosshairOf(desk)));
   new Slices(desk, (place) => measuring.take(place));
-  new Matter(desk, tools);
+  new MatterPanel(desk, tools);
 }

@@ -6,17 +6,14 @@ import type { Desk } from "./desk";
 import { follow } from "./follow";
 import { Grid } from "./grid";
 import { MatterDrawing } from "./matter_drawing";
-import { number } from "./part";
+import { MATTER } from "./matter_state";
 import { transferTable, type Bump } from "./transfer";
 import { decodeVolume, type CoarseVolume } from "./wire_samples";
 
-/** factor of the densities that the tree proposes; null: the volume is not drawn */
-const MATTER = number("matter", "the volume as matter", (factor) => factor > 0 && factor <= MOST);
-const MOST = 16;
 /** values asked for: 256 x 256 x 256 come whole */
 const MOST_VALUES = 1 << 24;
 
-export class Matter {
+export class MatterPanel {
   private readonly slider = html("input", { type: "range", min: -4, max: 4, step: 0.1, "aria-label": "density of the volume" });
   private readonly legend = html("span", { class: "legend" });
   private readonly about = html("span", { class: "soft", role: "status" });

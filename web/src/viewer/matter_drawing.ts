@@ -57,7 +57,7 @@ export class MatterDrawing {
     Object.assign(this.overlay.material, { transparent: true, blending: three.CustomBlending, blendSrc: three.OneFactor, blendDst: three.OneMinusSrcAlphaFactor });
     this.overlay.renderOrder = -1; // what is transparent comes over it
     this.overlay.visible = false;
-    stage.onPass((scene) => this.draw(scene));
+    stage.onPass((scene, isStill) => this.draw(scene, isStill));
     stage.add(this.overlay);
   }
 
@@ -76,8 +76,9 @@ export class MatterDrawing {
     this.stage.draw();
   }
 
-  private draw(scene: three.Scene): void {
+  private draw(scene: three.Scene, isStill: boolean): void {
     if (!this.overlay.visible) return;
+    if (isStill) return this.march(scene, true, 1);
     const now = this.look;
     if (now !== this.seen) {
       this.seen = now;
@@ -88,7 +89,7 @@ export class MatterDrawing {
         this.stage.draw();
       }, RESTED);
     }
-    this.march(scene, this.resting);
+    this.march(scene, this.resting, this.resting ? this.fineSide : COARSE_SIDE);
   }
 
   /** All that the picture depends on, but for surfaces. */
@@ -97,10 +98,11 @@ export class MatterDrawing {
     return [...camera.matrixWorld.elements, ...camera.projectionMatrix.elements, this.stage.cutPlane?.constant, this.rays.uniforms.density!.value, ...this.stage.renderer.getDrawingBufferSize(new three.Vector2()).toArray()].join();
   }
 
-  private march(scene: three.Scene, fine: boolean): void {
+  /** side: of the pixels of a side, 0 to 1. */
+  private march(scene: three.Scene, fine: boolean, side: number): void {
     const { renderer, eye, cutPlane } = this.stage;
     const { camera } = eye;
-    const size = renderer.getDrawingBufferSize(new three.Vector2()).multiplyScalar(fine ? this.fineSide : COARSE_SIDE).ceil();
+    const size = renderer.getDrawingBufferSize(new three.Vector2()).multiplyScalar(side).ceil();
     for (const target of [this.target, this.opaque]) if (target.width !== size.x || target.height !== size.y) target.setSize(size.x, size.y);
     camera.updateMatrixWorld();
     const { uniforms } = this.rays;

@@ -1,7 +1,6 @@
 // Lengths and angles between places in space, as they are kept in a state.
 import { distance, dot, type Triple } from "./grid";
-import { Part } from "./part";
-import { textOf } from "./slice_state";
+import { numbersOf, Part, textOf } from "./part";
 
 /** two places: how far they are from each other; three: the angle at the second one */
 export type Measure = Triple[];
@@ -12,9 +11,9 @@ function read(text: string): Measure[] | null {
   if (text === "") return [];
   const measures: Measure[] = [];
   for (const item of text.split(";")) {
-    const numbers = item.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
-    if ((numbers.length !== 6 && numbers.length !== 9) || !numbers.every(Number.isFinite)) return null;
-    measures.push(Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3) as Triple));
+    const list = numbersOf(item);
+    if (list?.length !== 6 && list?.length !== 9) return null;
+    measures.push(Array.from({ length: list.length / 3 }, (_, i) => list.slice(3 * i, 3 * i + 3) as Triple));
   }
   return measures.length <= MOST ? measures : null;
 }

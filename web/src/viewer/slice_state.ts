@@ -1,33 +1,14 @@
 // What slices keep in a state.
 import type { Page } from "../page";
 import { AXES, type Triple } from "./grid";
-import { flag, Part } from "./part";
-
-function numbers(text: string, count: number): number[] | null {
-  const list = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
-  return list.length === count && list.every(Number.isFinite) ? list : null;
-}
-
-/** Shortest text of a list of numbers; digits: significant. */
-export function textOf(list: readonly number[], digits = 7): string {
-  return list.map((n) => Number(n.toPrecision(digits))).join(",");
-}
-
-/** A part that is a list of numbers, null at first. */
-export function list(key: string, title: string, count: number, isGood: (numbers: number[]) => boolean = () => true): Part<number[] | null> {
-  const read = (text: string): number[] | null => {
-    const found = numbers(text, count);
-    return found && isGood(found) ? found : null;
-  };
-  return new Part<number[] | null>(key, title, null, (value) => (value === null ? "" : textOf(value)), read);
-}
+import { flag, numbers } from "./part";
 
 export const SLICES = flag("slices", "slices");
 export const PLANES = flag("planes", "slices in the picture");
 /** the sample at the crosshair; null: the middle of the volume */
-export const CROSSHAIR = list("cross", "the crosshair", 3, (voxel) => voxel.every((n) => Number.isInteger(n) && n >= 0));
+export const CROSSHAIR = numbers("cross", "the crosshair", 3, (voxel) => voxel.every((n) => Number.isInteger(n) && n >= 0));
 /** values that are black and white; null: as the histogram says */
-export const GREY = list("grey", "brightness", 2, ([black, white]) => (black ?? 0) < (white ?? 0));
+export const GREY = numbers("grey", "brightness", 2, ([black, white]) => (black ?? 0) < (white ?? 0));
 
 export function middleOf({ volume }: Page): Triple {
   return AXES.map((axis) => Math.floor((volume.size[axis] ?? 1) / 2)) as Triple;

@@ -43,7 +43,7 @@ export class Stage {
   private asked = false;
   private readonly drawn: (() => void)[] = [];
   private readonly changed: (() => void)[] = [];
-  private readonly passes: ((scene: three.Scene) => void)[] = [];
+  private readonly passes: ((scene: three.Scene, isStill: boolean) => void)[] = [];
 
   /** rested: the hand has let go after turning. */
   constructor(rested: () => void) {
@@ -63,8 +63,8 @@ export class Stage {
   onChange(listener: () => void): void {
     this.changed.push(listener);
   }
-  /** Calls before every picture, for what is drawn aside first. */
-  onPass(listener: (scene: three.Scene) => void): void {
+  /** Calls before every picture, for what is drawn aside first. isStill: it will be kept. */
+  onPass(listener: (scene: three.Scene, isStill: boolean) => void): void {
     this.passes.push(listener);
   }
 
@@ -175,7 +175,7 @@ export class Stage {
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(width, height, false);
     this.eye.resize(width / height);
-    this.render();
+    this.render(true);
     use(this.canvas);
     this.resize();
     this.render();
@@ -241,9 +241,9 @@ export class Stage {
     this.draw();
   }
 
-  private render(): void {
+  private render(isStill = false): void {
     this.lamp.position.set(-0.4, 0.6, 1).applyQuaternion(this.eye.camera.quaternion);
-    for (const pass of this.passes) pass(this.scene);
+    for (const pass of this.passes) pass(this.scene, isStill);
     this.renderer.render(this.scene, this.eye.camera);
     const { geometries, textures } = this.renderer.info.memory;
     this.canvas.dataset.held = `${geometries} ${textures}`; // for tests, and for those who wonder about memory
