@@ -9,6 +9,7 @@
 #include <span>
 
 #include "isoatlas/error.h"
+#include "server/coarse_surface.h"
 
 namespace isoatlas::server {
 namespace {
@@ -84,10 +85,7 @@ std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vec
     std::vector<float> positions;
     positions.reserve(3 * points.size());
     for (const WirePoint& point : points) positions.insert(positions.end(), point.position.begin(), point.position.end());
-    std::vector<unsigned> kept(corners.size());
-    kept.resize(meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), positions.data(), points.size(), 3 * sizeof(float),
-                                       3 * most, std::numeric_limits<float>::max(), nullptr));
-    return kept;
+    return fewer_triangles(corners, positions, most);
 }
 
 /// Triangles in strips, points in the order in which they come first: neighbours have near numbers, so both pack well.
