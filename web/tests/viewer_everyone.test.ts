@@ -53,6 +53,24 @@ describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () =>
     });
   }
 
+  it("walks through a menu by its arrows, and the picture stays", async () => {
+    const { tab } = await served.open();
+    const before = tab.url();
+    const summary = tab.locator(".menus summary", { hasText: "Look" });
+    await summary.focus();
+    await tab.keyboard.press("Enter");
+    await tab.waitForSelector(".menus details[open] button");
+    const names = await tab.locator(".menus details[open] button span").allTextContents();
+    for (const [key, name] of [["ArrowDown", names[0]], ["ArrowDown", names[1]], ["ArrowUp", names[0]], ["ArrowUp", names.at(-1)]]) {
+      await tab.keyboard.press(key ?? "");
+      expect(await tab.evaluate(() => document.activeElement?.querySelector("span")?.textContent)).toBe(name);
+    }
+    await tab.keyboard.press("Escape");
+    expect(await summary.evaluate((element) => element === document.activeElement)).toBe(true);
+    expect(tab.url()).toBe(before);
+    await tab.close();
+  });
+
   it("has a key for one thing only, and a name for each", async () => {
     const { tab } = await served.open();
     await tab.keyboard.press("?");

@@ -13,7 +13,8 @@ import { PALETTE } from "../src/viewer/palette";
 import { renderCommand, type Camera } from "../src/viewer/render_command";
 import { pieces } from "../src/viewer/pieces";
 import { readScene, writeScene } from "../src/viewer/scene_file";
-import { add, change, isolate, NOTHING, type State } from "../src/viewer/state";
+import { noteOf } from "../src/viewer/scene_panel";
+import { add, change, isolate, NOTHING, shownAt, type State } from "../src/viewer/state";
 import { Surfaces } from "../src/viewer/surfaces";
 import { cell, tableCsv } from "../src/viewer/table_csv";
 import type { Mesh } from "../src/viewer/wire";
@@ -58,7 +59,7 @@ describe("surfaces", () => {
     asked[3]?.answer({ triangles: 99 });
     await surfaces.settled();
     expect(came).toEqual([1, 21, 21]); // what rested ended what was dragged
-    expect(surfaces.arrivalOf(0)).toMatchObject({ tau: 21, triangles: 99, coarse: false, waiting: false });
+    expect(surfaces.arrivalOf(0)).toMatchObject({ of: "21 all", triangles: 99, coarse: false, waiting: false });
   });
   it("are not asked for twice, and one that was small enough is whole", async () => {
     const { surfaces, asked } = lanes();
@@ -66,8 +67,9 @@ describe("surfaces", () => {
     asked[0]?.answer({});
     await surfaces.settled();
     surfaces.want(0, wish(1), false);
-    surfaces.want(0, wish(1), false);
     expect(asked.length).toBe(1);
+    for (let i = 0; i < 3; ++i) surfaces.want(0, wish(2), false); // as when its colour changes meanwhile
+    expect(asked.length).toBe(2);
   });
   it("of a coarse one that rests only the whole one is asked for", async () => {
     const { surfaces, asked } = lanes();
@@ -78,6 +80,19 @@ describe("surfaces", () => {
     expect(asked.map(({ most }) => most)).toEqual([20_000, 1e8]);
     surfaces.forget(0);
     expect(asked[1]?.left).toBe(true);
+  });
+});
+
+describe("what is said of a surface", () => {
+  const there = { of: "5 all", triangles: 1234, bytes: 9, coarse: true, walls: null, waiting: true, error: "" };
+  it("is what has come of it", () => {
+    const shown = shownAt(0, 5);
+    expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
+    expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, on its way");
+    expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");
+    expect(noteOf(shown, { ...there, triangles: 0, error: "no" })).toBe("at 5, not there");
+    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, of: "5 cavities", walls: 2, coarse: false })).toBe("at 5, 2 cavities, 1,234 triangles");
+    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, of: "5 cavities", triangles: 0 })).toBe("at 5, no cavities");
   });
 });
 

@@ -5,7 +5,7 @@ import type { Desk } from "./desk";
 import { PALETTE } from "./palette";
 import { colourOf, colourOfShown, titleOf } from "./shown";
 import type { Shown, State } from "./state";
-import type { Arrival } from "./surfaces";
+import { keyOf, type Arrival } from "./surfaces";
 
 export class ScenePanel {
   readonly element: HTMLElement;
@@ -131,8 +131,9 @@ function eye(): SVGSVGElement {
 export function noteOf(shown: Shown, arrival: Arrival): string {
   const parts = [`at ${value(shown.tau)}`];
   if (!shown.visible) parts.push("hidden");
+  else if (arrival.of !== keyOf(shown)) parts.push("on its way");
   else if (arrival.error) parts.push("not there");
-  else if (shown.walls === "cavities" && arrival.triangles === 0 && !arrival.waiting) parts.push("no cavities");
+  else if (shown.walls === "cavities" && arrival.triangles === 0) parts.push("no cavities");
   else if (arrival.walls) parts.push(`${plural(arrival.walls, "cavity", "cavities")}, ${count(arrival.triangles)} triangles`);
   else if (arrival.triangles > 0) parts.push(`${count(arrival.triangles)} triangles${arrival.coarse ? ", coarse" : ""}`);
   return parts.join(", ");
