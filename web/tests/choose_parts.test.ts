@@ -34,10 +34,16 @@ function small(): ReturnType<typeof page> {
   return made;
 }
 
+function catalogueOf(volume: ReturnType<typeof page>, n: number): Catalogue {
+  const catalogue = new Catalogue(volume);
+  catalogue.learn(listed(n));
+  return catalogue;
+}
+
 describe("a catalogue", () => {
   it("has every object under one number, the page's entries under theirs", () => {
     const volume = small();
-    const catalogue = new Catalogue(volume, listed(6));
+    const catalogue = catalogueOf(volume, 6);
     expect(numbersOf(volume)).toBe(10);
     expect([0, 1, 2, 3].map((rank) => catalogue.numbersOfRank(rank))).toEqual([[0, 1], [5], [2], [7]]);
     expect(catalogue.chosen(null)).toEqual([0, 1, 2]);
@@ -51,7 +57,7 @@ describe("a catalogue", () => {
   });
   it("completes the tree of the page", () => {
     const volume = small();
-    const catalogue = new Catalogue(volume, listed(6));
+    const catalogue = catalogueOf(volume, 6);
     const places = [0, 1, 2, 3, 4, 5].map((rank) => entryOf(volume, catalogue.numbersOfRank(rank)[0] ?? 0).branch);
     expect(places).toEqual([0, 3, 1, 4, 5, 6]);
     expect(places.map((place) => volume.branches[place]?.parent)).toEqual([-1, 0, 3, 1, 4, 5]);
@@ -59,11 +65,17 @@ describe("a catalogue", () => {
     expect(foldedAway(volume, new Set(places), new Set([3]), 6)).toBe(true);
     expect(foldedAway(volume, new Set(places), new Set([6]), 6)).toBe(false);
   });
+  it("knows the page's own entries before it has learned of the others", () => {
+    const volume = small();
+    const catalogue = new Catalogue(volume);
+    expect([catalogue.isKnown, catalogue.all, catalogue.chosen(null)]).toEqual([false, 6, [0, 1, 2]]);
+    expect(() => entryOf(volume, 7)).toThrow("no entry 7");
+  });
   it("measures sizes as the file does", () => {
     const volume = small();
-    expect(new Catalogue(volume, listed(2)).sizes[1]).toEqual({ rank: 1, contrast: 32, size: 1024, standsOut: true });
+    expect(catalogueOf(volume, 2).sizes[1]).toEqual({ rank: 1, contrast: 32, size: 1024, standsOut: true });
     volume.volume.unit = null;
-    expect(new Catalogue(volume, listed(2)).sizes[1]?.size).toBe(512);
+    expect(catalogueOf(volume, 2).sizes[1]?.size).toBe(512);
   });
 });
 
@@ -123,7 +135,7 @@ describe("a choice", () => {
 
 describe("what is found", () => {
   const volume = small();
-  const catalogue = new Catalogue(volume, listed(6));
+  const catalogue = catalogueOf(volume, 6);
   const all = catalogue.chosen({ ...ANY, keep: 6 });
   const found = (text: string, order = "rank"): number[] => find(volume, all, [], { text, order }).bright;
   it("has the words in its name, its number or its reason", () => {

@@ -41,7 +41,8 @@ describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () =>
       }
       for (const key of ["1", "2", "3", "4"]) {
         await tab.keyboard.press(key);
-        expect(await violations(tab), `objects, ${key}`).toEqual([]);
+        await tab.waitForSelector(`.objects [role="tab"]:nth-child(${key})[aria-selected="true"]`);
+        expect(await violations(tab), `objects by ${key}`).toEqual([]);
       }
       for (const key of ["s", "?"]) {
         await tab.keyboard.press(key);

@@ -34,6 +34,9 @@ export interface Measures extends There {
   volume: number;
 }
 
+/** before it is looked again whether there is something to wait for, in milliseconds */
+const PAUSE = 50;
+
 /** What the server says when it cannot answer. */
 export class Refusal extends Error {
   constructor(
@@ -122,9 +125,10 @@ export class Api {
     yield* messages(answer.body);
   }
 
-  /** Is a surface on its way? What nobody waits for should wait. */
-  get isBusy(): boolean {
-    return this.surfaces > 0;
+  /** Until no surface is on its way: what nobody waits for should wait. */
+  async quiet(): Promise<void> {
+    do await new Promise((resolve) => setTimeout(resolve, PAUSE));
+    while (this.surfaces > 0);
   }
 
   /** Ends what a lane is waiting for. */

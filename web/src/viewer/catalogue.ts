@@ -1,7 +1,8 @@
 // All objects of a volume, those without an entry on the page too. Each has a number like an entry has, so that it is shown and selected
 // like one: the bright object of rank r without an entry has the number entries.length + r.
 import { entryOf, type Branch, type Entry, type Page } from "../page";
-import { isChosen, type Choice, type Sizes } from "./choosing";
+import { CHOICE, isChosen, type Choice, type Sizes } from "./choosing";
+import type { State } from "./state";
 
 /** docs/schema/server-branches.schema.json: of the most important objects, one array for each number. */
 export interface Branches {
@@ -34,33 +35,46 @@ export function numbersOf(page: Page): number {
   return page.entries.length + Math.min(page.objects.bright.all, MOST_LISTED);
 }
 
+const NONE: Branches = { source: "", all: 0, id: [], voxel: [], tau: [], low: [], high: [], tunnels: [], cavities: [], appears: [], merges: [], parent: [], persistence: [], hypervolume: [], voxels: [], measure: [], standsOut: [] };
+
+/** Does a state speak of more than the page has? */
+export function needsAll(page: Page, state: State): boolean {
+  return CHOICE.of(state) !== null || state.shown.some(({ entry }) => entry >= page.entries.length);
+}
+
 export class Catalogue {
-  /** per rank */
-  readonly sizes: Sizes[];
+  /** per rank; empty: they are not yet known */
+  sizes: Sizes[] = [];
+  private listed = NONE;
   /** per rank: the position in page.branches */
-  private readonly place: number[] = [];
+  private place: number[] = [];
   private readonly entriesOfPlace = new Map<number, number[]>();
   private readonly further = new Map<number, Entry>();
 
-  /** Completes the page: its branches are all that are listed, and it knows further entries. */
-  constructor(
-    private readonly page: Page,
-    private readonly listed: Branches,
-  ) {
-    this.sizes = listed.id.map((_, rank) => ({
-      rank,
-      contrast: listed.persistence[rank] ?? 0,
-      size: (page.volume.unit === null ? listed.voxels : listed.measure)[rank] ?? 0,
-      standsOut: listed.standsOut[rank] ?? false,
-    }));
-    this.completeBranches();
+  constructor(private readonly page: Page) {
     page.entries.forEach((entry, i) => this.entriesOfPlace.set(entry.branch, [...(this.entriesOfPlace.get(entry.branch) ?? []), i]));
     page.further = (i) => this.furtherEntry(i);
   }
 
+  /** Completes the page: its branches are all that are listed, and it has further entries. */
+  learn(listed: Branches): void {
+    const { unit } = this.page.volume;
+    this.listed = listed;
+    this.sizes = listed.id.map((_, rank) => ({
+      rank,
+      contrast: listed.persistence[rank] ?? 0,
+      size: (unit === null ? listed.voxels : listed.measure)[rank] ?? 0,
+      standsOut: listed.standsOut[rank] ?? false,
+    }));
+    this.completeBranches();
+  }
+
+  get isKnown(): boolean {
+    return this.listed !== NONE;
+  }
   /** objects of the volume */
   get all(): number {
-    return this.listed.all;
+    return this.page.objects.bright.all;
   }
   get source(): string {
     return this.listed.source;
@@ -81,10 +95,11 @@ export class Catalogue {
     return this.entriesOfPlace.get(this.place[rank] ?? -1) ?? [this.page.entries.length + rank];
   }
 
-  /** What a position in page.branches is shown as. */
+  /** What a position in page.branches is shown as; undefined: as nothing that is known yet. */
   numberOfBranch(branch: number): number | undefined {
-    const rank = this.page.branches[branch]?.rank;
-    return this.entriesOfPlace.get(branch)?.[0] ?? (rank === undefined ? undefined : this.numbersOfRank(rank)[0]);
+    const [own] = this.entriesOfPlace.get(branch) ?? [];
+    const { side, rank } = this.page.branches[branch] ?? {};
+    return own !== undefined || side !== "bright" || rank === undefined || !this.isKnown ? own : this.numbersOfRank(rank)[0];
   }
 
   private completeBranches(): void {

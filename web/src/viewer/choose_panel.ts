@@ -4,7 +4,6 @@ import { hiddenWords } from "../curve";
 import { html } from "../dom";
 import { count, plural } from "../format";
 import { commandList } from "../commands";
-import type { Catalogue } from "./catalogue";
 import { ANY, CHOICE, commandOf, isSelection, selectionWords, TAB, type Choice, type TabName } from "./choosing";
 import { selectedOf, type Desk } from "./desk";
 import { find, type Found } from "./found";
@@ -35,11 +34,8 @@ export class ChoosePanel {
   /** what has not been filled with what is found now */
   private readonly stale = new Set<TabName>(["cards", "list", "tree"]);
 
-  constructor(
-    private readonly desk: Desk,
-    private readonly catalogue: Catalogue,
-  ) {
-    const { page, editor: chooser } = desk;
+  constructor(private readonly desk: Desk) {
+    const { page, editor: chooser, catalogue } = desk;
     const pictures = new Pictures(desk.api, page);
     this.cards = new ItemsTab("cards", (i) => card(page, i, chooser, pictures));
     this.list = new ItemsTab("rows", (i) => row(page, i, chooser));
@@ -60,11 +56,20 @@ export class ChoosePanel {
     this.addActions();
   }
 
+  /** All objects are known now, not only those of the page. */
+  learned(): void {
+    this.scatter.learned();
+    this.recount(this.desk.history.now);
+    this.refresh(this.desk.history.now);
+  }
+
+  private recount(state: State): void {
+    this.chosen = this.desk.catalogue.chosen(CHOICE.of(state));
+    void this.countKept(CHOICE.of(state));
+  }
+
   show(state: State, before: State): void {
-    if (state.parts.choice !== before.parts.choice || this.chosen.length === 0) {
-      this.chosen = this.catalogue.chosen(CHOICE.of(state));
-      void this.countKept(CHOICE.of(state));
-    }
+    if (state.parts.choice !== before.parts.choice || this.chosen.length === 0) this.recount(state);
     const tab = TAB.of(state);
     this.tabs.show(tab);
     this.tools.hidden = tab === "scatter";
@@ -89,10 +94,11 @@ export class ChoosePanel {
   private say(choice: Choice | null): void {
     const { page } = this.desk;
     const words = [this.countWords(choice)];
-    if (this.found.dark.length > 0) words.push(`and ${plural(this.catalogue.objectsOf(this.found.dark), "dark object")}`);
+    if (this.found.dark.length > 0) words.push(`and ${plural(this.desk.catalogue.objectsOf(this.found.dark), "dark object")}`);
     if (this.text.value.trim() !== "") words.push(`found: ${count(this.found.bright.length + this.found.dark.length + this.found.also.length)}`);
     if (this.words.textContent !== words.join(", ")) this.words.textContent = words.join(", "); // what is said again is read out again
-    const { line, same } = commandOf(choice, this.catalogue.source, page.objects.bright.standingOut, page.volume.unit !== null);
+    if (!this.desk.catalogue.isKnown) return;
+    const { line, same } = commandOf(choice, this.desk.catalogue.source, page.objects.bright.standingOut, page.volume.unit !== null);
     const name = same ? "the same list on the command line" : "on the command line, which knows only lower limits: a list that holds these";
     if (this.command.dataset.line !== line + name) this.command.replaceChildren(commandList([{ name, line }]));
     this.command.dataset.line = line + name;
@@ -100,8 +106,8 @@ export class ChoosePanel {
 
   /** Such as "37 of 18,204 objects shown"; more may be chosen than are listed. */
   private countWords(choice: Choice | null): string {
-    const { all } = this.catalogue;
-    const shown = this.catalogue.objectsOf(this.chosen);
+    const { all } = this.desk.catalogue;
+    const shown = this.desk.catalogue.objectsOf(this.chosen);
     const hidden = choice !== null && this.kept > shown ? ` ${count(this.kept)} chosen ones, of` : "";
     const isovalues = this.chosen.length > shown ? `, at ${count(this.chosen.length)} isovalues` : "";
     return `${count(shown)} of${hidden} ${plural(all, "object")} shown${isovalues}`;
@@ -110,7 +116,8 @@ export class ChoosePanel {
   /** How many are chosen, where not all objects are known here. */
   private async countKept(choice: Choice | null): Promise<void> {
     this.kept = 0;
-    if (choice === null || !isSelection(choice) || this.catalogue.sizes.length === this.catalogue.all) return;
+    const { sizes, all, isKnown } = this.desk.catalogue;
+    if (choice === null || !isSelection(choice) || !isKnown || sizes.length === all) return;
     try {
       this.kept = await this.desk.api.kept(selectionWords(choice, this.desk.page.volume.unit !== null));
       this.say(CHOICE.of(this.desk.history.now));
@@ -123,7 +130,7 @@ export class ChoosePanel {
   private hidden(): HTMLElement {
     const { page } = this.desk;
     const { standingOut } = page.objects.bright;
-    const pictured = this.catalogue.objectsOf(this.catalogue.chosen(null));
+    const pictured = this.desk.catalogue.objectsOf(this.desk.catalogue.chosen(null));
     const more = (name: string, choice: Choice | null): HTMLElement => html("button", { type: "button", click: () => this.choose(choice, false) }, name);
     return html(
       "details",

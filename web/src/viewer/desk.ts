@@ -2,6 +2,7 @@
 import type { Page } from "../page";
 import type { Actions } from "./actions";
 import type { Api } from "./api";
+import type { Catalogue } from "./catalogue";
 import type { Editor } from "./editor";
 import type { Scene } from "./scene";
 import type { Stage } from "./stage";
@@ -10,6 +11,7 @@ import type { Shown, State } from "./state";
 
 export interface Desk {
   readonly page: Page;
+  readonly catalogue: Catalogue;
   readonly api: Api;
   readonly stage: Stage;
   readonly history: History;

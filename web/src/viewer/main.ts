@@ -5,7 +5,7 @@ import { Actions } from "./actions";
 import { fromHash, toHash } from "./address";
 import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
-import { Catalogue, MOST_LISTED, numbersOf } from "./catalogue";
+import { Catalogue, MOST_LISTED, needsAll, numbersOf } from "./catalogue";
 import { ChoosePanel } from "./choose_panel";
 import type { Desk } from "./desk";
 import { Editor } from "./editor";
@@ -45,14 +45,14 @@ class Viewer implements Desk {
   constructor(
     readonly api: Api,
     readonly page: Page,
-    catalogue: Catalogue,
+    readonly catalogue: Catalogue,
+    asked: State | null,
     main: HTMLElement,
   ) {
-    const asked = fromHash(location.hash, numbersOf(page));
     this.history = new History(asked ?? NOTHING);
     this.editor = new Editor(page, this.history);
     this.scene = new Scene(this);
-    this.choosing = new ChoosePanel(this, catalogue);
+    this.choosing = new ChoosePanel(this);
     stepping(this);
     this.axis = new AxisPanel(this);
     sceneActions(this);
@@ -75,6 +75,17 @@ class Viewer implements Desk {
       this.say("There is nothing to show: noise explains all there is.");
     }
     tour.begin();
+  }
+
+  /** What is not needed for the first picture. */
+  async learn(): Promise<void> {
+    try {
+      await this.api.quiet();
+      if (!this.catalogue.isKnown) this.catalogue.learn(await this.api.branches(MOST_LISTED));
+      this.choosing.learned();
+    } catch (error) {
+      this.fail(error);
+    }
   }
 
   say(text: string): void {
@@ -114,7 +125,10 @@ async function start(main: HTMLElement): Promise<void> {
     const page = await pageWhenThere(api, main);
     document.title = `${page.volume.name} – isoatlas`;
     if (page.volume.size.length !== 3) throw new Error("The viewer shows volumes; isoatlas atlas makes a page of an image.");
-    new Viewer(api, page, new Catalogue(page, await api.branches(MOST_LISTED)), main);
+    const asked = fromHash(location.hash, numbersOf(page));
+    const catalogue = new Catalogue(page);
+    if (asked && needsAll(page, asked)) catalogue.learn(await api.branches(MOST_LISTED));
+    await new Viewer(api, page, catalogue, asked, main).learn();
   } catch (error) {
     main.append(html("p", { role: "alert" }, error instanceof Error ? error.message : String(error)));
   }

@@ -85,8 +85,8 @@ export class ObjectPanel {
   }
 
   private branchLink(b: number): Node | string {
-    const [first] = b >= 0 ? entriesOf(this.desk.page, b) : [];
-    return first === undefined ? "one that is not listed" : this.link(first);
+    const number = this.desk.catalogue.numberOfBranch(b);
+    return number === undefined ? "one that is not listed" : this.link(number);
   }
 
   private links(entries: number[], words: (k: number) => string = () => ""): (Node | string)[] {

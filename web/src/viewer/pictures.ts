@@ -8,8 +8,6 @@ import { isOvertaken, type Api } from "./api";
 import { EVERYTHING } from "./shown";
 
 const FRAMES = 12;
-/** before it is looked again whether the server has time, in milliseconds */
-const PAUSE = 120;
 
 interface Place {
   number: number;
@@ -57,10 +55,7 @@ export class Pictures {
     if (this.asking) return;
     this.asking = true;
     while (this.waiting.length > 0) {
-      if (this.api.isBusy) {
-        await new Promise((resolve) => setTimeout(resolve, PAUSE));
-        continue;
-      }
+      await this.api.quiet();
       const place = this.waiting.shift();
       if (place) await this.fill(place);
     }

@@ -33,10 +33,10 @@ export class ScatterPlot {
   private frame: Frame = { left: 46, right: 0, top: 8, bottom: 0 };
   private across = new Logarithmic(1, 1, 0, 1);
   private up = new Logarithmic(1, 1, 1, 0);
+  private sizes: Sizes[] = [];
   private pressed: { x: number; y: number } | null = null;
 
   constructor(
-    private readonly sizes: Sizes[],
     private readonly names: { across: string; up: string },
     private readonly hand: Hand,
   ) {
@@ -44,6 +44,12 @@ export class ScatterPlot {
     new ResizeObserver(() => this.resize()).observe(this.element);
     onTheme(() => this.draw());
     this.listen();
+  }
+
+  /** One dot for each. */
+  take(sizes: Sizes[]): void {
+    this.sizes = sizes;
+    this.resize();
   }
 
   show(marks: Marks, label: string): void {

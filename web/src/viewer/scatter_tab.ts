@@ -15,6 +15,7 @@ export class ScatterTab {
   private readonly limits: HTMLInputElement[];
   private readonly keep = numberInput("so many of the most important", 1);
   private readonly standsOut = html("input", { type: "checkbox" });
+  private readonly words = html("p", { class: "small" }, "The objects are being listed.");
   private choice: Choice | null = null;
 
   /** choose(choice, transient): transient while a box is dragged */
@@ -27,7 +28,6 @@ export class ScatterTab {
     const { unit, valueUnit } = page.volume;
     const sizeUnit = unit === null ? "voxels" : `${unit}³`;
     this.plot = new ScatterPlot(
-      catalogue.sizes,
       { across: `contrast${valueUnit ? `, ${valueUnit}` : ""} →`, up: `↑ size, ${sizeUnit}` },
       {
         box: (contrast, size, transient) => this.choose({ ...(this.choice ?? ANY), contrast, size }, transient),
@@ -41,9 +41,15 @@ export class ScatterTab {
       "div",
       { class: "scatter-tab" },
       this.plot.element,
-      html("p", { class: "small" }, this.about()),
+      this.words,
       this.form(sizeUnit),
     );
+  }
+
+  /** All objects are known now. */
+  learned(): void {
+    this.words.textContent = this.about();
+    this.plot.take(this.catalogue.sizes);
   }
 
   mark(state: State, chosen: number[]): void {
