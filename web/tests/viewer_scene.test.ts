@@ -219,10 +219,10 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
       const { tab } = await served.open(scene(3).replace(/,1,1;/, ",0.4,1,d55e00;"), { viewport: { width: 1100, height: 640 } });
       await settled(tab);
       for (const key of ["ArrowLeft", "ArrowUp", "ArrowLeft"]) await tab.keyboard.press(key);
-      if (flat) await tab.keyboard.press("o");
+      if (flat) for (const key of ["o", "c"]) await tab.keyboard.press(key); // without perspective, and cut open
       await tab.keyboard.press("s");
       const command = (await tab.locator(".save code").textContent()) ?? "";
-      expect(command.includes("--perspective")).toBe(!flat);
+      expect([command.includes("--perspective"), command.includes("--cut=")]).toEqual([!flat, flat]);
       const words = [...command.matchAll(/--\S+?='[^']*'|'[^']*'|\S+/g)].map(([word]) => word.replaceAll("'", ""));
       served.isoatlas(...words.slice(1), "--background", "transparent", "--quiet");
       await tab.getByRole("spinbutton", { name: "width" }).fill(String(words[words.indexOf("--size") + 1]?.split("x")[0]));
