@@ -65,8 +65,12 @@ export function help(actions: Actions): HTMLDialogElement {
   const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keys"), lists);
   dialog.append(html("button", { type: "button", click: () => dialog.close() }, "Close"));
   const show = (): void => {
-    const keyed = (group: Group): [string, string][] => actions.all.filter((action) => action.group === group && action.keys).map((action) => [signsOf(action), action.name]);
-    const groups: [string, [string, string][]][] = [...GROUPS.map((group): [string, [string, string][]] => [group, keyed(group)]), ["Without a menu", GESTURES]];
+    const keyed = (group: Group): [string, string][] =>
+      actions.all.filter((action) => action.group === group && action.keys).map((action) => [signsOf(action), action.name]);
+    const groups: [string, [string, string][]][] = [
+      ...GROUPS.map((group): [string, [string, string][]] => [group, keyed(group)]),
+      ["Without a menu", GESTURES],
+    ];
     lists.replaceChildren(...groups.filter(([, keys]) => keys.length > 0).map(([title, keys]) => keyList(title, keys)));
     dialog.showModal();
   };
@@ -75,5 +79,10 @@ export function help(actions: Actions): HTMLDialogElement {
 }
 
 function keyList(title: string, keys: [string, string][]): HTMLElement {
-  return html("section", {}, html("h3", {}, title), html("dl", {}, ...keys.flatMap(([key, what]) => [html("dt", {}, key), html("dd", {}, what)])));
+  return html(
+    "section",
+    {},
+    html("h3", {}, title),
+    html("dl", {}, ...keys.flatMap(([key, what]) => [html("dt", {}, key), html("dd", {}, what)])),
+  );
 }

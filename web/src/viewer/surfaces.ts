@@ -105,7 +105,15 @@ export class Surfaces {
         this.told(entry);
         const mesh = await this.api.surface(laneName(entry), wish.tau, wish.which, most, wish.walls);
         if (isOld()) return;
-        lane.arrival = { of: key, triangles: mesh.triangles, bytes: mesh.bytes, coarse: mesh.coarse, walls: wish.walls === "cavities" && !mesh.coarse ? pieces(mesh.corners) : null, waiting: false, error: "" };
+        lane.arrival = {
+          of: key,
+          triangles: mesh.triangles,
+          bytes: mesh.bytes,
+          coarse: mesh.coarse,
+          walls: wish.walls === "cavities" && !mesh.coarse ? pieces(mesh.corners) : null,
+          waiting: false,
+          error: "",
+        };
         this.came(entry, mesh, wish.tau);
         if (!mesh.coarse) break;
       }
