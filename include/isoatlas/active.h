@@ -56,6 +56,12 @@ struct ObjectChanges {
     std::int64_t appeared = 0, merged = 0;  ///< on the way down: groups without an object above; objects that are lost in a larger one
 };
 
+/// A sample: where, and its stored value.
+struct VoxelValue {
+    std::int64_t voxel = -1;
+    double value = 0;
+};
+
 /// Answers for any isovalue. Queries may come from many threads.
 class ActiveIndex {
 public:
@@ -73,6 +79,13 @@ public:
     /// What happens between two isovalues, whichever is higher. all: list also objects that stay what they are.
     /// Cost: O((1 + objects at both) log events).
     [[nodiscard]] ObjectChanges changes(double tau, double other_tau, bool all = false) const;
+
+    /// The object at tau that holds a maximum of the volume, by its highest voxel. maximum: a voxel and its value, tau or more. Throws
+    /// Error: usage (tau is not finite), input (the trees know no such maximum). Cost: O(elements of its value + log events).
+    [[nodiscard]] std::int64_t object_of(const VoxelValue& maximum, double tau) const;
+    /// The cavity at tau that holds a minimum of the volume, by its lowest voxel. minimum: of a value less than tau. Nothing: it lies
+    /// outside of all objects. Throws as object_of(). Cost: the same; the first query for contours as at().
+    [[nodiscard]] std::optional<std::int64_t> cavity_of(const VoxelValue& minimum, double tau) const;
 
     /// The next isovalue up or down at which something happens anywhere, as the highest isovalue of what comes then: down, the value of the
     /// next event; up, that of the event before the last one. Nothing: no event is left on that side. Cost: O(log events).

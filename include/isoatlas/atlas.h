@@ -65,6 +65,13 @@ struct SamplesWanted {
     std::vector<SampleBox> boxes{};  ///< all in these; what sticks out of the volume is left out
 };
 
+/// A volume with fewer values than samples.
+struct CoarseVolume {
+    std::int64_t step = 1;    ///< samples along the edge of a cube
+    Extent extent;            ///< cubes
+    std::vector<float> mean;  ///< of the samples of each cube, x fastest; stored values. Those at the far ends are of what is left
+};
+
 /// Does a file begin like a store? False for files that cannot be read.
 [[nodiscard]] bool is_atlas(const std::string& path);
 
@@ -129,6 +136,14 @@ public:
     /// value in the ranges. Cost: memory for all samples; reads bricks with such samples and those around them, found by their lowest and
     /// highest samples.
     [[nodiscard]] Volume volume(const SamplesWanted& wanted, const Context& context = {}, QueryCost* cost = nullptr) const;
+
+    /// Every step-th sample of a box, from its first one on, placed where they lie in space. Throws Error{usage} when the box is empty or
+    /// sticks out, or the step is less than 1. Cost: reads the bricks that hold one of them, and keeps none; memory: the result.
+    [[nodiscard]] Volume samples(const SampleBox& box, std::int64_t step = 1, const Context& context = {}) const;
+    /// The whole volume coarser: means of cubes of step^3 samples, step the first power of two that leaves at most `most` of them.
+    /// Throws Error{usage} when most is less than 1. Cost: reads all bricks, and keeps none; memory: the result and, where the step is
+    /// more than 8, 4 bytes for 512 samples.
+    [[nodiscard]] CoarseVolume coarse(std::int64_t most, const Context& context = {}) const;
 
     /// How many samples lie in [edges[i], edges[i + 1]); the last count includes its end. Stored values, ascending, two at least. Throws
     /// Error{usage}. Cost: reads the bricks with samples on both sides of an edge.

@@ -28,6 +28,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/handles.h"
+#include "isoatlas/holders.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"

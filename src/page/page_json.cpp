@@ -5,20 +5,12 @@
 
 #include "isoatlas/shell_word.h"
 #include "output/byte_writer.h"
+#include "page/web_colour.h"
 
 namespace isoatlas::page {
 namespace {
 
 using output::JsonStream;
-
-std::string web_colour(const Colour& colour) {
-    std::string text = "#";
-    for (const double part : {colour.red, colour.green, colour.blue}) {
-        const int byte = static_cast<int>(std::lround(255 * part));
-        for (const int digit : {byte / 16, byte % 16}) text += "0123456789abcdef"[digit];
-    }
-    return text;
-}
 
 void put_text(JsonStream& json, const std::string& text) {
     if (text.empty()) {
@@ -78,8 +70,13 @@ private:
         json_.key("volume").begin_object().key("name").value(title_of(info.path));
         json_.key("size").begin_array();
         for (int a = 0; a < info.extent.rank; ++a) json_.value(info.extent.size[a]);
-        json_.end_array().key("type").value(name_of(info.type)).key("spacing").value(info.geometry.spacing);
-        json_.key("origin").value(info.geometry.origin).key("direction").begin_array();
+        json_.end_array().key("type").value(name_of(info.type)).key("spacing");
+        if (info.geometry.coordinates[0].empty()) {
+            json_.value(info.geometry.spacing);
+        } else {
+            json_.null();  // steps are uneven
+        }
+        json_.key("space").value(info.geometry.space).key("origin").value(info.geometry.origin).key("direction").begin_array();
         for (const Vec3& row : info.geometry.direction) json_.value(row);
         json_.end_array();
         put_text(json_.key("unit"), unit_of(info.geometry));

@@ -11,6 +11,7 @@
 #include "query/brick_histogram.h"
 #include "query/brick_layout.h"
 #include "query/brick_part.h"
+#include "query/brick_samples.h"
 #include "query/threshold.h"
 
 namespace isoatlas {
@@ -133,6 +134,14 @@ public:
             if (bricks[b] == 0) fill_with(bricks_.low(b), grid_.box(b), whole);
         });
         counters += bricks_.read_into(whole, std::move(wanted), context.threads);
+    }
+
+    void read_box(const Box& box, std::int64_t step, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
+        read_samples(bricks_, box, step, context.threads, std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), counters);
+    }
+
+    void read_means(std::int64_t step, std::span<float> out, const Context& context, IoCounters& counters) override {
+        isoatlas::read_means(bricks_, step, context.threads, out, counters);
     }
 
     std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context, IoCounters& counters) override {

@@ -81,6 +81,10 @@ public:
     /// Those of the flagged bricks; all others are the lowest one of their brick.
     virtual void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
                            store::IoCounters& counters) = 0;
+    /// query/brick_samples.h; out: samples of the type of the store.
+    virtual void read_box(const store::Box& box, std::int64_t step, std::span<std::byte> out, const Context& context,
+                          store::IoCounters& counters) = 0;
+    virtual void read_means(std::int64_t step, std::span<float> out, const Context& context, store::IoCounters& counters) = 0;
     /// query/brick_histogram.h
     [[nodiscard]] virtual std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context,
                                                               store::IoCounters& counters) = 0;

@@ -6,6 +6,7 @@
 
 #include "atlas/surface_size.h"
 #include "page/page_json.h"
+#include "page/web_colour.h"
 #include "server/document.h"
 
 namespace isoatlas::server {
@@ -79,6 +80,35 @@ std::string measures_json(const Surface& surface, const ActiveObjects& active, d
             json.key("tunnels").value(object.b1).key("cavities").value(object.b2).key("triangles").value(size.triangles);
             put_bounds(json, "voxels", {object.voxels_least, object.voxels_most});
             json.key("box").begin_array().value(size.low).value(size.high).end_array().end_object();
+        }
+        json.end_array();
+    });
+}
+
+std::string at_json(const AtVoxel& at) {
+    return document("at", [&](JsonStream& json) {
+        const auto put = [&json](const char* name, const auto& values) {
+            json.key(name).begin_array();
+            for (const typename std::decay_t<decltype(values)>::value_type value : values) json.value(value);
+            json.end_array();
+        };
+        put("voxel", at.voxel);
+        put("position", at.position);
+        json.key("value").value(at.value);
+        put("entries", at.entries);
+        put("objects", at.objects);
+        put("contours", at.contours);
+    });
+}
+
+std::string transfer_json(std::span<const TransferBump> bumps, const Calibration& calibration) {
+    return document("transfer", [&](JsonStream& json) {
+        json.key("bumps").begin_array();
+        for (const TransferBump& bump : bumps) {
+            json.line().begin_object().key("tau").value(calibration.reported(bump.tau));
+            json.key("low").value(calibration.reported(bump.low)).key("high").value(calibration.reported(bump.high));
+            json.key("ramp").value(bump.ramp).key("density").value(bump.density);
+            json.key("colour").value(page::web_colour(bump.colour)).end_object();
         }
         json.end_array();
     });

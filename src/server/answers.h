@@ -1,11 +1,14 @@
 // The JSON of the server. Isovalues are in units of the file.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/error.h"
+#include "isoatlas/render.h"
 #include "page/contents.h"
 #include "server/opening.h"
 #include "server/turns.h"
@@ -19,6 +22,19 @@ namespace isoatlas::server {
 [[nodiscard]] std::string active_json(const ActiveObjects& active, double tau, std::int64_t top);
 /// Of the objects of a closed surface with ids. active: those at its isovalue.
 [[nodiscard]] std::string measures_json(const Surface& surface, const ActiveObjects& active, double tau);
+
+/// A sample, and what holds it.
+struct AtVoxel {
+    std::array<std::int64_t, 3> voxel{};
+    Vec3 position{};                      ///< physical
+    double value = 0;                     ///< in units of the file
+    std::vector<std::int64_t> entries{};  ///< of the atlas that hold it, the smallest first
+    std::vector<bool> objects{};          ///< of those asked for: does it hold the sample?
+    std::vector<bool> contours{};
+};
+[[nodiscard]] std::string at_json(const AtVoxel& at);
+/// calibration: of the values of the bumps, which are stored ones.
+[[nodiscard]] std::string transfer_json(std::span<const TransferBump> bumps, const Calibration& calibration);
 [[nodiscard]] std::string error_json(const Error& error);
 /// On one line. pending: of the client that listens.
 [[nodiscard]] std::string events_json(const Opening::State& state, const std::vector<Turns::Pending>& pending);

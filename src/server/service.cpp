@@ -15,8 +15,8 @@
 namespace isoatlas::server {
 namespace {
 
-constexpr int kAtOnce = 2, kMostWaiting = 256;
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
+constexpr int kAtOnce = 2, kSamplesAtOnce = 2, kMostWaiting = 256;
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
@@ -60,6 +60,7 @@ Service::Service(std::string token, const Context& context, std::int64_t memory)
       memory_((memory > 0 ? memory : available_memory() / 4) / kAtOnce),
       opening_(changes_),
       turns_(kAtOnce, kMostWaiting, &changes_),
+      sample_turns_(kSamplesAtOnce, kMostWaiting, &changes_),
       events_(opening_, turns_, changes_) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
@@ -69,6 +70,7 @@ void Service::end() {
     ended_ = true;
     turns_.end();
     cards_.end();
+    sample_turns_.end();
     events_.end();
 }
 
@@ -103,10 +105,21 @@ Answer Service::answer_known(const Question& question) {
     if (question.path == "/api/card") return card_answer(question);
     if (question.path == "/api/surface") return surface_answer(question);
     if (question.path == "/api/label") return label_answer(question);
-    throw Error(ErrorKind::not_found,
-                {.where = question.path.substr(0, 100),
-                 .what = "there is nothing here",
-                 .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label"});
+    if (question.path == "/api/at") return at_answer(atlas(), entries_.get([this] { return named_entries(atlas(), context_); }), question);
+    if (question.path == "/api/transfer") return transfer_answer(atlas(), question, context_);
+    if (question.path == "/api/slice") return samples_answer(question, slice_answer);
+    if (question.path == "/api/volume") return samples_answer(question, volume_answer);
+    throw Error(
+        ErrorKind::not_found,
+        {.where = question.path.substr(0, 100),
+         .what = "there is nothing here",
+         .expected =
+             "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label, slice, volume, at, transfer"});
+}
+
+Answer Service::samples_answer(const Question& question, Answer (*answer)(const Atlas&, const Question&, const Context&)) {
+    const std::unique_ptr<Turns::Turn> turn = sample_turns_.take(question.client, question.left);
+    return answer(atlas(), question, context_of(*turn));
 }
 
 Answer Service::events_answer(const Question& question) {

@@ -10,6 +10,10 @@
 //   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&most=N]   a mesh (server/wire_mesh.h)
 //   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
 //   /api/label?tau=T[&object=ID,...]&format=nrrd                  the file that `isoatlas label` writes
+//   /api/slice?axis=A&index=I[&most=N]      the samples of one slice (server/wire_samples.h)
+//   /api/volume[?most=N]                    the volume in one byte a value (server/wire_samples.h)
+//   /api/at?voxel=X,Y,Z[&object=ID@T,...][&contour=ID@T,...]   a sample, and what holds it
+//   /api/transfer                           which values the tree proposes to see as matter
 //
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
 #pragma once
@@ -26,6 +30,7 @@
 #include "server/event_stream.h"
 #include "server/opening.h"
 #include "server/question.h"
+#include "server/sample_answers.h"
 #include "server/turns.h"
 #include "server/words.h"
 
@@ -56,6 +61,8 @@ private:
     [[nodiscard]] Answer label_answer(const Question& question);
     [[nodiscard]] const page::PageContents& contents() const;
     [[nodiscard]] CardSubject card_subject(Words& words) const;
+    /// When it is its turn.
+    [[nodiscard]] Answer samples_answer(const Question& question, Answer (*answer)(const Atlas&, const Question&, const Context&));
 
     [[nodiscard]] const Atlas& atlas() const { return opening_.atlas(); }
     /// Throws Error{unsupported} for an image.
@@ -71,13 +78,14 @@ private:
     const std::int64_t memory_;  ///< of one answer
     Changes changes_;
     Opening opening_;
-    Turns turns_;
+    Turns turns_, sample_turns_;
     EventStreams events_;
     Branches branches_;
     Cards cards_;
     Lazy<page::PageContents> contents_;
     Lazy<std::string> atlas_json_;
     std::atomic<bool> ended_ = false;
+    Lazy<std::vector<NamedEntry>> entries_;
 };
 
 }  // namespace isoatlas::server

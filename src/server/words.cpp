@@ -75,17 +75,34 @@ std::optional<std::string> Words::choice(std::string_view name, const std::vecto
     return std::string(*text);
 }
 
-std::vector<std::int64_t> Words::list(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count) {
-    std::vector<std::int64_t> numbers;
+std::vector<std::string_view> Words::items(std::string_view name, std::size_t count) {
+    std::vector<std::string_view> items;
     const std::optional<std::string_view> text = take(name);
-    if (!text) return numbers;
+    if (!text) return items;
     for (std::string_view rest = *text;;) {
-        if (numbers.size() == count) refuse(name, *text, "at most " + std::to_string(count) + " numbers");
+        if (items.size() == count) refuse(name, *text, "at most " + std::to_string(count) + " numbers");
         const std::size_t comma = rest.find(',');
-        numbers.push_back(whole_in(name, rest.substr(0, comma), least, most));
-        if (comma == std::string_view::npos) return numbers;
+        items.push_back(rest.substr(0, comma));
+        if (comma == std::string_view::npos) return items;
         rest.remove_prefix(comma + 1);
     }
+}
+
+std::vector<std::int64_t> Words::list(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count) {
+    std::vector<std::int64_t> numbers;
+    for (const std::string_view item : items(name, count)) numbers.push_back(whole_in(name, item, least, most));
+    return numbers;
+}
+
+std::vector<NumberAt> Words::list_at(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count) {
+    std::vector<NumberAt> numbers;
+    for (const std::string_view item : items(name, count)) {
+        const std::size_t mark = std::min(item.find('@'), item.size());
+        const std::optional<double> value = read<double>(item.substr(std::min(mark + 1, item.size())));
+        if (!value || !std::isfinite(*value)) refuse(name, item, "NUMBER@VALUE with a finite value");
+        numbers.push_back({whole_in(name, item.substr(0, mark), least, most), *value});
+    }
+    return numbers;
 }
 
 void Words::refuse_others() const {

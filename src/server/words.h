@@ -10,6 +10,12 @@
 
 namespace isoatlas::server {
 
+/// "NUMBER@VALUE", as `isoatlas render --object ID@TAU`.
+struct NumberAt {
+    std::int64_t number;
+    double at;
+};
+
 class Words {
 public:
     explicit Words(const std::multimap<std::string, std::string>& words) : words_(words) {}
@@ -21,11 +27,15 @@ public:
     [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
     /// Numbers between commas, at most `count`.
     [[nodiscard]] std::vector<std::int64_t> list(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count);
+    /// The same of "NUMBER@VALUE"; values are finite.
+    [[nodiscard]] std::vector<NumberAt> list_at(std::string_view name, std::int64_t least, std::int64_t most, std::size_t count);
     /// Throws Error{usage} for a word that nobody asked for.
     void refuse_others() const;
 
 private:
     [[nodiscard]] std::optional<std::string_view> take(std::string_view name);
+    /// What stands between the commas of a word, at most `count`; nothing when it is not said.
+    [[nodiscard]] std::vector<std::string_view> items(std::string_view name, std::size_t count);
 
     const std::multimap<std::string, std::string>& words_;
     std::vector<std::string_view> known_;

@@ -15,6 +15,8 @@ struct ActiveIndex::Data {
     virtual ~Data() = default;
     [[nodiscard]] virtual ActiveObjects at(double tau, const ActiveOptions& options) const = 0;
     [[nodiscard]] virtual ObjectChanges changes(double high, double low, bool all) const = 0;
+    [[nodiscard]] virtual std::int64_t object_of(const VoxelValue& maximum, double tau) const = 0;
+    [[nodiscard]] virtual std::optional<std::int64_t> cavity_of(const VoxelValue& minimum, double tau) const = 0;
     [[nodiscard]] virtual std::optional<double> event_below(double tau) const = 0;
     [[nodiscard]] virtual std::optional<double> event_above(double tau) const = 0;
 };
@@ -77,6 +79,21 @@ public:
         return changes;
     }
 
+    [[nodiscard]] std::int64_t object_of(const VoxelValue& maximum, double tau) const override {
+        const Id element = element_of(maximum, 0);
+        if (element >= zones_.element_rank(tau)) contradiction();
+        return id_of(zones_.zone_at(zones_.arrays().tree.event_of_element[element], zones_.rank(tau)));
+    }
+
+    [[nodiscard]] std::optional<std::int64_t> cavity_of(const VoxelValue& minimum, double tau) const override {
+        const Id element = element_of(minimum, 1);
+        const std::size_t rank = zones_.element_rank(tau);
+        if (element < rank) contradiction();
+        const Id lowest = zones_.lowest_with(element, rank);
+        if (lowest == zones_.arrays().code.size()) return std::nullopt;
+        return voxel(lowest);
+    }
+
     [[nodiscard]] std::optional<double> event_below(double tau) const override {
         const std::size_t rank = zones_.rank(tau);
         if (rank == zones_.events()) return std::nullopt;
@@ -92,6 +109,15 @@ public:
 
 private:
     [[nodiscard]] std::int64_t voxel(std::size_t element) const { return ElementCode{zones_.arrays().code[element]}.index(); }
+    /// The critical voxel with so many objects just above it.
+    [[nodiscard]] Id element_of(const VoxelValue& sample, int h0) const {
+        const std::size_t first = zones_.element_rank(sample.value, true), end = zones_.element_rank(sample.value);
+        for (std::size_t e = first; e < end; ++e) {
+            const ElementCode code{zones_.arrays().code[e]};
+            if (code.kind() == CodeKind::vertex && code.index() == sample.voxel && code.h0() == h0) return static_cast<Id>(e);
+        }
+        contradiction();
+    }
     [[nodiscard]] std::int64_t id_of(std::size_t event) const { return voxel(zones_.arrays().tree.top[zones_.highest(event)]); }
     static std::size_t position(const std::vector<Id>& sorted, Id event) {
         const auto found = std::lower_bound(sorted.begin(), sorted.end(), event);
@@ -183,6 +209,16 @@ ObjectChanges ActiveIndex::changes(double tau, double other_tau, bool all) const
     require_finite(tau);
     require_finite(other_tau);
     return data_->changes(std::max(tau, other_tau), std::min(tau, other_tau), all);
+}
+
+std::int64_t ActiveIndex::object_of(const VoxelValue& maximum, double tau) const {
+    require_finite(tau);
+    return data_->object_of(maximum, tau);
+}
+
+std::optional<std::int64_t> ActiveIndex::cavity_of(const VoxelValue& minimum, double tau) const {
+    require_finite(tau);
+    return data_->cavity_of(minimum, tau);
 }
 
 std::optional<double> ActiveIndex::event_below(double tau) const { return data_->event_below(tau); }

@@ -45,9 +45,10 @@ std::vector<Id> ActiveZones<Id>::zones(std::size_t rank) const {
 }
 
 template <class Id>
-std::size_t ActiveZones<Id>::element_rank(double tau) const {
-    const BigVector<double>& value = arrays_.value;
-    return static_cast<std::size_t>(std::partition_point(value.begin(), value.end(), [tau](double v) { return v >= tau; }) - value.begin());
+std::size_t ActiveZones<Id>::element_rank(double tau, bool above) const {
+    const BigVector<double>& values = arrays_.value;
+    const auto first_below = std::ranges::partition_point(values, [=](double v) { return above ? v > tau : v >= tau; });
+    return static_cast<std::size_t>(first_below - values.begin());
 }
 
 template class ActiveZones<std::uint32_t>;

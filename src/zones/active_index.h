@@ -51,8 +51,8 @@ public:
     [[nodiscard]] Id zone_at(Id event, std::size_t rank) const {
         return climber_.climb(event, [rank](Id e) { return e < rank; });
     }
-    /// Number of elements with a value of at least tau.
-    [[nodiscard]] std::size_t element_rank(double tau) const;
+    /// Number of elements with a value of at least (above: of more than) tau.
+    [[nodiscard]] std::size_t element_rank(double tau, bool above = false) const;
     /// Calls visit(arc) for the arcs of the contour tree that contain the rank (of elements).
     template <class Visit>
     void for_contours(std::size_t rank, Visit&& visit) const {
@@ -63,8 +63,10 @@ public:
     }
     /// Of an arc that contains the rank: is its contour an outer one, and the lowest element of its low component.
     [[nodiscard]] bool is_outer(std::size_t arc) const { return arrays_.contours.other[arc] > static_cast<Id>(arc); }
-    [[nodiscard]] Id lowest(std::size_t arc, std::size_t rank) const {
-        return contours().low.lowest[contours().climber.climb(arrays_.contours.lower(arc), [rank](Id x) { return x >= rank; })];
+    [[nodiscard]] Id lowest(std::size_t arc, std::size_t rank) const { return lowest_with(arrays_.contours.lower(arc), rank); }
+    /// The lowest element of the low component that holds a Low element.
+    [[nodiscard]] Id lowest_with(Id element, std::size_t rank) const {
+        return contours().low.lowest[contours().climber.climb(element, [rank](Id x) { return x >= rank; })];
     }
     [[nodiscard]] const AnalysisArrays<Id>& arrays() const { return arrays_; }
 

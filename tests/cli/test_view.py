@@ -3,6 +3,7 @@ import concurrent.futures
 import gzip
 import json
 import socket
+import struct
 import unittest
 
 import harness
@@ -92,6 +93,40 @@ class View(harness.CliTest):
         card = self.json_of("/api/card?entry=0&frames=3")
         self.assert_schema(card, "server-card")
         self.assertEqual(card["picture"]["frames"], 3)
+    def test_samples(self):
+        atlas = self.json_of("/api/atlas")
+        size = atlas["volume"]["size"]
+        with open(self.folder / "field.nrrd", "rb") as file:
+            samples = file.read().split(b"\n\n", 1)[1]
+        width = len(samples) // (size[0] * size[1] * size[2])
+        for axis, index in ((0, 3), (1, 23), (2, 0)):
+            status, _, body = self.ask(f"/api/slice?axis={axis}&index={index}")
+            self.assertEqual((status, body[:4]), (200, b"ias1"))
+            columns, rows, step, _, zero = struct.unpack("<5I", body[4:24])
+            across, down = [a for a in range(3) if a != axis]
+            self.assertEqual((columns, rows, step, zero), (size[across], size[down], 1, 0))
+            at = [0, 0, 0]
+            at[axis], at[across], at[down] = index, 5, 7
+            offset = width * (at[0] + size[0] * (at[1] + size[1] * at[2]))
+            place = 40 + width * (5 + columns * 7)
+            self.assertEqual(body[place:place + width], samples[offset:offset + width])
+        status, _, body = self.ask("/api/slice?axis=2&index=1&most=100")
+        self.assertEqual(struct.unpack("<3I", body[4:16]), (8, 8, 3))
+        status, _, body = self.ask("/api/volume?most=2000")
+        self.assertEqual((body[:4], struct.unpack("<4I", body[4:20]), len(body)), (b"iav1", (12, 12, 12, 2), 40 + 12 ** 3))
+
+    def test_what_holds_a_voxel(self):
+        atlas = self.json_of("/api/atlas")
+        size = atlas["volume"]["size"]
+        entry = atlas["entries"][0]
+        x, y, z = entry["id"] % size[0], entry["id"] // size[0] % size[1], entry["id"] // size[0] // size[1]
+        found = self.json_of(f"/api/at?voxel={x},{y},{z}&object={entry['id']}@{entry['tau']!r},{entry['id']}@{atlas['volume']['high'] + 1!r}")
+        self.assert_schema(found, "server-at")
+        self.assertIn(0, found["entries"])
+        self.assertEqual(found["objects"], [True, False])
+        transfer = self.json_of("/api/transfer")
+        self.assert_schema(transfer, "server-transfer")
+        self.assertGreater(len(transfer["bumps"]), 0)
 
     def test_who_may_ask(self):
         for path in ("/api/atlas", "/api/events", "/api/label?tau=0"):
@@ -106,6 +141,8 @@ class View(harness.CliTest):
     def test_refusals(self):
         for path, status in (("/api/surface?tau=nan", 400), ("/api/surface", 400), ("/api/preview?tau=1&x=2", 400), ("/api/none", 404),
                              ("/api/measures?tau=0", 400), ("/api/label?tau=0&format=exe", 400), ("/api/events?x=1", 400),
+                             ("/api/slice", 400), ("/api/slice?axis=3&index=0", 400), ("/api/slice?axis=0&index=24", 400), ("/api/volume?most=0", 400),
+                             ("/api/at?voxel=1,2", 400), ("/api/at?voxel=1,2,24", 400), ("/api/at?voxel=1,2,3&object=5", 400), ("/api/transfer?x=1", 400),
                              ("/../../etc/passwd", 404), ("/%2e%2e/%2e%2e/etc/passwd", 404), ("/api/surface?tau=0&object=99999999999", 400),
                              ("/api/surface?tau=0&object=" + ",".join(["1"] * 257), 400)):
             got, _, body = self.ask(path)

@@ -109,7 +109,10 @@ export interface Page {
     name: string;
     size: number[];
     type: string;
+    /** null: the steps between samples are uneven */
     spacing: number[] | null;
+    /** what the axes of space mean: "LPS", "RAS", ..., "unknown" */
+    space: string;
     /** of the first sample, physical */
     origin: [number, number, number];
     /** rows; column a: unit vector of axis a */

@@ -24,7 +24,7 @@ export function page(branches: Branch[], entries: Entry[]): Page {
   return {
     schema: "isoatlas/page/2",
     version: "0.1.0",
-    volume: { name: "scan", size: [10, 20, 30], type: "uint8", spacing: [1, 1, 2], origin: [0, 0, 0], direction: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], unit: "mm", valueUnit: null, low: 0, high: 100, noise: 1 },
+    volume: { name: "scan", size: [10, 20, 30], type: "uint8", spacing: [1, 1, 2], space: "LPS", origin: [0, 0, 0], direction: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], unit: "mm", valueUnit: null, low: 0, high: 100, noise: 1 },
     interpolant: "trilinear",
     objects: { bright: { all: 1234, standingOut: 3 }, dark: { all: 77, standingOut: 1 } },
     axis: { low: 0, high: 100, bend: null },

@@ -151,6 +151,14 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/card", {{"branch", "1000000000"}}, 404},
                                   {"/api/card", {{"entry", "0"}, {"frames", "17"}}, 400},
                                   {"/api/card", {{"entry", "-1"}}, 400},
+                                  {"/api/slice", {{"axis", "0"}}, 400},
+                                  {"/api/slice", {{"axis", "0"}, {"index", "54"}}, 400},
+                                  {"/api/slice", {{"axis", "0"}, {"index", "0"}, {"most", "99999999999"}}, 400},
+                                  {"/api/volume", {{"most", "-1"}}, 400},
+                                  {"/api/at", {{"voxel", "0,0"}}, 400},
+                                  {"/api/at", {{"voxel", "0,0,12"}}, 400},
+                                  {"/api/at", {{"voxel", "0,0,0"}, {"object", "3@nan"}}, 400},
+                                  {"/api/transfer", {{"x", "1"}}, 400},
                                   {"/api", {}, 404},
                                   {"", {}, 404}};
     for (const Case& c : cases) {
@@ -161,6 +169,49 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
     }
 }
 
+TEST_F(ServiceTest, SlicesAreSamples) {
+    const Answer answer = ask("/api/slice", {{"axis", "1"}, {"index", "5"}});
+    ASSERT_EQ(answer.status, 200) << answer.bytes;
+    const Volume volume = atlas_->volume();
+    const auto [nx, ny, nz] = volume.info.extent.size;
+    const std::size_t width = size_of(volume.info.type);
+    ASSERT_EQ(answer.bytes.size(), 40 + nx * nz * width);
+    for (std::int64_t z = 0; z < nz; ++z) {
+        for (std::int64_t x = 0; x < nx; ++x) {
+            const auto* sample = reinterpret_cast<const char*>(volume.bytes.data()) + width * volume.info.extent.index(x, 5, z);
+            ASSERT_EQ(answer.bytes.compare(40 + width * (x + nx * z), width, sample, width), 0);
+        }
+    }
+    EXPECT_EQ(ask("/api/slice", {{"axis", "1"}, {"index", "5"}, {"most", std::to_string(nx * nz)}}).bytes, answer.bytes);
+    EXPECT_EQ(ask("/api/slice", {{"axis", "1"}, {"index", "5"}, {"most", std::to_string(nx * nz - 1)}}).bytes.size(),
+              40 + (nx + 1) / 2 * ((nz + 1) / 2) * width);
+}
+
+TEST_F(ServiceTest, VolumesAreMeansInABytePerValue) {
+    const Answer answer = ask("/api/volume", {{"most", "2500"}});
+    const CoarseVolume coarse = atlas_->coarse(2500);
+    ASSERT_EQ(answer.bytes.size(), 40 + coarse.mean.size());
+    const auto [low, high] = atlas_->range();
+    for (std::size_t i = 0; i < coarse.mean.size(); ++i) {
+        const double value = low + static_cast<unsigned char>(answer.bytes[40 + i]) / 255.0 * (high - low);
+        ASSERT_NEAR(value, static_cast<double>(coarse.mean[i]), (high - low) / 509);
+    }
+}
+
+TEST_F(ServiceTest, WhatHoldsAVoxelIsWhatACutSays) {
+    const auto entries = nlohmann::json::parse(ask("/api/atlas").bytes)["entries"];
+    const ObjectEntry object = atlas_->objects().entries[0];
+    const std::array<std::int64_t, 3> at = atlas_->info().extent.voxel(object.id);
+    const std::string voxel = std::to_string(at[0]) + "," + std::to_string(at[1]) + "," + std::to_string(at[2]);
+    const std::string id = std::to_string(object.id), tau = nlohmann::json(object.best_tau).dump();
+    const auto found = nlohmann::json::parse(
+        ask("/api/at", {{"voxel", voxel}, {"object", id + "@" + tau + "," + id + "@1e9"}, {"contour", id + "@" + tau}}).bytes);
+    EXPECT_EQ(found["objects"], nlohmann::json({true, false}));
+    EXPECT_EQ(found["contours"], nlohmann::json::array({false}));
+    EXPECT_NE(std::find(found["entries"].begin(), found["entries"].end(), 0), found["entries"].end());
+    EXPECT_EQ(nlohmann::json::parse(ask("/api/at", {{"voxel", "0,0,0"}, {"object", id + "@" + tau}}).bytes)["objects"][0], false);
+}
+
 TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     std::mt19937 random(7);
     const std::vector<std::string> paths{"/",          "/api/atlas",  "/api/preview",  "/api/objects", "/api/surface",      "/api/measures",
@@ -168,6 +219,12 @@ TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     const std::vector<std::string> names{"tau", "object", "most", "top", "entry", "branch", "keep", "persistence", "", "TAU"};
     const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan", "", "0", "1", "99999999999999999999",
                                           "1,2,3", "\xff\0x", "0.5;"};
+    const std::vector<std::string> paths{
+        "/",           "/api/atlas", "/api/preview", "/api/objects", "/api/surface",  "/api/measures",     "/api/label",
+        "/api/events", "/api/slice", "/api/volume",  "/api/at",      "/api/transfer", "/api/../api/atlas", "//"};
+    const std::vector<std::string> names{"tau", "object", "most", "top", "", "TAU", "axis", "index", "voxel", "contour"};
+    const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan",       "", "0", "1", "99999999999999999999",
+                                          "1,2,3", "\xff\0x", "0.5;",  "7@0.5,9@-1"};
     for (int i = 0; i < 2000; ++i) {
         std::multimap<std::string, std::string> words;
         for (unsigned k = random() % 4; k > 0; --k) words.emplace(names[random() % names.size()], values[random() % values.size()]);
@@ -249,6 +306,7 @@ TEST_F(ServiceTest, AfterTheEndNothingIsMade) {
     service_->end();
     EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 409);
     EXPECT_EQ(ask("/api/card", {{"branch", "0"}}).status, 409);
+    EXPECT_EQ(ask("/api/slice", {{"axis", "0"}, {"index", "0"}}).status, 409);
 }
 
 }  // namespace

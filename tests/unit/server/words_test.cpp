@@ -26,6 +26,7 @@ void expect_refused(const Question& question, const std::string& what) {
         (void)words.number("tau");
         (void)words.whole("most", 1, 20);
         (void)words.list("object", 0, 4, 3);
+        (void)words.list_at("at", 0, 4, 3);
         (void)words.choice("side", {"bright", "dark"});
         words.refuse_others();
         ADD_FAILURE() << what << " was taken";
@@ -40,6 +41,8 @@ TEST(Words, AreRefusedWithWhatWasExpected) {
     for (const char* bad : {"", " 1", "1 ", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "one"}) expect_refused({{"tau", bad}}, bad);
     for (const char* bad : {"", "0", "21", "-1", "1.0", "9223372036854775808", "1e1"}) expect_refused({{"most", bad}}, bad);
     for (const char* bad : {"", ",", "1,", ",1", "5", "-1", "1,2,3,4", "1;2"}) expect_refused({{"object", bad}}, bad);
+    for (const char* bad : {"", "1", "1@", "@1", "1@nan", "1@1e999", "5@1", "1@1@1", "1@1,", "1@1,1@1,1@1,1@1"})
+        expect_refused({{"at", bad}}, bad);
     expect_refused({{"side", "Dark"}}, "another choice");
     expect_refused({{"tau", "1"}, {"tau", "1"}}, "a word said twice");
     expect_refused({{"tauu", "1"}}, "an unknown word");

@@ -137,7 +137,7 @@ export class Api {
     this.lanes.delete(lane);
   }
 
-  private async ask(path: string, lane: string): Promise<Response> {
+  async ask(path: string, lane: string): Promise<Response> {
     this.leave(lane);
     const abort = new AbortController();
     this.lanes.set(lane, abort);

@@ -72,10 +72,10 @@ export class Eye {
   get isFlat(): boolean {
     return this.flat;
   }
-
-  toggleFlat(): void {
+  set isFlat(flat: boolean) {
+    if (flat === this.flat) return;
     const offset = this.offset();
-    this.flat = !this.flat;
+    this.flat = flat;
     this.controls.object = this.camera;
     this.place(this.controls.target.clone(), offset);
   }
@@ -83,6 +83,11 @@ export class Eye {
   /** Physical length of the height of the picture, at the depth of what is in the middle. */
   get height(): number {
     return 2 * this.offset().length() * Math.tan(HALF_ANGLE) / this.camera.zoom;
+  }
+
+  /** What is a scale of 1 for a label that keeps its size: the height of the picture, at a distance of 1 where there is perspective. */
+  get labelUnit(): number {
+    return this.flat ? this.height : 2 * Math.tan(HALF_ANGLE);
   }
 
   /** Where the camera stands and what it looks at, in digits that an address has room for; ours: what was got here before. */

@@ -1,51 +1,56 @@
-// Where one looks from, the edges of the volume, and the cut: actions and what stands over the picture for them.
-import { html } from "../dom";
-import type { Page } from "../page";
+// Where one looks from, with or without perspective, the edges of the volume and how long things are.
+import * as three from "three";
 import type { Desk } from "./desk";
 import { VIEWS } from "./eye";
+import { follow, quickly, switching } from "./follow";
+import { AXES, Grid } from "./grid";
+import { flag } from "./part";
 import { ScaleBar } from "./scale_bar";
 
 const ANGLE = Math.PI / 24;
+const EDGES = flag("edges", "edges of the volume");
+const FLAT = flag("flat", "without perspective");
 
-export function look({ page, stage, actions, overlay }: Desk): void {
+export function look(desk: Desk): void {
+  const { page, stage, actions, overlay, history } = desk;
   const bar = new ScaleBar(page.volume.unit);
   stage.onDraw(() => bar.show(stage.eye.height, stage.canvas.clientHeight));
-  const cut = html("input", { class: "cut", type: "range", min: 0, max: 1, step: 0.01, hidden: true, "aria-label": "where it is cut open" });
-  cut.addEventListener("input", () => stage.slide(Number(cut.value)));
-  overlay.append(bar.element, cut);
-  const open = (): void => {
-    stage.open(!stage.isOpen);
-    cut.hidden = !stage.isOpen;
-    cut.value = "0.5";
+  overlay.append(bar.element);
+  showEdges(desk);
+  follow(history, FLAT, (flat) => (stage.eye.isFlat = flat));
+  const go = quickly(history);
+  const see = (name: string, keys: string[], move: () => void): void => {
+    const run = (): void => {
+      move();
+      go({ ...history.now, view: stage.eye.view });
+    };
+    actions.add({ group: "Look", name, keys, run });
   };
-  let framed = false;
-  const frame = (): void => {
-    framed = !framed;
-    stage.frame(framed ? cornersOf(page) : null);
-  };
-  const turn = (name: string, key: string, around: number, up: number): void =>
-    actions.add({ group: "Look", name, keys: [key], run: () => stage.eye.turn(around, up) });
-  actions.add({ group: "Look", name: "all that is shown in the middle", keys: ["f"], run: () => stage.fit() });
-  turn("turn left", "ArrowLeft", -ANGLE, 0);
-  turn("turn right", "ArrowRight", ANGLE, 0);
-  turn("turn up", "ArrowUp", 0, ANGLE);
-  turn("turn down", "ArrowDown", 0, -ANGLE);
+  see("all that is shown in the middle", ["f"], () => stage.fit());
+  see("turn left", ["ArrowLeft"], () => stage.eye.turn(-ANGLE, 0));
+  see("turn right", ["ArrowRight"], () => stage.eye.turn(ANGLE, 0));
+  see("turn up", ["ArrowUp"], () => stage.eye.turn(0, ANGLE));
+  see("turn down", ["ArrowDown"], () => stage.eye.turn(0, -ANGLE));
   for (const [key, direction] of Object.entries(VIEWS)) {
     const way = key === key.toLowerCase() ? "along" : "against";
-    actions.add({ group: "Look", name: `look ${way} ${key.toLowerCase()}`, keys: [key], run: () => stage.eye.along(direction) });
+    see(`look ${way} ${key.toLowerCase()}`, [key], () => stage.eye.along(direction));
   }
   actions.add(
-    { group: "Look", name: "without perspective", keys: ["o"], run: () => stage.eye.toggleFlat(), isOn: () => stage.eye.isFlat },
-    { group: "Look", name: "edges of the volume", keys: ["b"], run: frame, isOn: () => framed },
-    { group: "Look", name: "cut everything open, from where you look", keys: ["c"], run: open, isOn: () => stage.isOpen },
+    { group: "Look", name: "without perspective", keys: ["o"], ...switching(desk, FLAT) },
+    { group: "Look", name: "edges of the volume", keys: ["b"], ...switching(desk, EDGES) },
   );
 }
 
-/** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */
-function cornersOf({ volume }: Page): [number, number, number][] {
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => {
-    const steps = [0, 1, 2].map((axis) => (corner & (1 << axis) ? (volume.size[axis] ?? 1) - 1 : 0) * (volume.spacing?.[axis] ?? 1));
-    const at = (row: number): number => (volume.origin[row] ?? 0) + steps.reduce((sum, step, axis) => sum + (volume.direction[row]?.[axis] ?? 0) * step, 0);
-    return [at(0), at(1), at(2)];
+function showEdges({ page, stage, history }: Desk): void {
+  const corners = new Grid(page).corners();
+  let edges: three.LineSegments | null = null;
+  follow(history, EDGES, (on) => {
+    if (edges) stage.drop(edges);
+    edges = null;
+    if (!on) return;
+    const ends = AXES.flatMap((axis) => corners.flatMap((corner, i) => (i & (1 << axis) ? [] : [corner, corners[i | (1 << axis)] ?? corner])));
+    const geometry = new three.BufferGeometry().setFromPoints(ends.map((end) => new three.Vector3(...end)));
+    edges = new three.LineSegments(geometry, new three.LineBasicMaterial({ color: 0x888888 }));
+    stage.add(edges);
   });
 }

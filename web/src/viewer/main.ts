@@ -10,7 +10,7 @@ import { ChoosePanel } from "./choose_panel";
 import type { Desk } from "./desk";
 import { Editor } from "./editor";
 import { History } from "./history";
-import { look } from "./look";
+import { looking } from "./looking";
 import { help, menus } from "./menus";
 import { ObjectPanel } from "./object_panel";
 import { SaveDialog } from "./save_dialog";
@@ -31,7 +31,7 @@ const CLICK_PIXELS = 4;
 
 class Viewer implements Desk {
   readonly history: History;
-  readonly stage = new Stage(() => this.history.go({ ...this.history.now, view: this.stage.eye.view }, true));
+  readonly stage = new Stage(() => this.history.go({ ...this.history.now, view: this.stage.eye.view }));
   readonly actions = new Actions();
   readonly overlay = html("div", { class: "stage" });
   readonly editor: Editor;
@@ -58,12 +58,13 @@ class Viewer implements Desk {
     sceneActions(this);
     this.shown = new ScenePanel(this);
     this.panel = new ObjectPanel(this);
-    look(this);
+    looking(this);
     theme(this);
     const tour = new Tour(this);
     const side = html("div", { class: "side" }, this.choosing.element);
     const inspector = html("div", { class: "inspector" }, this.shown.element, this.panel.element);
-    this.overlay.append(this.stage.canvas, menus(this.actions), this.said, tour.element);
+    this.overlay.prepend(this.stage.canvas, menus(this.actions));
+    this.overlay.append(this.said, tour.element);
     main.append(side, this.overlay, inspector, this.axis.element, new SaveDialog(this).element, help(this.actions));
     this.history.listen((state, before, dragging) => this.show(state, before, dragging));
     this.actions.listen(document);

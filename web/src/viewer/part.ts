@@ -47,6 +47,26 @@ export function number(key: string, title: string, isGood: (n: number) => boolea
   return new Part<number | null>(key, title, null, (n) => (n === null ? "" : String(Number(n.toPrecision(7)))), read);
 }
 
+/** Numbers between commas, of up to seven digits. */
+export function textOf(list: readonly number[]): string {
+  return list.map((n) => Number(n.toPrecision(7))).join(",");
+}
+
+/** null: it is none of them. */
+export function numbersOf(text: string): number[] | null {
+  const list = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
+  return list.every(Number.isFinite) ? list : null;
+}
+
+/** So many numbers, null at first. */
+export function numbers(key: string, title: string, count: number, isGood: (list: number[]) => boolean = () => true): Part<number[] | null> {
+  const read = (text: string): number[] | null => {
+    const list = numbersOf(text);
+    return list && list.length === count && isGood(list) ? list : null;
+  };
+  return new Part<number[] | null>(key, title, null, (list) => (list === null ? "" : textOf(list)), read);
+}
+
 export function partNamed(key: string): Part<unknown> | undefined {
   return known.get(key);
 }

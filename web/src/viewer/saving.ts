@@ -1,6 +1,7 @@
 // What can be taken away, each as a file or as words in the clipboard.
 import { isDark } from "../names";
 import { entryOf } from "../page";
+import { besideWords } from "./beside";
 import { keep, selectedOf, type Desk } from "./desk";
 import { drawPicture, pngOf, type PictureWishes } from "./picture";
 import { renderCommand } from "./render_command";
@@ -68,7 +69,7 @@ export class Saving {
     const { page, history, stage, scene } = this.desk;
     const camera = { view: stage.eye.view, flat: stage.eye.isFlat, height: stage.eye.height, cut: stage.removed };
     const size: [number, number] = [stage.canvas.clientWidth, stage.canvas.clientHeight];
-    return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage());
+    return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), besideWords(page, history.now));
   }
 
   private get name(): string {

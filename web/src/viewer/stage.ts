@@ -1,7 +1,8 @@
-// The picture: meshes in a frame of physical units. Drawn when something has changed.
+// The picture: meshes in a frame of physical units, and what other parts put beside them. Drawn when something has changed.
 import * as three from "three";
-import { Clip, dispose } from "./clip";
+import { cap, dispose } from "./clip";
 import { Eye } from "./eye";
+import { clipped, firstHit, type Ray } from "./ray";
 import type { Mesh } from "./wire";
 
 type Body = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
@@ -14,21 +15,35 @@ export interface Dress {
   solid: boolean;
 }
 
+/** A surface on the stage. */
+export interface Standing {
+  key: number;
+  mesh: Mesh;
+  colour: string;
+  tau: number;
+}
+
+export interface Hit {
+  key: number;
+  point: three.Vector3;
+}
+
 export class Stage {
   readonly canvas: HTMLCanvasElement;
   readonly eye: Eye;
-  private readonly renderer: three.WebGLRenderer;
+  readonly renderer: three.WebGLRenderer;
   private readonly scene = new three.Scene();
   private readonly bodies = new Map<number, Body>();
+  private readonly meshes = new Map<number, Mesh>();
   /** over the left shoulder */
   private readonly lamp = new three.DirectionalLight(0xffffff, 1.8);
-  private readonly clip = new Clip();
-  /** in which direction it is cut */
-  private readonly towards = new three.Vector3(0, 1, 0);
+  /** what lies on its positive side stays; null: nothing is cut away */
+  private plane: three.Plane | null = null;
   private caps: three.Group[] = [];
-  private box: three.LineSegments | null = null;
   private asked = false;
-  private readonly listeners: (() => void)[] = [];
+  private readonly drawn: (() => void)[] = [];
+  private readonly changed: (() => void)[] = [];
+  private readonly passes: ((scene: three.Scene, isStill: boolean) => void)[] = [];
 
   /** rested: the hand has let go after turning. */
   constructor(rested: () => void) {
@@ -40,9 +55,29 @@ export class Stage {
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
-  /** Calls after every picture, with the length of its height in physical units. */
+  /** Calls after every picture. */
   onDraw(listener: () => void): void {
-    this.listeners.push(listener);
+    this.drawn.push(listener);
+  }
+  /** Calls when other surfaces stand on the stage, or in other colours. */
+  onChange(listener: () => void): void {
+    this.changed.push(listener);
+  }
+  /** Calls before every picture, for what is drawn aside first. isStill: it will be kept. */
+  onPass(listener: (scene: three.Scene, isStill: boolean) => void): void {
+    this.passes.push(listener);
+  }
+
+  /** Puts something beside the surfaces. */
+  add(thing: three.Object3D): void {
+    this.scene.add(thing);
+    this.draw();
+  }
+  /** Takes it away for good. */
+  drop(thing: three.Object3D): void {
+    this.scene.remove(thing);
+    dispose(thing, true);
+    this.draw();
   }
 
   /** Replaces what stands under this key. tau: on a cut, what has the higher isovalue is seen. */
@@ -58,6 +93,7 @@ export class Stage {
     body.updateMatrixWorld();
     body.userData = { tau };
     this.bodies.set(key, body);
+    this.meshes.set(key, mesh);
     this.scene.add(body);
     this.dress(key, dress);
   }
@@ -73,61 +109,65 @@ export class Stage {
     material.depthWrite = opacity === 1;
     body.visible = visible;
     body.userData.solid = solid;
-    this.cut();
+    this.arrange();
   }
 
   remove(key: number): void {
     this.take(key);
-    this.cut();
+    this.arrange();
+  }
+
+  /** The surfaces that are seen. */
+  get standing(): Standing[] {
+    const seen = [...this.bodies].filter(([, body]) => body.visible);
+    return seen.map(([key, body]) => ({ key, mesh: this.meshes.get(key) as Mesh, colour: `#${body.material.color.getHexString()}`, tau: Number(body.userData.tau) }));
   }
 
   /** All there is in the middle of the picture. */
   fit(): void {
-    const ball = this.ball();
-    if (ball) this.eye.fit(ball);
+    const box = new three.Box3();
+    for (const body of this.bodies.values()) if (body.visible) box.expandByObject(body);
+    if (!box.isEmpty()) this.eye.fit(box.getBoundingSphere(new three.Sphere()));
   }
 
-  /** Cuts everything open, from where one looks now, or closes it. */
-  open(on: boolean): void {
-    this.clip.on = on;
-    this.eye.camera.getWorldDirection(this.towards);
-    this.slide(0.5);
+  /** Cuts away what lies on the negative side of a plane; null: nothing. */
+  cut(plane: three.Plane | null): void {
+    this.plane = plane;
+    this.arrange();
   }
-  /** Moves the cut. share: of what stays, 0 to 1. */
-  slide(share: number): void {
-    const ball = this.ball();
-    if (ball) this.clip.set(ball, this.towards.clone().negate(), share);
-    this.cut();
-  }
-  get isOpen(): boolean {
-    return this.clip.on;
+  get cutPlane(): three.Plane | null {
+    return this.plane;
   }
 
-  /** The edges of the volume, or not. corners: of the box, physical. */
-  frame(corners: [number, number, number][] | null): void {
-    if (this.box) {
-      this.scene.remove(this.box);
-      this.box.geometry.dispose();
-      this.box = null;
+  /** The nearest surface at a place of the picture, in pixels from its left and its top; null: none. */
+  hit(left: number, top: number): Hit | null {
+    const { origin, direction } = this.casterAt(left, top).ray;
+    let ray: Ray = { origin: origin.toArray(), direction: direction.toArray(), begin: 0, end: Infinity };
+    if (this.plane) ray = clipped(ray, this.plane.normal.toArray(), this.plane.constant);
+    let key: number | null = null;
+    for (const [other, body] of this.bodies) {
+      if (!body.visible || body.userData.solid !== true) continue;
+      const t = firstHit(this.meshes.get(other) as Mesh, ray);
+      if (t === null) continue;
+      ray = { ...ray, end: t };
+      key = other;
     }
-    if (corners) {
-      const edges = [0, 1, 2].flatMap((axis) => [0, 1, 2, 3, 4, 5, 6, 7].filter((i) => !(i & (1 << axis))).map((i) => [i, i | (1 << axis)])).flat();
-      const geometry = new three.BufferGeometry().setFromPoints(edges.map((i) => new three.Vector3(...(corners[i] as [number, number, number]))));
-      this.box = new three.LineSegments(geometry, new three.LineBasicMaterial({ color: 0x888888 }));
-      this.scene.add(this.box);
-    }
-    this.draw();
+    return key === null ? null : { key, point: origin.clone().addScaledVector(direction, ray.end) };
   }
 
-  /** What stands under this key at a place of the picture, in pixels from its left and its top; null: nothing. */
+  /** The nearest place there: of a surface, or of something beside them that can be touched (its userData says so). */
+  touch(left: number, top: number): three.Vector3 | null {
+    const caster = this.casterAt(left, top);
+    const places = caster.intersectObjects(this.scene.children.filter(({ userData }) => userData.touchable === true), false).map(({ point }) => point);
+    const hit = this.hit(left, top);
+    if (hit) places.push(hit.point);
+    const { origin } = caster.ray;
+    return places.sort((a, b) => origin.distanceToSquared(a) - origin.distanceToSquared(b))[0] ?? null;
+  }
+
+  /** What stands under this key at a place of the picture; null: nothing. */
   pick(left: number, top: number): number | null {
-    const { clientWidth, clientHeight } = this.canvas;
-    const ray = new three.Raycaster();
-    ray.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.eye.camera);
-    const hits = ray.intersectObjects([...this.bodies.values()].filter(({ visible, userData }) => visible && userData.solid === true), false);
-    const hit = hits.find(({ point }) => !this.clip.on || this.clip.plane.distanceToPoint(point) >= 0);
-    for (const [key, body] of this.bodies) if (body === hit?.object) return key;
-    return null;
+    return this.hit(left, top)?.key ?? null;
   }
 
   /** Draws once in another size, in pixels; `use` gets the canvas, which must be read at once. */
@@ -135,7 +175,7 @@ export class Stage {
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(width, height, false);
     this.eye.resize(width / height);
-    this.render();
+    this.render(true);
     use(this.canvas);
     this.resize();
     this.render();
@@ -143,8 +183,25 @@ export class Stage {
 
   /** What is cut away: points p with normal . p > offset; null: nothing. */
   get removed(): { normal: number[]; offset: number } | null {
-    const { on, plane } = this.clip;
-    return on ? { normal: plane.normal.toArray().map((n) => -n), offset: plane.constant } : null;
+    return this.plane && { normal: this.plane.normal.toArray().map((n) => -n), offset: this.plane.constant };
+  }
+
+  /** Soon. */
+  draw(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.render();
+      for (const listener of this.drawn) listener();
+    });
+  }
+
+  private casterAt(left: number, top: number): three.Raycaster {
+    const { clientWidth, clientHeight } = this.canvas;
+    const caster = new three.Raycaster();
+    caster.setFromCamera(new three.Vector2((2 * left) / clientWidth - 1, 1 - (2 * top) / clientHeight), this.eye.camera);
+    return caster;
   }
 
   private take(key: number): void {
@@ -154,28 +211,24 @@ export class Stage {
     body.geometry.dispose();
     body.material.dispose();
     this.bodies.delete(key);
-  }
-
-  private ball(): three.Sphere | null {
-    const box = new three.Box3();
-    for (const body of this.bodies.values()) if (body.visible) box.expandByObject(body);
-    return box.isEmpty() ? null : box.getBoundingSphere(new three.Sphere());
+    this.meshes.delete(key);
   }
 
   /** Makes planes and cut faces what they must be. */
-  private cut(): void {
-    for (const cap of this.caps) {
-      this.scene.remove(cap);
-      dispose(cap);
+  private arrange(): void {
+    for (const group of this.caps) {
+      this.scene.remove(group);
+      dispose(group, false);
     }
     this.caps = [];
     let order = 1;
     for (const body of [...this.bodies.values()].sort((a, b) => Number(a.userData.tau) - Number(b.userData.tau))) {
-      body.material.clippingPlanes = this.clip.planes;
-      body.renderOrder = this.clip.on ? 100 : 0;
-      if (this.clip.on && body.visible) this.caps.push(this.clip.cap(body, order++));
+      body.material.clippingPlanes = this.plane ? [this.plane] : [];
+      body.renderOrder = this.plane ? 100 : 0;
+      if (this.plane && body.visible) this.caps.push(cap(body, this.plane, order++));
     }
-    for (const cap of this.caps) this.scene.add(cap);
+    for (const group of this.caps) this.scene.add(group);
+    for (const listener of this.changed) listener();
     this.draw();
   }
 
@@ -188,18 +241,11 @@ export class Stage {
     this.draw();
   }
 
-  private render(): void {
+  private render(isStill = false): void {
     this.lamp.position.set(-0.4, 0.6, 1).applyQuaternion(this.eye.camera.quaternion);
+    for (const pass of this.passes) pass(this.scene, isStill);
     this.renderer.render(this.scene, this.eye.camera);
-  }
-
-  private draw(): void {
-    if (this.asked) return;
-    this.asked = true;
-    requestAnimationFrame(() => {
-      this.asked = false;
-      this.render();
-      for (const listener of this.listeners) listener();
-    });
+    const { geometries, textures } = this.renderer.info.memory;
+    this.canvas.dataset.held = `${geometries} ${textures}`; // for tests, and for those who wonder about memory
   }
 }

@@ -1,0 +1,24 @@
+// Samples of a store without keeping them: bricks come, give what is wanted of them, and go.
+#pragma once
+
+#include <span>
+
+#include "store/brick_reader.h"
+
+namespace isoatlas {
+
+/// Every step-th sample of a box, from its first one on; out: as many, x fastest. box: not empty, inside the volume. step: 1 or more.
+/// Cost: reads the bricks that hold one of them.
+template <class T>
+void read_samples(const store::BrickReader<T>& bricks, const store::Box& box, std::int64_t step, int threads, std::span<T> out,
+                  store::IoCounters& counters);
+
+/// Means of cubes of step^3 samples; those at the far ends of the volume are of the samples that are left. out: one for each cube, x
+/// fastest. step: 1, 2, 4 or 8, so that no cube lies in two bricks. Cost: reads all bricks.
+template <class T>
+void read_means(const store::BrickReader<T>& bricks, std::int64_t step, int threads, std::span<float> out, store::IoCounters& counters);
+
+/// How many steps there are along something of so many samples.
+[[nodiscard]] constexpr std::int64_t steps_along(std::int64_t samples, std::int64_t step) { return (samples + step - 1) / step; }
+
+}  // namespace isoatlas

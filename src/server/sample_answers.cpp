@@ -1,0 +1,114 @@
+#include "server/sample_answers.h"
+
+#include <algorithm>
+
+#include "isoatlas/error.h"
+#include "isoatlas/holders.h"
+#include "isoatlas/page.h"
+#include "isoatlas/render.h"
+#include "server/answers.h"
+#include "server/wire_samples.h"
+#include "server/words.h"
+
+namespace isoatlas::server {
+namespace {
+
+constexpr std::int64_t kSliceSamples = 1 << 20, kMostSliceSamples = 1 << 22;
+constexpr std::int64_t kVolumeValues = 1 << 21, kMostVolumeValues = 1 << 25;
+constexpr std::size_t kMostHolders = 256;
+constexpr std::int64_t kTransferObjects = 5;  ///< as `isoatlas render --volume`
+
+const char* const kBytes = "application/octet-stream";
+
+[[noreturn]] void missing(const std::string& word, const std::string& expected) {
+    throw Error(ErrorKind::usage, {.where = word, .what = "it is missing", .expected = expected});
+}
+
+void require_volume(const Atlas& atlas) {
+    if (atlas.info().extent.rank == 3) return;
+    throw Error(ErrorKind::unsupported, {.what = "an image has no slices", .next = "open the image itself"});
+}
+
+/// Does an object of one voxel hold another one at an isovalue?
+bool holds(const Atlas& atlas, const Holders& sample, const NumberAt& object) {
+    const double tau = atlas.info().calibration.stored(object.at);
+    const std::optional<std::int64_t> own = sample.object(tau);
+    return own && (*own == object.number || own == Holders(atlas, object.number).object(tau));
+}
+
+}  // namespace
+
+std::vector<NamedEntry> named_entries(const Atlas& atlas, const Context& context) {
+    const PageOptions page;
+    std::vector<NamedEntry> entries;
+    const ObjectTable bright = atlas.objects({.top = page.top}, context);
+    for (const ObjectEntry& entry : bright.entries) entries.push_back({entry.id, entry.best_tau, entry.voxels, false});
+    const DarkTable dark = atlas.dark_objects({.top = page.top_dark}, context);
+    for (const DarkEntry& entry : dark.entries) entries.push_back({entry.id, entry.best_tau, entry.voxels, true});
+    return entries;
+}
+
+Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context) {
+    require_volume(atlas);
+    Words words(question.words);
+    const std::optional<std::int64_t> axis = words.whole("axis", 0, 2);
+    if (!axis) missing("axis", "0, 1 or 2");
+    SampleBox box{{0, 0, 0}, atlas.info().extent.size};
+    const std::int64_t size = box.end[*axis];
+    const std::optional<std::int64_t> index = words.whole("index", 0, size - 1);
+    if (!index) missing("index", "0 to " + std::to_string(size - 1));
+    const std::int64_t most = words.whole("most", 1, kMostSliceSamples).value_or(kSliceSamples);
+    words.refuse_others();
+    box.begin[*axis] = *index, box.end[*axis] = *index + 1;
+    std::int64_t step = 1;
+    const auto count = [&] {
+        std::int64_t samples = 1;
+        for (int a = 0; a < 3; ++a) samples *= (box.end[a] - box.begin[a] + step - 1) / step;
+        return samples;
+    };
+    while (count() > most) ++step;
+    return {200, kBytes, wire_slice(atlas.samples(box, step, context), static_cast<int>(*axis), step), {}};
+}
+
+Answer volume_answer(const Atlas& atlas, const Question& question, const Context& context) {
+    require_volume(atlas);
+    Words words(question.words);
+    const std::int64_t most = words.whole("most", 1, kMostVolumeValues).value_or(kVolumeValues);
+    words.refuse_others();
+    return {200, kBytes, wire_volume(atlas.coarse(most, context), atlas.range(), atlas.info().calibration), {}};
+}
+
+Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question) {
+    const VolumeInfo& info = atlas.info();
+    const Extent& extent = info.extent;
+    Words words(question.words);
+    const std::vector<std::int64_t> at = words.list("voxel", 0, *std::ranges::max_element(extent.size) - 1, 3);
+    if (at.size() != 3) missing("voxel", "x,y,z: three whole numbers");
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (at[a] >= extent.size[a]) missing("voxel", "less than " + std::to_string(extent.size[a]) + " along axis " + std::to_string(a));
+    }
+    const std::vector<NumberAt> objects = words.list_at("object", 0, extent.voxels() - 1, kMostHolders);
+    const std::vector<NumberAt> contours = words.list_at("contour", 0, extent.voxels() - 1, kMostHolders);
+    words.refuse_others();
+    const Holders sample(atlas, extent.index(at[0], at[1], at[2]));
+    AtVoxel found{.voxel = {at[0], at[1], at[2]}, .position = {}, .value = info.calibration.reported(sample.value())};
+    found.position = to_physical(info.geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+    for (const NumberAt& object : objects) found.objects.push_back(holds(atlas, sample, object));
+    for (const NumberAt& contour : contours) found.contours.push_back(sample.cavity(info.calibration.stored(contour.at)) == contour.number);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const NamedEntry& entry = entries[i];
+        const std::optional<std::int64_t> holder = entry.dark ? sample.cavity(entry.tau) : sample.object(entry.tau);
+        if (holder == entry.id) found.entries.push_back(static_cast<std::int64_t>(i));
+    }
+    std::ranges::stable_sort(found.entries, {}, [&](std::int64_t i) { return entries[i].voxels; });
+    return {200, "application/json", at_json(found), {}};
+}
+
+Answer transfer_answer(const Atlas& atlas, const Question& question, const Context& context) {
+    Words(question.words).refuse_others();
+    const std::vector<TransferBump> bumps =
+        propose_transfer(atlas.objects({.top = kTransferObjects}, context), atlas.info(), atlas.range());
+    return {200, "application/json", transfer_json(bumps, atlas.info().calibration), {}};
+}
+
+}  // namespace isoatlas::server

@@ -1,0 +1,27 @@
+// Answers about samples: a slice, the volume in fewer values, what holds a voxel, and what matter a transfer function makes of values.
+#pragma once
+
+#include <vector>
+
+#include "isoatlas/atlas.h"
+#include "server/question.h"
+
+namespace isoatlas::server {
+
+/// An entry of the atlas, as it stands in /api/atlas.
+struct NamedEntry {
+    std::int64_t id;  ///< of the object, or of the contour around the dark object
+    double tau;       ///< stored
+    std::int64_t voxels;
+    bool dark;
+};
+/// In the order of /api/atlas. Cost: reads the tables.
+[[nodiscard]] std::vector<NamedEntry> named_entries(const Atlas& atlas, const Context& context);
+
+/// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store).
+[[nodiscard]] Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context);
+[[nodiscard]] Answer volume_answer(const Atlas& atlas, const Question& question, const Context& context);
+[[nodiscard]] Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question);
+[[nodiscard]] Answer transfer_answer(const Atlas& atlas, const Question& question, const Context& context);
+
+}  // namespace isoatlas::server

@@ -1,0 +1,11 @@
+import { chromium } from "playwright-core";
+const [,, address, out, width="1280", height="800", script=""] = process.argv;
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox","--use-gl=angle","--use-angle=swiftshader","--enable-unsafe-swiftshader"] });
+const tab = await browser.newPage({ viewport: { width: +width, height: +height } });
+tab.on("console", m => m.type()==="error" && console.log("console:", m.text()));
+tab.on("pageerror", e => console.log("error:", e.message));
+await tab.goto(address);
+await tab.waitForTimeout(4000);
+if (script) await new Function("tab","return (async()=>{"+script+"})()")(tab);
+await tab.screenshot({ path: out });
+await browser.close();

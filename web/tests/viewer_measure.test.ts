@@ -1,0 +1,150 @@
+// Measures and matter, held against a ball of known size: in a browser, on a store that `isoatlas view` serves.
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Api } from "../src/viewer/api";
+import { march } from "../src/viewer/compositing";
+import { PLACES, transferTable, type Bump } from "../src/viewer/transfer";
+import { decodeVolume } from "../src/viewer/wire_samples";
+import { canServe, Served } from "./viewer_harness";
+import type { Page as Tab } from "playwright-core";
+
+const SIDE = 41;
+const SPACING = 0.5;
+const RADIUS = 7;
+const MIDDLE = (SIDE - 1) / 2;
+
+/** 100 - 10 times the distance to the middle in mm: a ball of radius r at 100 - 10 r. */
+function ballFile(path: string): void {
+  const samples = new Float32Array(SIDE ** 3);
+  for (let i = 0; i < samples.length; ++i) {
+    const [x, y, z] = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE / SIDE)];
+    samples[i] = 100 - 10 * SPACING * Math.hypot(x - MIDDLE, y - MIDDLE, z - MIDDLE);
+  }
+  const header = ["NRRD0004", "type: float", "dimension: 3", `sizes: ${SIDE} ${SIDE} ${SIDE}`, "encoding: raw", "endian: little", "space: left-posterior-superior", `space directions: (${SPACING},0,0) (0,${SPACING},0) (0,0,${SPACING})`, 'space units: "mm" "mm" "mm"'];
+  writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
+}
+
+describe.skipIf(!canServe)("a ball", () => {
+  let served: Served;
+  let folder: string;
+  const scene = `#scene=-1,${100 - 10 * RADIUS},1,1&selected=0`;
+  beforeAll(async () => {
+    folder = mkdtempSync(join(tmpdir(), "isoatlas-ball-"));
+    ballFile(join(folder, "ball.nrrd"));
+    served = await Served.file(join(folder, "ball.nrrd"));
+  }, 60_000);
+  afterAll(async () => {
+    await served?.close();
+    rmSync(folder, { recursive: true });
+  });
+
+  async function middleOf(tab: Tab): Promise<[number, number]> {
+    const box = (await tab.locator(".stage > canvas").boundingBox())!;
+    return [box.x + box.width / 2, box.y + box.height / 2];
+  }
+  const text = (tab: Tab): Promise<string[]> => tab.locator(".measures li b").allTextContents();
+
+  it("is as wide as it is, clicked on both sides", async () => {
+    const { tab, problems } = await served.open(scene);
+    await tab.locator(".objects h1").click();
+    await tab.waitForTimeout(800);
+    for (const key of ["f", "y", "m"]) await tab.keyboard.press(key);
+    await tab.waitForTimeout(300);
+    await tab.mouse.click(...(await middleOf(tab)));
+    await tab.keyboard.press("Y");
+    await tab.waitForTimeout(300);
+    await tab.mouse.click(...(await middleOf(tab)));
+    await expect.poll(() => text(tab)).toHaveLength(1);
+    const [length, unit] = ((await text(tab))[0] ?? "").split(" ");
+    expect(Math.abs(Number(length) - 2 * RADIUS)).toBeLessThan(0.05);
+    expect(unit).toBe("mm");
+    expect(new URL(tab.url()).hash).toContain("measure=");
+    await tab.keyboard.press("Control+z");
+    await expect.poll(() => tab.locator(".measures").isHidden()).toBe(true);
+    await tab.keyboard.press("Control+y");
+    await tab.getByRole("button", { name: "remove distance" }).click();
+    await expect.poll(() => tab.locator(".measures").isHidden()).toBe(true);
+    expect(problems).toEqual([]);
+    await tab.close();
+  }, 30_000);
+
+  it("is measured with keys alone, angles too, and on a slice", async () => {
+    const { tab, problems } = await served.open(`${scene}&slices=1&cross=6,20,20`);
+    await tab.locator(".objects h1").click();
+    for (const key of ["M", "e", ...Array<string>(14).fill("2"), "e", ...Array<string>(14).fill("4"), "e"]) await tab.keyboard.press(key);
+    await expect.poll(() => text(tab)).toEqual(["90°"]);
+    for (const key of ["m", "e", ...Array<string>(28).fill("3"), "e"]) await tab.keyboard.press(key);
+    await expect.poll(() => text(tab)).toEqual(["90°", "14 mm"]);
+    await tab.keyboard.press("m");
+    const box = (await tab.locator(".slices canvas").nth(2).boundingBox())!;
+    const sample = Math.min(box.width, box.height) / SIDE;
+    for (const by of [-10, 10]) await tab.mouse.click(box.x + box.width / 2 + by * sample, box.y + box.height / 2);
+    await expect.poll(() => text(tab)).toEqual(["90°", "14 mm", "10 mm"]);
+    await tab.getByRole("button", { name: "look from the left" }).press("Enter");
+    expect(problems).toEqual([]);
+    await tab.close();
+  }, 30_000);
+
+  it("swallows as much light as the integral through it says", async () => {
+    const { origin, searchParams } = new URL(served.address);
+    const api = new Api(searchParams.get("token") ?? "", origin);
+    const volume = decodeVolume(await (await api.ask("/api/volume", "volume")).arrayBuffer());
+    const { bumps } = (await (await api.ask("/api/transfer", "transfer")).json()) as { bumps: Bump[] };
+    expect(volume.size).toEqual([SIDE, SIDE, SIDE]);
+    const factor = 0.0625;
+    const table = transferTable(bumps.map((bump) => ({ ...bump, density: factor * bump.density })), volume.low, volume.high);
+    const placeAt = (t: number): number => {
+      const sample = t / SPACING;
+      const [i, u] = [Math.min(Math.floor(sample), SIDE - 2), sample - Math.min(Math.floor(sample), SIDE - 2)];
+      const byte = (k: number): number => volume.bytes[k + SIDE * (MIDDLE + SIDE * MIDDLE)] ?? 0;
+      return (PLACES / 255) * ((1 - u) * byte(i) + u * byte(i + 1));
+    };
+    const expected = march(table, placeAt, 0, (SIDE - 1) * SPACING, 0.01)[3];
+    expect(expected).toBeGreaterThan(0.2);
+    expect(expected).toBeLessThan(0.95);
+    const middle = [MIDDLE, MIDDLE, MIDDLE].map((n) => n * SPACING);
+    const { tab, problems } = await served.open(`#scene=&selected=-1&flat=1&matter=${factor}&view=${middle[0]! - 40},${middle[1]},${middle[2]},${middle.join()}`);
+    const opacity = (): Promise<number> =>
+      tab.evaluate(() => {
+        const canvas = document.querySelector<HTMLCanvasElement>(".stage > canvas")!;
+        const copy = document.createElement("canvas");
+        [copy.width, copy.height] = [1, 1];
+        const pen = copy.getContext("2d")!;
+        pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
+        return (pen.getImageData(0, 0, 1, 1).data[3] ?? 0) / 255;
+      });
+    await expect.poll(opacity, { timeout: 10_000 }).toBeGreaterThan(0);
+    await tab.waitForTimeout(600);
+    expect(Math.abs((await opacity()) - expected)).toBeLessThan(0.02);
+    expect(await tab.locator(".matter-bar").textContent()).toContain("41 × 41 × 41: every sample");
+    expect(problems).toEqual([]);
+    await tab.close();
+  }, 30_000);
+
+  it("hides matter behind it, and none in front", async () => {
+    const { tab, problems } = await served.open(`${scene}&matter=16`);
+    await tab.waitForTimeout(1500);
+    const seen = (): Promise<number[]> =>
+      tab.evaluate(() => {
+        const canvas = document.querySelector<HTMLCanvasElement>(".stage > canvas")!;
+        const copy = document.createElement("canvas");
+        [copy.width, copy.height] = [1, 1];
+        const pen = copy.getContext("2d")!;
+        pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
+        return [...pen.getImageData(0, 0, 1, 1).data];
+      });
+    const covered = await seen();
+    await tab.getByRole("slider", { name: "density" }).fill("-4");
+    await tab.waitForTimeout(800);
+    const thin = await seen();
+    expect(thin[3]).toBe(255);
+    expect(covered).toHaveLength(4);
+    await tab.locator(".objects h1").click();
+    await tab.keyboard.press("v");
+    await expect.poll(() => tab.locator(".matter-bar").isHidden()).toBe(true);
+    expect(problems).toEqual([]);
+    await tab.close();
+  }, 30_000);
+});
