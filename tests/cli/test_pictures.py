@@ -223,6 +223,20 @@ class Pictures(CliTest):
             self.run_ok("render", "figure.nrrd", *words, "--cut=" + same, "-o", "b.png", "--quiet")
             self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 
+    def test_parts_of_objects(self):
+        """A contour, and the walls of the cavities of an object, are those that extract writes."""
+        def cut(tau):
+            return self.run_json("objects", "shells.nrrd", "--tau", str(tau))["objects"]
+        self.run_ok("phantom", "demo", "--size", "40", "-o", "shells.nrrd", "--quiet")
+        tau, there = next((t, o) for t in range(20, 240, 20) for o in cut(t) if o["b2"] > 0)
+        walls = [c["id"] for c in there["contours"] if c["shell"] == "inner"]
+        objects = ["--object", str(there["id"]) + f"@{tau}", "--contour", f"{walls[0]}@{tau}", "--cavities", f"{there['id']}@{tau}"]
+        drawn = self.run_json("render", "shells.nrrd", *objects, "--size", "48", "--samples", "1", "-o", "p.png")["objects"]
+        def triangles(*words):
+            return self.run_json("extract", "shells.nrrd", "--tau", str(tau), *words, "-o", "p.ply")["triangles"]
+        self.assertEqual([o["triangles"] for o in drawn], [triangles("--object", str(there["id"])), triangles("--contour", str(walls[0])),
+                                                           triangles("--object", str(there["id"]), "--shell", "inner")])
+
     def test_what_goes_wrong(self):
         self.run_error(2, "render", "figure.nrrd", "-o", "p.bmp", says=".bmp")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--view", "above", says="--view")

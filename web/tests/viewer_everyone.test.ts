@@ -14,7 +14,9 @@ interface Violation {
 
 async function violations(tab: Tab): Promise<string[]> {
   await tab.evaluate(axe);
-  const found = await tab.evaluate(async () => ((await (window as unknown as { axe: { run(): Promise<{ violations: Violation[] }> } }).axe.run()).violations));
+  const found = await tab.evaluate(
+    async () => (await (window as unknown as { axe: { run(): Promise<{ violations: Violation[] }> } }).axe.run()).violations,
+  );
   return found.flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 160)} ${node.failureSummary.slice(0, 200)}`));
 }
 
@@ -31,7 +33,10 @@ describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () =>
       await tab.waitForSelector(".tour");
       expect(await violations(tab), "the tour").toEqual([]);
       await tab.keyboard.press("Escape");
-      await tab.getByRole("button", { name: /^Object 2/ }).first().click({ modifiers: ["Shift"] });
+      await tab
+        .getByRole("button", { name: /^Object 2/ })
+        .first()
+        .click({ modifiers: ["Shift"] });
       await tab.keyboard.press("g");
       expect(await violations(tab), "two objects").toEqual([]);
       for (const menu of await tab.locator(".menus summary").all()) {
@@ -54,10 +59,35 @@ describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () =>
     });
   }
 
+  it("walks through a menu by its arrows, and the picture stays", async () => {
+    const { tab } = await served.open();
+    const before = tab.url();
+    const summary = tab.locator(".menus summary", { hasText: "Look" });
+    await summary.focus();
+    await tab.keyboard.press("Enter");
+    await tab.waitForSelector(".menus details[open] button");
+    const names = await tab.locator(".menus details[open] button span").allTextContents();
+    for (const [key, name] of [
+      ["ArrowDown", names[0]],
+      ["ArrowDown", names[1]],
+      ["ArrowUp", names[0]],
+      ["ArrowUp", names.at(-1)],
+    ]) {
+      await tab.keyboard.press(key ?? "");
+      expect(await tab.evaluate(() => document.activeElement?.querySelector("span")?.textContent)).toBe(name);
+    }
+    await tab.keyboard.press("Escape");
+    expect(await summary.evaluate((element) => element === document.activeElement)).toBe(true);
+    expect(tab.url()).toBe(before);
+    await tab.close();
+  });
+
   it("has a key for one thing only, and a name for each", async () => {
     const { tab } = await served.open();
     await tab.keyboard.press("?");
-    const keys = (await tab.locator(".help dt").allTextContents()).flatMap((text) => text.split(", ")).filter((key) => key.length > 0 && !/click|Enter/.test(key));
+    const keys = (await tab.locator(".help dt").allTextContents())
+      .flatMap((text) => text.split(", "))
+      .filter((key) => key.length > 0 && !/click|Enter/.test(key));
     expect(new Set(keys).size, keys.join(" ")).toBe(keys.length);
     await tab.close();
   });
@@ -76,7 +106,8 @@ describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () =>
     expect(await tab.locator(".tour").isVisible()).toBe(false);
     await tab.locator(".menus summary", { hasText: "Help" }).click();
     await tab.getByRole("button", { name: "tour of four steps" }).click();
-    for (const step of ["Next (1 of 4)", "Next (2 of 4)", "Next (3 of 4)", "Done"]) await tab.getByRole("button", { name: step, exact: true }).click();
+    for (const step of ["Next (1 of 4)", "Next (2 of 4)", "Next (3 of 4)", "Done"])
+      await tab.getByRole("button", { name: step, exact: true }).click();
     expect(await tab.locator(".tour").isVisible()).toBe(false);
     await tab.close();
   });

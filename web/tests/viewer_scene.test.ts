@@ -21,8 +21,19 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
   }, 60_000);
   afterAll(() => served?.close());
 
-  const shownAs = (tab: Tab, name: string) => tab.locator(".scene li").filter({ has: tab.getByRole("button", { name: new RegExp(`^Select ${name} `) }) });
-  const settled = (tab: Tab): Promise<void> => expect.poll(() => tab.locator(".scene .state").allTextContents().then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))), { timeout: 10_000 }).toBe(true);
+  const shownAs = (tab: Tab, name: string) =>
+    tab.locator(".scene li").filter({ has: tab.getByRole("button", { name: new RegExp(`^Select ${name} `) }) });
+  const settled = (tab: Tab): Promise<void> =>
+    expect
+      .poll(
+        () =>
+          tab
+            .locator(".scene .state")
+            .allTextContents()
+            .then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))),
+        { timeout: 10_000 },
+      )
+      .toBe(true);
   const save = async (tab: Tab, run: () => Promise<void>, name: string): Promise<string> => {
     const [download] = await Promise.all([tab.waitForEvent("download"), run()]);
     const file = join(served.folder, name);
@@ -30,7 +41,11 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     return file;
   };
   /** entries and isovalues, such as "0,14.6,1,1;1,25,1,1" */
-  const scene = (n: number, more = ""): string => `#scene=${listed.slice(0, n).map(({ best_tau }, i) => `${i},${best_tau},1,1`).join(";")}&selected=0${more}`;
+  const scene = (n: number, more = ""): string =>
+    `#scene=${listed
+      .slice(0, n)
+      .map(({ best_tau }, i) => `${i},${best_tau},1,1`)
+      .join(";")}&selected=0${more}`;
 
   it("hides without forgetting, paints, fades, and undoes each by its name", async () => {
     const { tab, problems } = await served.open(scene(2));
@@ -44,7 +59,8 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     await row.getByRole("button", { name: "vermilion" }).click();
     await row.getByRole("slider", { name: "opacity" }).fill("0.5");
     await expect.poll(() => new URL(tab.url()).hash).toContain(",0.5,1,d55e00;");
-    for (const step of ["opacity", "colour", "show or hide", "show or hide"]) await tab.getByRole("button", { name: `undo: ${step}`, exact: true }).click();
+    for (const step of ["opacity", "colour", "show or hide", "show or hide"])
+      await tab.getByRole("button", { name: `undo: ${step}`, exact: true }).click();
     await expect.poll(() => new URL(tab.url()).hash).toContain(`#scene=0,${listed[0]?.best_tau},1,1;`);
     expect(await tab.getByRole("button", { name: "redo: show or hide" }).isEnabled()).toBe(true);
     expect(seen).toEqual([]);
@@ -63,7 +79,8 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     for (let k = 1; k < 8; ++k) await canvas.click({ position: { x: (width * k) / 8, y: height / 2 } });
     expect(await selected()).toBe("Object 2");
     await tab.keyboard.press("g");
-    for (let k = 1; k < 8 && (await selected()) === "Object 2"; ++k) await canvas.click({ position: { x: (width * k) / 8, y: height / 2 } });
+    for (let k = 1; k < 8 && (await selected()) === "Object 2"; ++k)
+      await canvas.click({ position: { x: (width * k) / 8, y: height / 2 } });
     expect(await selected()).not.toBe("Object 2");
     await tab.close();
   });
@@ -76,7 +93,21 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     const seen = meshes(tab);
     await tab.getByRole("button", { name: "Cavities only" }).click();
     await expect.poll(() => seen.filter(({ coarse }) => !coarse).length).toBe(1);
-    const extracted = JSON.parse(served.isoatlas("extract", served.store, "--object", String(id), "--tau", String(best_tau), "--shell", "inner", "-o", "x.ply", "--json")) as { triangles: number };
+    const extracted = JSON.parse(
+      served.isoatlas(
+        "extract",
+        served.store,
+        "--object",
+        String(id),
+        "--tau",
+        String(best_tau),
+        "--shell",
+        "inner",
+        "-o",
+        "x.ply",
+        "--json",
+      ),
+    ) as { triangles: number };
     expect(seen.at(-1)?.triangles).toBe(extracted.triangles);
     await expect.poll(() => tab.locator(".scene .state").textContent()).toContain(`${listed[at]?.cavities} cavit`);
     await tab.close();
@@ -86,7 +117,10 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     const { tab } = await served.open(scene(1));
     await settled(tab);
     const asked: number[] = [];
-    tab.on("request", (request) => request.url().includes("/api/surface") && asked.push(Number(new URL(request.url()).searchParams.get("most"))));
+    tab.on(
+      "request",
+      (request) => request.url().includes("/api/surface") && asked.push(Number(new URL(request.url()).searchParams.get("most"))),
+    );
     const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
     const numbers = await slider.evaluate((input: HTMLInputElement) => {
       const box = document.querySelector<HTMLInputElement>('.axis input[aria-label="isovalue"]') as HTMLInputElement;
@@ -126,7 +160,10 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     await box.press("Enter");
     await settled(tab);
     const asked: string[] = [];
-    tab.on("request", (request) => request.url().includes("/api/surface") && asked.push(new URL(request.url()).searchParams.get("tau") ?? ""));
+    tab.on(
+      "request",
+      (request) => request.url().includes("/api/surface") && asked.push(new URL(request.url()).searchParams.get("tau") ?? ""),
+    );
     await tab.getByRole("button", { name: "play upwards" }).click();
     await expect.poll(() => tab.getByRole("button", { name: "play upwards" }).isVisible()).toBe(true);
     await expect.poll(() => box.inputValue(), { timeout: 10_000 }).toBe(String(Number((top - 9 + 7.5).toPrecision(7))));
@@ -164,7 +201,9 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     const { id, best_tau } = listed[0] as Listed;
     const { tab } = await served.open(scene(1));
     await settled(tab);
-    const { objects } = JSON.parse(served.isoatlas("objects", served.store, "--tau", String(best_tau), "--json")) as { objects: { id: number; voxels: number; b1: number }[] };
+    const { objects } = JSON.parse(served.isoatlas("objects", served.store, "--tau", String(best_tau), "--json")) as {
+      objects: { id: number; voxels: number; b1: number }[];
+    };
     const there = objects.find((object) => object.id === id);
     await expect.poll(() => tab.locator(".here").textContent()).toMatch(/area[\d.]+ .*²/);
     await tab.keyboard.press("s");
@@ -178,7 +217,9 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     const { tab } = await served.open(scene(1));
     await tab.keyboard.press("s");
     const file = await save(tab, () => tab.getByRole("button", { name: "Save the table of objects" }).click(), "objects.csv");
-    const bright = readFileSync(file, "utf8").split("\r\n").filter((line) => line.includes(",bright,"));
+    const bright = readFileSync(file, "utf8")
+      .split("\r\n")
+      .filter((line) => line.includes(",bright,"));
     expect(bright.map((line) => Number(line.split(",")[1]))).toEqual(listed.map(({ id }) => id));
     await tab.close();
   });
@@ -219,10 +260,10 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
       const { tab } = await served.open(scene(3).replace(/,1,1;/, ",0.4,1,d55e00;"), { viewport: { width: 1100, height: 640 } });
       await settled(tab);
       for (const key of ["ArrowLeft", "ArrowUp", "ArrowLeft"]) await tab.keyboard.press(key);
-      if (flat) await tab.keyboard.press("o");
+      if (flat) for (const key of ["o", "c"]) await tab.keyboard.press(key); // without perspective, and cut open
       await tab.keyboard.press("s");
       const command = (await tab.locator(".save code").textContent()) ?? "";
-      expect(command.includes("--perspective")).toBe(!flat);
+      expect([command.includes("--perspective"), command.includes("--cut=")]).toEqual([!flat, flat]);
       const words = [...command.matchAll(/--\S+?='[^']*'|'[^']*'|\S+/g)].map(([word]) => word.replaceAll("'", ""));
       served.isoatlas(...words.slice(1), "--background", "transparent", "--quiet");
       await tab.getByRole("spinbutton", { name: "width" }).fill(String(words[words.indexOf("--size") + 1]?.split("x")[0]));

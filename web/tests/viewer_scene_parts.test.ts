@@ -13,7 +13,8 @@ import { PALETTE } from "../src/viewer/palette";
 import { renderCommand, type Camera } from "../src/viewer/render_command";
 import { pieces } from "../src/viewer/pieces";
 import { readScene, writeScene } from "../src/viewer/scene_file";
-import { add, change, isolate, NOTHING, type State } from "../src/viewer/state";
+import { noteOf } from "../src/viewer/scene_panel";
+import { add, change, isolate, NOTHING, shownAt, type State } from "../src/viewer/state";
 import { Surfaces } from "../src/viewer/surfaces";
 import { cell, tableCsv } from "../src/viewer/table_csv";
 import type { Mesh } from "../src/viewer/wire";
@@ -34,10 +35,20 @@ describe("surfaces", () => {
     const [asked, came]: [Asked[], (number | null)[]] = [[], []];
     const api = {
       surface: (_: string, tau: number, _which: null, most: number) =>
-        new Promise<Mesh>((resolve) => asked.push({ tau, most, answer: (mesh) => resolve({ triangles: 5, bytes: 9, coarse: false, ...mesh } as Mesh), left: false })),
+        new Promise<Mesh>((resolve) =>
+          asked.push({ tau, most, answer: (mesh) => resolve({ triangles: 5, bytes: 9, coarse: false, ...mesh } as Mesh), left: false }),
+        ),
       leave: () => asked.forEach((one) => (one.left = true)),
     } as unknown as Api;
-    return { surfaces: new Surfaces(api, (_, mesh, tau) => came.push(mesh ? tau : null), () => undefined), asked, came };
+    return {
+      surfaces: new Surfaces(
+        api,
+        (_, mesh, tau) => came.push(mesh ? tau : null),
+        () => undefined,
+      ),
+      asked,
+      came,
+    };
   }
   const wish = (tau: number) => ({ tau, which: null, walls: "all" as const });
   const rest = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
@@ -50,7 +61,11 @@ describe("surfaces", () => {
     await rest();
     expect(asked.map(({ tau }) => tau)).toEqual([1, 20]);
     surfaces.want(0, wish(21), false);
-    expect(asked.map(({ tau, most }) => [tau, most < 1e6])).toEqual([[1, true], [20, true], [21, true]]);
+    expect(asked.map(({ tau, most }) => [tau, most < 1e6])).toEqual([
+      [1, true],
+      [20, true],
+      [21, true],
+    ]);
     asked[1]?.answer({ coarse: true });
     asked[2]?.answer({ coarse: true });
     await rest();
@@ -58,7 +73,7 @@ describe("surfaces", () => {
     asked[3]?.answer({ triangles: 99 });
     await surfaces.settled();
     expect(came).toEqual([1, 21, 21]); // what rested ended what was dragged
-    expect(surfaces.arrivalOf(0)).toMatchObject({ tau: 21, triangles: 99, coarse: false, waiting: false });
+    expect(surfaces.arrivalOf(0)).toMatchObject({ of: "21 all", triangles: 99, coarse: false, waiting: false });
   });
   it("are not asked for twice, and one that was small enough is whole", async () => {
     const { surfaces, asked } = lanes();
@@ -66,8 +81,9 @@ describe("surfaces", () => {
     asked[0]?.answer({});
     await surfaces.settled();
     surfaces.want(0, wish(1), false);
-    surfaces.want(0, wish(1), false);
     expect(asked.length).toBe(1);
+    for (let i = 0; i < 3; ++i) surfaces.want(0, wish(2), false); // as when its colour changes meanwhile
+    expect(asked.length).toBe(2);
   });
   it("of a coarse one that rests only the whole one is asked for", async () => {
     const { surfaces, asked } = lanes();
@@ -78,6 +94,21 @@ describe("surfaces", () => {
     expect(asked.map(({ most }) => most)).toEqual([20_000, 1e8]);
     surfaces.forget(0);
     expect(asked[1]?.left).toBe(true);
+  });
+});
+
+describe("what is said of a surface", () => {
+  const there = { of: "5 all", triangles: 1234, bytes: 9, coarse: true, walls: null, waiting: true, error: "" };
+  it("is what has come of it", () => {
+    const shown = shownAt(0, 5);
+    expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
+    expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, on its way");
+    expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");
+    expect(noteOf(shown, { ...there, triangles: 0, error: "no" })).toBe("at 5, not there");
+    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, of: "5 cavities", walls: 2, coarse: false })).toBe(
+      "at 5, 2 cavities, 1,234 triangles",
+    );
+    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, of: "5 cavities", triangles: 0 })).toBe("at 5, no cavities");
   });
 });
 
@@ -116,7 +147,15 @@ describe("events", () => {
 
 describe("the badge", () => {
   it("says what it costs", () => {
-    const preview = { tau: 3, objects: 1, contours: 3, tunnels: 0, cavities: 2, triangles: [1000, 2000] as [number, number], bytes: [0, 0] as [number, number] };
+    const preview = {
+      tau: 3,
+      objects: 1,
+      contours: 3,
+      tunnels: 0,
+      cavities: 2,
+      triangles: [1000, 2000] as [number, number],
+      bytes: [0, 0] as [number, number],
+    };
     expect(allText(preview)).toBe("all at 3: 1 object, no tunnels, 2 cavities, 1,000 to 2,000 triangles, at most 5 kB");
     expect([5, 999_999, 2_345_678].map(bytesText)).toEqual(["5 bytes", "1000 kB", "2.3 MB"]);
   });
@@ -125,7 +164,11 @@ describe("the badge", () => {
 describe("what is measured", () => {
   it("is told in units of the file", () => {
     const there = { id: 4, tunnels: 1, cavities: 0, voxels: [10, 12] as [number, number], area: 250, volume: 1234 };
-    expect(factsOf(there, 4, 50, "mm")).toEqual([["at 50", "1.23 cm³, 10 to 12 voxels"], ["area", "2.5 cm²"], ["shape", "1 tunnel, no cavities"]]);
+    expect(factsOf(there, 4, 50, "mm")).toEqual([
+      ["at 50", "1.23 cm³, 10 to 12 voxels"],
+      ["area", "2.5 cm²"],
+      ["shape", "1 tunnel, no cavities"],
+    ]);
     expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: 10 to 12 voxels");
     expect(factsOf(there, 4, 50, null)[1]?.[1]).toBe("250 faces of a voxel");
   });
@@ -135,13 +178,17 @@ describe("the command line of a scene", () => {
   it("has every object at its isovalue, its colour and its opacity, and the camera", () => {
     const command = renderCommand(page, two.shown, camera, [640, 480], false);
     const [first, second] = page.entries;
-    expect(command).toContain(`--object ${first?.id}@10 --object ${second?.id}@20.5 --colour '${first?.colour.toUpperCase()}' --colour '#12AB00' --opacity 1 --opacity 0.5`);
+    expect(command).toContain(
+      `--object ${first?.id}@10 --object ${second?.id}@20.5 --colour '${first?.colour.toUpperCase()}' --colour '#12AB00' --opacity 1 --opacity 0.5`,
+    );
     expect(command).toContain("--eye=-1,2,3 --target=0,0,0.5 --height 12.5 --perspective --size 640x480 --plain -o scene.png");
   });
   it("goes by the order of the command line, leaves out what is hidden, and cuts", () => {
     const all = add({ ...two, shown: two.shown.map((one, i) => ({ ...one, visible: i > 0 })) }, -1, 7);
     const cut = { normal: [-0.6, 0, 0.8], offset: -3 };
-    expect(renderCommand(page, all.shown, { ...camera, flat: true, cut }, [9, 9], true)).toMatch(/--tau 7 --object \d+@20.5 --colour '#999999' --colour '#12AB00' .*--height 12.5 --cut='-0.6x\+0.8z>-3' --size 9x9 --background dark/);
+    expect(renderCommand(page, all.shown, { ...camera, flat: true, cut }, [9, 9], true)).toMatch(
+      /--tau 7 --object \d+@20.5 --colour '#999999' --colour '#12AB00' .*--height 12.5 --cut='-0.6x\+0.8z>-3' --size 9x9 --background dark/,
+    );
   });
 });
 
@@ -151,7 +198,10 @@ describe("a scene as a file", () => {
     expect(readScene(page, writeScene(page, NOTHING))).toEqual(NOTHING);
   });
   it.skipIf(!existsSync(schemaFile))("has what its schema says, no more and no less", () => {
-    const schema = JSON.parse(readFileSync(schemaFile, "utf8")) as { required: string[]; properties: { shown: { items: { required: string[]; properties: object } } } };
+    const schema = JSON.parse(readFileSync(schemaFile, "utf8")) as {
+      required: string[];
+      properties: { shown: { items: { required: string[]; properties: object } } };
+    };
     const file = JSON.parse(writeScene(page, two)) as { shown: object[] };
     expect(Object.keys(file).sort()).toEqual([...schema.required].sort());
     const { required, properties } = schema.properties.shown.items;
@@ -201,7 +251,14 @@ describe("an animated PNG", () => {
   const picture = (side: number, grey: number): Uint8Array => {
     const header = Buffer.from([0, 0, 0, side, 0, 0, 0, side, 8, 0, 0, 0, 0]);
     const lines = deflateSync(Buffer.concat(Array.from({ length: side }, () => Buffer.from([0, ...new Array<number>(side).fill(grey)]))));
-    return new Uint8Array(Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk("IHDR", header), chunk("IDAT", lines), chunk("IEND", Buffer.alloc(0))]));
+    return new Uint8Array(
+      Buffer.concat([
+        Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]),
+        chunk("IHDR", header),
+        chunk("IDAT", lines),
+        chunk("IEND", Buffer.alloc(0)),
+      ]),
+    );
   };
   it("has every picture's own bytes, in order", () => {
     const frames = [1, 2, 3].map((grey) => picture(2, grey));
@@ -221,22 +278,53 @@ describe("an animated PNG", () => {
 describe("the palette", () => {
   // Simulated dichromats: Machado, Oliveira, Fernandes 2009, table 1, severity 1, of linear red, green, blue.
   const eyes: Record<string, number[][]> = {
-    all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-    protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
-    deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
-    tritanopia: [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
+    all: [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ],
+    protanopia: [
+      [0.152286, 1.052583, -0.204868],
+      [0.114503, 0.786281, 0.099216],
+      [-0.003882, -0.048116, 1.051998],
+    ],
+    deuteranopia: [
+      [0.367322, 0.860646, -0.227968],
+      [0.280085, 0.672501, 0.047413],
+      [-0.01182, 0.04294, 0.968881],
+    ],
+    tritanopia: [
+      [1.255528, -0.076749, -0.178779],
+      [-0.078411, 0.930809, 0.147602],
+      [0.004733, 0.691367, 0.3039],
+    ],
   };
-  const linear = (hex: string): number[] => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  const linear = (hex: string): number[] =>
+    [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
   const times = (matrix: number[][], v: number[]): number[] => matrix.map((row) => row.reduce((sum, m, i) => sum + m * (v[i] ?? 0), 0));
   const lab = (rgb: number[]): [number, number, number] => {
-    const [x = 0, y = 0, z = 0] = times([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]], rgb.map((c) => Math.min(Math.max(c, 0), 1)));
-    const [fx, fy, fz] = [x / 0.9505, y, z / 1.089].map((t) => (t > 0.008856 ? Math.cbrt(t) : 7.787 * t + 16 / 116)) as [number, number, number];
+    const [x = 0, y = 0, z = 0] = times(
+      [
+        [0.4124, 0.3576, 0.1805],
+        [0.2126, 0.7152, 0.0722],
+        [0.0193, 0.1192, 0.9505],
+      ],
+      rgb.map((c) => Math.min(Math.max(c, 0), 1)),
+    );
+    const [fx, fy, fz] = [x / 0.9505, y, z / 1.089].map((t) => (t > 0.008856 ? Math.cbrt(t) : 7.787 * t + 16 / 116)) as [
+      number,
+      number,
+      number,
+    ];
     return [116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)];
   };
   it("is told apart by every kind of colour vision", () => {
     for (const [eye, matrix] of Object.entries(eyes)) {
       const seen = PALETTE.map(([name, colour]) => ({ name, lab: lab(times(matrix, linear(colour))) }));
-      for (const p of seen) for (const q of seen) if (p !== q) expect(Math.hypot(...p.lab.map((c, i) => c - (q.lab[i] ?? 0))), `${p.name} and ${q.name}, ${eye}`).toBeGreaterThan(11);
+      for (const p of seen)
+        for (const q of seen)
+          if (p !== q)
+            expect(Math.hypot(...p.lab.map((c, i) => c - (q.lab[i] ?? 0))), `${p.name} and ${q.name}, ${eye}`).toBeGreaterThan(11);
     }
   });
 });

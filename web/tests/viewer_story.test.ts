@@ -1,5 +1,6 @@
-// The ten minutes of a newcomer: open, choose the largest object, isolate, evolve, ghost the others, export, copy the link, restore. Once with
-// the mouse, once with the keyboard alone; on a volume made here and, where it is, on a scan of a tooth. Pictures are kept for people to look at.
+// The ten minutes of a newcomer: open, choose the largest object, isolate, evolve, ghost the others, export, copy the link, restore.
+// Once with the mouse, once with the keyboard alone; on a volume made here and, where it is, on a scan of a tooth. Pictures are kept for
+// people to look at.
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
@@ -30,7 +31,11 @@ interface Hand {
   copyLink(tab: Tab): Promise<void>;
 }
 
-const item = (tab: Tab, title: string) => tab.locator(".side").getByRole("button", { name: new RegExp(`^${title}\\b`) }).first();
+const item = (tab: Tab, title: string) =>
+  tab
+    .locator(".side")
+    .getByRole("button", { name: new RegExp(`^${title}\\b`) })
+    .first();
 
 /** Tab, until it is there. */
 async function tabTo(tab: Tab, isThere: () => Promise<boolean>): Promise<void> {
@@ -43,18 +48,25 @@ async function tabTo(tab: Tab, isThere: () => Promise<boolean>): Promise<void> {
 
 function focused(tab: Tab, selector: string, text: RegExp): () => Promise<boolean> {
   return () =>
-    tab.evaluate(([selector, source]) => {
-      const { activeElement } = document;
-      const name = activeElement?.getAttribute("aria-label") ?? activeElement?.textContent ?? "";
-      return activeElement?.closest(selector) != null && new RegExp(source).test(name);
-    }, [selector, text.source] as const);
+    tab.evaluate(
+      ([selector, source]) => {
+        const { activeElement } = document;
+        const name = activeElement?.getAttribute("aria-label") ?? activeElement?.textContent ?? "";
+        return activeElement?.closest(selector) != null && new RegExp(source).test(name);
+      },
+      [selector, text.source] as const,
+    );
 }
 
 const mouse: Hand = {
   name: "mouse",
   choose: (tab, title) => item(tab, title).click(),
   add: (tab, title) => item(tab, title).click({ modifiers: ["Shift"] }),
-  select: (tab, title) => tab.locator(".scene").getByRole("button", { name: new RegExp(`^Select ${title} `) }).click(),
+  select: (tab, title) =>
+    tab
+      .locator(".scene")
+      .getByRole("button", { name: new RegExp(`^Select ${title} `) })
+      .click(),
   async type(tab, tau) {
     await tab.getByRole("textbox", { name: "isovalue" }).fill(String(tau));
     await tab.getByRole("textbox", { name: "isovalue" }).press("Enter");
@@ -143,7 +155,9 @@ for (const [volume, there, serve] of volumes) {
 
         const seen = meshes(tab);
         await hand.choose(tab, title);
-        await expect.poll(note, { timeout: 10_000 }).toEqual([expect.stringContaining(`${extracted(object.id, object.best_tau).toLocaleString("en")} triangles`)]);
+        await expect
+          .poll(note, { timeout: 10_000 })
+          .toEqual([expect.stringContaining(`${extracted(object.id, object.best_tau).toLocaleString("en")} triangles`)]);
         expect(await tab.getByRole("textbox", { name: "isovalue" }).inputValue()).toBe(String(Number(object.best_tau.toPrecision(7))));
         await step("2-isolated");
 
@@ -179,7 +193,8 @@ for (const [volume, there, serve] of volumes) {
         await expect.poll(() => restored.tab.locator(".scene .state").allTextContents(), { timeout: 10_000 }).toEqual(await note());
         expect(restored.tab.url()).toBe(link);
         await keepPicture(restored.tab, `${hand.name}-5-restored`);
-        const drawn = (page: Tab): Promise<string> => page.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage canvas")?.toDataURL() ?? "");
+        const drawn = (page: Tab): Promise<string> =>
+          page.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage canvas")?.toDataURL() ?? "");
         await expect.poll(async () => (await drawn(restored.tab)) === (await drawn(tab)), { timeout: 10_000 }).toBe(true); // pixel by pixel
         expect([...problems, ...restored.problems]).toEqual([]);
         await restored.tab.close();

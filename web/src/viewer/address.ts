@@ -4,7 +4,9 @@ import type { Shown, State } from "./state";
 
 export function toHash(state: State): string {
   const view = state.view ? `&view=${state.view.map((n) => Number(n.toPrecision(7))).join(",")}` : "";
-  const parts = Object.keys(state.parts).sort().map((key) => `&${key}=${encodeURIComponent(state.parts[key] ?? "").replaceAll("%2C", ",")}`);
+  const parts = Object.keys(state.parts)
+    .sort()
+    .map((key) => `&${key}=${encodeURIComponent(state.parts[key] ?? "").replaceAll("%2C", ",")}`);
   return `#scene=${state.shown.map(wordsOf).join(";")}&selected=${state.selected}${view}${parts.join("")}`;
 }
 

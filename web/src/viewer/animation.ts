@@ -13,13 +13,20 @@ export interface AnimationWishes {
 }
 
 /** tell: how many frames are made; isOver: the reader wants no more. Null where it was ended. The scene is left as it was. */
-export async function animate(desk: Desk, wishes: AnimationWishes, tell: (made: number) => void, isOver: () => boolean): Promise<Blob | null> {
+export async function animate(
+  desk: Desk,
+  wishes: AnimationWishes,
+  tell: (made: number) => void,
+  isOver: () => boolean,
+): Promise<Blob | null> {
   const pictures: Uint8Array[] = [];
   const { stage, history, scene } = desk;
   const [state, view] = [history.now, stage.eye.view];
   try {
     for (let k = 0; k < wishes.frames && !isOver(); ++k) {
-      const drawn = wishes.along ? await evolved(desk, state, wishes.along, k / Math.max(1, wishes.frames - 1)) : turned(desk, state, view, k / wishes.frames);
+      const drawn = wishes.along
+        ? await evolved(desk, state, wishes.along, k / Math.max(1, wishes.frames - 1))
+        : turned(desk, state, view, k / wishes.frames);
       pictures.push(new Uint8Array(await (await pngOf(drawPicture(desk, wishes.picture, drawn))).arrayBuffer()));
       tell(k + 1);
       await new Promise((resolve) => setTimeout(resolve));

@@ -1,4 +1,4 @@
-// An animated PNG of pictures that are PNGs themselves: their compressed lines are taken over as they are (PNG specification, 3rd edition, 11.3).
+// An animated PNG of pictures that are PNGs themselves: their compressed lines are taken over as they are (PNG, 3rd edition, 11.3).
 
 const SIGNATURE = [137, 80, 78, 71, 13, 10, 26, 10];
 const TABLE = Uint32Array.from({ length: 256 }, (_, n) => {
@@ -17,7 +17,10 @@ export function animatedPng(frames: readonly Uint8Array[], framesPerSecond: numb
   const pictures = frames.map(chunksOf);
   const header = find(pictures[0] ?? [], "IHDR");
   const size = header.slice(0, 8);
-  const chunks: Chunk[] = [{ type: "IHDR", bytes: header }, { type: "acTL", bytes: words(frames.length, 0) }];
+  const chunks: Chunk[] = [
+    { type: "IHDR", bytes: header },
+    { type: "acTL", bytes: words(frames.length, 0) },
+  ];
   let number = 0;
   pictures.forEach((picture, i) => {
     if (String(find(picture, "IHDR")) !== String(header)) throw new Error("a picture of the animation has another size");
@@ -41,7 +44,7 @@ export function chunksOf(file: Uint8Array): Chunk[] {
   if (SIGNATURE.some((byte, i) => file[i] !== byte)) throw new Error("a picture of the animation is no PNG");
   const view = new DataView(file.buffer, file.byteOffset, file.byteLength);
   const chunks: Chunk[] = [];
-  for (let at = 8; at + 12 <= file.length; ) {
+  for (let at = 8; at + 12 <= file.length;) {
     const length = view.getUint32(at);
     chunks.push({ type: String.fromCharCode(...file.subarray(at + 4, at + 8)), bytes: file.subarray(at + 8, at + 8 + length) });
     at += length + 12;

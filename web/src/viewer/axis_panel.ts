@@ -1,4 +1,4 @@
-// The isovalue of what is selected: dragged, typed, stepped, played; where something happens; and what its surface will be before it is made.
+// The isovalue of what is selected: dragged, typed, stepped, played; where something happens; what its surface will be before it is made.
 import { Axis, drawTicks, histogramPath } from "../axis";
 import { html, svg } from "../dom";
 import { value } from "../format";
@@ -32,7 +32,13 @@ export class AxisPanel {
   private readonly mark = svg("line", { class: "mark", y1: 0, y2: LINE });
   private readonly range = svg("rect", { class: "range", y: 24, height: 8 });
   private readonly box = html("input", { type: "text", inputmode: "decimal", "aria-label": "isovalue" });
-  private readonly step = html("input", { type: "text", inputmode: "decimal", class: "step", "aria-label": "step", title: "how much [ and ] change the isovalue" });
+  private readonly step = html("input", {
+    type: "text",
+    inputmode: "decimal",
+    class: "step",
+    "aria-label": "step",
+    title: "how much [ and ] change the isovalue",
+  });
   private readonly badge = html("output", { class: "badge" });
   private readonly slider = html("input", { type: "range", min: 0, max: STEPS, "aria-label": "isovalue, on the histogram" });
   private readonly tip = html("div", { class: "tip", role: "tooltip", hidden: true });
@@ -51,7 +57,14 @@ export class AxisPanel {
     this.box.addEventListener("change", () => this.commit());
     this.step.addEventListener("change", () => this.commitStep());
     const unit = page.volume.valueUnit ? ` ${page.volume.valueUnit}` : "";
-    const line = html("div", { class: "line" }, html("label", {}, "isovalue ", this.box, unit), html("label", {}, "step ", this.step), this.controls(), this.badge);
+    const line = html(
+      "div",
+      { class: "line" },
+      html("label", {}, "isovalue ", this.box, unit),
+      html("label", {}, "step ", this.step),
+      this.controls(),
+      this.badge,
+    );
     const drawn = html("div", { class: "drawn" }, this.drawing, this.slider, this.tip);
     new ResizeObserver(() => this.draw(drawn.clientWidth)).observe(drawn);
     drawn.addEventListener("pointermove", (event) => this.point(event, drawn));
@@ -88,7 +101,14 @@ export class AxisPanel {
     const ticks = this.events.map(({ tau }) => svg("line", { x1: this.axis.x(tau), x2: this.axis.x(tau), y1: LINE - 6, y2: LINE }));
     const histogram = svg("path", { class: "histogram", d: histogramPath(page.histogram, this.axis, 2, LINE) });
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
-    this.drawing.replaceChildren(histogram, this.range, svg("g", { class: "events" }, ...ticks), drawTicks(this.axis, LINE, Math.min(8, width / ROOM)), this.others, this.mark);
+    this.drawing.replaceChildren(
+      histogram,
+      this.range,
+      svg("g", { class: "events" }, ...ticks),
+      drawTicks(this.axis, LINE, Math.min(8, width / ROOM)),
+      this.others,
+      this.mark,
+    );
     this.show(history.now);
   }
 
@@ -98,13 +118,20 @@ export class AxisPanel {
   }
 
   private controls(): HTMLElement {
-    const speed = html("select", { "aria-label": "speed" }, ...SPEEDS.map((n) => html("option", { value: n, selected: n === this.player.speed }, `${n} steps/s`)));
+    const speed = html(
+      "select",
+      { "aria-label": "speed" },
+      ...SPEEDS.map((n) => html("option", { value: n, selected: n === this.player.speed }, `${n} steps/s`)),
+    );
     speed.addEventListener("change", () => (this.player.speed = Number(speed.value)));
     return html("span", { class: "play", role: "group", "aria-label": "play" }, this.back, this.forth, speed);
   }
 
   private sayWay(): void {
-    for (const [button, way, sign, word] of [[this.back, -1, "◀", "play downwards"], [this.forth, 1, "▶", "play upwards"]] as const) {
+    for (const [button, way, sign, word] of [
+      [this.back, -1, "◀", "play downwards"],
+      [this.forth, 1, "▶", "play upwards"],
+    ] as const) {
       const plays = this.player.way === way;
       button.textContent = plays ? "❚❚" : sign;
       button.setAttribute("aria-label", plays ? "pause" : word);

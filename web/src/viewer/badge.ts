@@ -10,7 +10,10 @@ import type { Shown } from "./state";
 const BYTES_A_TRIANGLE = 2.7;
 
 export async function badgeOf({ api, page }: Desk, shown: Shown): Promise<string> {
-  const [preview, objects] = await Promise.all([api.preview(shown.tau), branchOfShown(page, shown.entry)?.side === "bright" ? api.objects(shown.tau) : []]);
+  const [preview, objects] = await Promise.all([
+    api.preview(shown.tau),
+    branchOfShown(page, shown.entry)?.side === "bright" ? api.objects(shown.tau) : [],
+  ]);
   const own = shown.entry >= 0 ? objects.find(({ id }) => id === entryOf(page, shown.entry).id) : undefined;
   return `${own ? `this object: ${shapeText(own)}; ` : ""}${allText(preview)}`;
 }
@@ -23,7 +26,8 @@ function shapeText({ tunnels, cavities }: { tunnels: number; cavities: number })
 export function allText(preview: Preview): string {
   const [least, most] = preview.triangles;
   const triangles = least === most ? count(most) : `${count(least)} to ${count(most)}`;
-  return `all at ${value(preview.tau)}: ${plural(preview.objects, "object")}, ${shapeText(preview)}, ${triangles} triangles, at most ${bytesText(most * BYTES_A_TRIANGLE)}`;
+  const all = `all at ${value(preview.tau)}: ${plural(preview.objects, "object")}, ${shapeText(preview)}`;
+  return `${all}, ${triangles} triangles, at most ${bytesText(most * BYTES_A_TRIANGLE)}`;
 }
 
 export function bytesText(bytes: number): string {

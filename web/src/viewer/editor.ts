@@ -21,6 +21,11 @@ export class Editor {
     this.history.go({ ...(tau === undefined ? alone : change(alone, 0, { tau })), view: null });
   }
 
+  /** This alone, and nothing was before. */
+  begin(entry: number): void {
+    this.history.amend(isolate(this.now, entry, bestOf(this.page, entry)));
+  }
+
   add(entry: number, tau = bestOf(this.page, entry)): void {
     this.history.go(add(this.now, entry, tau));
   }

@@ -79,11 +79,18 @@ export class History {
   }
 }
 
-const WORDS: Partial<Record<keyof Shown, string>> = { tau: "isovalue", opacity: "opacity", colour: "colour", visible: "show or hide", walls: "cavities only" };
+const WORDS: Partial<Record<keyof Shown, string>> = {
+  tau: "isovalue",
+  opacity: "opacity",
+  colour: "colour",
+  visible: "show or hide",
+  walls: "cavities only",
+};
 
 /** Empty: nothing a reader could tell. */
 export function nameOfChange(before: State, after: State): string {
-  if (before.shown.length !== after.shown.length || before.shown.some((shown, i) => shown.entry !== after.shown[i]?.entry)) return listChange(before, after);
+  if (before.shown.length !== after.shown.length || before.shown.some((shown, i) => shown.entry !== after.shown[i]?.entry))
+    return listChange(before, after);
   for (const [key, word] of Object.entries(WORDS) as [keyof Shown, string][]) {
     const changed = before.shown.filter((shown, i) => shown[key] !== after.shown[i]?.[key]).length;
     if (changed > 0) return changed === 1 || before.shown.length === 1 ? word : `${word} of all`;

@@ -70,7 +70,7 @@ class Viewer implements Desk {
     this.actions.listen(document);
     this.listenToClicks();
     if (asked) this.show(asked, NOTHING, false);
-    else if (page.entries.length > 0) this.editor.isolate(0);
+    else if (page.entries.length > 0) this.editor.begin(0);
     else {
       this.show(NOTHING, NOTHING, false);
       this.say("There is nothing to show: noise explains all there is.");

@@ -30,12 +30,24 @@ export function menus(actions: Actions): HTMLElement {
   }
   document.addEventListener("click", (event) => !bar.contains(event.target as Node) && close());
   bar.addEventListener("keydown", (event) => {
+    const open = bar.querySelector<HTMLElement>("details[open]");
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") return walk(event, open);
     if (event.key !== "Escape") return;
-    const summary = bar.querySelector<HTMLElement>("details[open] summary");
     close();
-    summary?.focus();
+    open?.querySelector("summary")?.focus();
   });
   return bar;
+}
+
+/** Up and down in an open menu, round and round. */
+function walk(event: KeyboardEvent, open: HTMLElement | null): void {
+  if (!open) return;
+  const buttons = [...open.querySelectorAll("button")];
+  const at = buttons.findIndex((button) => button === document.activeElement);
+  const to = event.key === "ArrowDown" ? at + 1 : at < 0 ? -1 : at - 1;
+  buttons.at(to % buttons.length)?.focus();
+  event.preventDefault();
+  event.stopPropagation(); // else the picture turns
 }
 
 function buttonOf(action: Action, done: () => void): HTMLElement {
@@ -49,14 +61,28 @@ function buttonOf(action: Action, done: () => void): HTMLElement {
 }
 
 export function help(actions: Actions): HTMLDialogElement {
-  const list = html("dl", {});
-  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keys"), list);
+  const lists = html("div", { class: "groups" });
+  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keys"), lists);
   dialog.append(html("button", { type: "button", click: () => dialog.close() }, "Close"));
   const show = (): void => {
-    const keys = actions.all.filter((action) => action.keys).map((action): [string, string] => [signsOf(action), action.name]);
-    list.replaceChildren(...[...keys, ...GESTURES].flatMap(([key, what]) => [html("dt", {}, key), html("dd", {}, what)]));
+    const keyed = (group: Group): [string, string][] =>
+      actions.all.filter((action) => action.group === group && action.keys).map((action) => [signsOf(action), action.name]);
+    const groups: [string, [string, string][]][] = [
+      ...GROUPS.map((group): [string, [string, string][]] => [group, keyed(group)]),
+      ["Without a menu", GESTURES],
+    ];
+    lists.replaceChildren(...groups.filter(([, keys]) => keys.length > 0).map(([title, keys]) => keyList(title, keys)));
     dialog.showModal();
   };
   actions.add({ group: "Help", name: "all keys", keys: ["?"], run: show });
   return dialog;
+}
+
+function keyList(title: string, keys: [string, string][]): HTMLElement {
+  return html(
+    "section",
+    {},
+    html("h3", {}, title),
+    html("dl", {}, ...keys.flatMap(([key, what]) => [html("dt", {}, key), html("dd", {}, what)])),
+  );
 }

@@ -38,12 +38,19 @@ export class ObjectPanel {
   private describe(i: number): void {
     this.title.textContent = titleOf(this.desk.page, i);
     this.here.replaceChildren();
-    fill(this.facts, i === EVERYTHING ? [["what", ["everything at least as bright as its isovalue"]]] : [...this.known(i), ...this.relations(i)]);
+    fill(
+      this.facts,
+      i === EVERYTHING ? [["what", ["everything at least as bright as its isovalue"]]] : [...this.known(i), ...this.relations(i)],
+    );
   }
 
   private async measure(shown: Shown): Promise<void> {
     const facts = await measuredFacts(this.desk, shown);
-    if (shown.entry === this.entry) fill(this.here, facts.map(([name, text]) => [name, [text]]));
+    if (shown.entry === this.entry)
+      fill(
+        this.here,
+        facts.map(([name, text]) => [name, [text]]),
+      );
   }
 
   private known(i: number): Fact[] {
@@ -55,7 +62,10 @@ export class ObjectPanel {
       ["on its own", branch ? [`${rangeOf(branch)}${unitOf(page.volume.valueUnit)}`] : []],
       ["best seen at", [this.place(entry.tau, entry.why), entry.why ? `: ${entry.why}` : ""]],
       ["look also at", more.flatMap(({ tau, why }, n) => [n > 0 ? ", " : "", this.place(tau, why)])],
-      ["size there", [`${volume(entry.measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(entry.voxels, "voxel")}`}`]],
+      [
+        "size there",
+        [`${volume(entry.measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(entry.voxels, "voxel")}`}`],
+      ],
       ["shape there", [shapeOf(page, i)]],
     ];
     return facts.filter(([, what]) => what.length > 0);
@@ -63,7 +73,11 @@ export class ObjectPanel {
 
   /** An isovalue that what is selected goes to. */
   private place(tau: number, why: string): HTMLElement {
-    return html("button", { type: "button", class: "link", title: why, "aria-label": `Go to isovalue ${value(tau)}`, click: () => this.desk.editor.move(tau) }, value(tau));
+    return html(
+      "button",
+      { type: "button", class: "link", title: why, "aria-label": `Go to isovalue ${value(tau)}`, click: () => this.desk.editor.move(tau) },
+      value(tau),
+    );
   }
 
   /** Each as links, where the other one has an entry. */
@@ -77,10 +91,24 @@ export class ObjectPanel {
     if (entry.inside < 0 && entry.around < 0 && placeOf(page, i)) facts.push(["lies", [placeOf(page, i)]]);
     facts.push(["contains", this.links(contentsOf(page, i))]);
     if (merges !== null) facts.push(["merges", [`at ${value(merges)} into `, this.branchLink(parent)]]);
-    const arriving = page.branches.flatMap((other, b) => (other.parent === entry.branch ? [b] : [])).filter((b) => entriesOf(page, b).length > 0);
+    const arriving = page.branches
+      .flatMap((other, b) => (other.parent === entry.branch ? [b] : []))
+      .filter((b) => entriesOf(page, b).length > 0);
     arriving.sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
-    facts.push(["takes in", this.links(arriving.flatMap((b) => entriesOf(page, b).slice(0, 1)), (k) => ` at ${value(branchOfShown(page, k)?.merges ?? 0)}`)]);
-    facts.push(["the same object", this.links(entriesOf(page, entry.branch).filter((k) => k !== i), (k) => ` at ${value(entryOf(page, k).tau)}`)]);
+    facts.push([
+      "takes in",
+      this.links(
+        arriving.flatMap((b) => entriesOf(page, b).slice(0, 1)),
+        (k) => ` at ${value(branchOfShown(page, k)?.merges ?? 0)}`,
+      ),
+    ]);
+    facts.push([
+      "the same object",
+      this.links(
+        entriesOf(page, entry.branch).filter((k) => k !== i),
+        (k) => ` at ${value(entryOf(page, k).tau)}`,
+      ),
+    ]);
     return facts.filter(([, what]) => what.length > 0);
   }
 
@@ -99,7 +127,17 @@ export class ObjectPanel {
   private link(k: number): HTMLElement {
     const { page, editor } = this.desk;
     const go = (event: Event): void => ((event as MouseEvent).shiftKey ? editor.isolate(k) : editor.add(k));
-    return html("button", { type: "button", class: "link", "aria-label": `Go to ${titleOf(page, k)}`, title: "add it to the scene and select it; with shift: alone", click: go }, titleOf(page, k));
+    return html(
+      "button",
+      {
+        type: "button",
+        class: "link",
+        "aria-label": `Go to ${titleOf(page, k)}`,
+        title: "add it to the scene and select it; with shift: alone",
+        click: go,
+      },
+      titleOf(page, k),
+    );
   }
 }
 

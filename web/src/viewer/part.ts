@@ -1,4 +1,4 @@
-// What a part of the viewer keeps in a state: one word of the address, under a name of its own. It is undone, redone, linked and saved with the rest.
+// What a part of the viewer keeps in a state: one word of the address, under a name of its own. It is undone, linked and saved like the rest.
 export interface HasParts {
   readonly parts: Readonly<Record<string, string>>;
 }
@@ -38,12 +38,19 @@ export class Part<T> {
 
 /** What is on or off, off at first. */
 export function flag(key: string, title: string): Part<boolean> {
-  return new Part(key, title, false, (on) => (on ? "1" : "0"), (text) => (text === "1" ? true : text === "0" ? false : null));
+  return new Part(
+    key,
+    title,
+    false,
+    (on) => (on ? "1" : "0"),
+    (text) => (text === "1" ? true : text === "0" ? false : null),
+  );
 }
 
 /** A number, null at first. */
 export function number(key: string, title: string, isGood: (n: number) => boolean = () => true): Part<number | null> {
-  const read = (text: string): number | null => (text.trim() !== "" && Number.isFinite(Number(text)) && isGood(Number(text)) ? Number(text) : null);
+  const read = (text: string): number | null =>
+    text.trim() !== "" && Number.isFinite(Number(text)) && isGood(Number(text)) ? Number(text) : null;
   return new Part<number | null>(key, title, null, (n) => (n === null ? "" : String(Number(n.toPrecision(7)))), read);
 }
 
@@ -59,7 +66,12 @@ export function numbersOf(text: string): number[] | null {
 }
 
 /** So many numbers, null at first. */
-export function numbers(key: string, title: string, count: number, isGood: (list: number[]) => boolean = () => true): Part<number[] | null> {
+export function numbers(
+  key: string,
+  title: string,
+  count: number,
+  isGood: (list: number[]) => boolean = () => true,
+): Part<number[] | null> {
   const read = (text: string): number[] | null => {
     const list = numbersOf(text);
     return list && list.length === count && isGood(list) ? list : null;

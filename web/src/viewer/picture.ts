@@ -52,14 +52,20 @@ function drawScale(pen: CanvasRenderingContext2D, { stage, page }: Desk, { width
 
 function drawLegend(pen: CanvasRenderingContext2D, { page, scene }: Desk, state: State, letter: number): void {
   const ink = pen.fillStyle;
-  state.shown.filter(({ visible }) => visible).forEach((shown, i) => {
-    const y = letter * (1.4 + 1.5 * i);
-    pen.fillStyle = colourOfShown(page, shown);
-    pen.fillRect(letter, y - letter * 0.8, letter * 0.9, letter * 0.9);
-    pen.fillStyle = ink;
-    const [where] = noteOf(shown, scene.arrivalOf(shown.entry)).split(",");
-    pen.fillText(`${titleOf(page, shown.entry)} ${where ?? ""}${page.volume.valueUnit ? ` ${page.volume.valueUnit}` : ""}`, letter * 2.3, y);
-  });
+  state.shown
+    .filter(({ visible }) => visible)
+    .forEach((shown, i) => {
+      const y = letter * (1.4 + 1.5 * i);
+      pen.fillStyle = colourOfShown(page, shown);
+      pen.fillRect(letter, y - letter * 0.8, letter * 0.9, letter * 0.9);
+      pen.fillStyle = ink;
+      const [where] = noteOf(shown, scene.arrivalOf(shown.entry)).split(",");
+      pen.fillText(
+        `${titleOf(page, shown.entry)} ${where ?? ""}${page.volume.valueUnit ? ` ${page.volume.valueUnit}` : ""}`,
+        letter * 2.3,
+        y,
+      );
+    });
 }
 
 export async function pngOf(canvas: HTMLCanvasElement): Promise<Blob> {

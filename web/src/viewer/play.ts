@@ -46,7 +46,11 @@ export class Player {
     const [low, high] = ownRange(page, shown.entry);
     const inside = shown.tau >= low && shown.tau <= high;
     const [first, last] = inside ? [low, high] : [page.axis.low, page.axis.high];
-    for (let tau = shown.tau + direction * deltaOf(page, history.now); tau >= first && tau <= last; tau += direction * deltaOf(page, history.now)) {
+    for (
+      let tau = shown.tau + direction * deltaOf(page, history.now);
+      tau >= first && tau <= last;
+      tau += direction * deltaOf(page, history.now)
+    ) {
       const frame = new Promise((resolve) => setTimeout(resolve, 1000 / this.speed));
       editor.move(tau, true);
       await scene.settled();
@@ -57,4 +61,3 @@ export class Player {
     this.stop();
   }
 }
-

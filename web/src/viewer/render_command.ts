@@ -17,14 +17,28 @@ export interface Camera {
 
 const OPTIONS = ["--tau", "--object", "--contour", "--cavities"];
 
-/** shown: as drawn, so with the opacity of a ghost; those that are not visible are left out. size: pixels. beside: words for what is no surface. */
-export function renderCommand(page: Page, shown: readonly Shown[], camera: Camera, size: readonly [number, number], dark: boolean, beside: readonly string[] = []): string {
+/** shown: as drawn, so with the opacity of a ghost; what is not visible is left out. size: pixels. beside: words for what is no surface. */
+export function renderCommand(
+  page: Page,
+  shown: readonly Shown[],
+  camera: Camera,
+  size: readonly [number, number],
+  dark: boolean,
+  beside: readonly string[] = [],
+): string {
   const things = shown.filter(({ visible }) => visible).map((one) => ({ one, words: thing(page, one) }));
   things.sort((p, q) => OPTIONS.indexOf(p.words[0]) - OPTIONS.indexOf(q.words[0])); // colours and opacities go by this order
   const words = [`isoatlas render ${storeOf(page)}`, ...things.map(({ words: [option, what] }) => `${option} ${what}`)];
-  words.push(...things.map(({ one }) => `--colour '${colourOfShown(page, one).toUpperCase()}'`), ...things.map(({ one }) => `--opacity ${short(one.opacity)}`));
+  words.push(
+    ...things.map(({ one }) => `--colour '${colourOfShown(page, one).toUpperCase()}'`),
+    ...things.map(({ one }) => `--opacity ${short(one.opacity)}`),
+  );
   words.push(...beside);
-  words.push(`--eye=${camera.view.slice(0, 3).map(short).join(",")}`, `--target=${camera.view.slice(3).map(short).join(",")}`, `--height ${short(camera.height)}`);
+  words.push(
+    `--eye=${camera.view.slice(0, 3).map(short).join(",")}`,
+    `--target=${camera.view.slice(3).map(short).join(",")}`,
+    `--height ${short(camera.height)}`,
+  );
   if (!camera.flat) words.push("--perspective");
   if (camera.cut) words.push(`--cut='${plane(camera.cut.normal)}>${short(camera.cut.offset)}'`);
   return [...words, `--size ${size.join("x")}`, ...(dark ? ["--background dark"] : []), "--plain", "-o scene.png"].join(" ");
@@ -44,7 +58,9 @@ export function storeOf(page: Page): string {
 }
 
 function plane(normal: readonly number[]): string {
-  const terms = normal.map((n, axis) => `${n < 0 ? "-" : "+"}${short(Math.abs(n))}${"xyz"[axis]}`).filter((term) => !/^[+-]0[xyz]$/.test(term));
+  const terms = normal
+    .map((n, axis) => `${n < 0 ? "-" : "+"}${short(Math.abs(n))}${"xyz"[axis]}`)
+    .filter((term) => !/^[+-]0[xyz]$/.test(term));
   return terms.join("").replace(/^\+/, "");
 }
 

@@ -21,7 +21,9 @@ export class Saving {
     const shown = selectedOf(this.desk.history.now);
     if (!shown) return this.nothing();
     const { api, page } = this.desk;
-    return this.file(`${this.name}.${format}`, "the surface is being written", () => api.file(shown.tau, whichOf(page, shown.entry), format, shown.walls));
+    return this.file(`${this.name}.${format}`, "the surface is being written", () =>
+      api.file(shown.tau, whichOf(page, shown.entry), format, shown.walls),
+    );
   }
 
   /** 1 where the selected object is at its isovalue, 0 elsewhere; or all objects there, the largest is 1. */
@@ -30,7 +32,9 @@ export class Saving {
     if (!shown) return this.nothing();
     const { api, page } = this.desk;
     const all = shown.entry === EVERYTHING || isDark(page, shown.entry);
-    return this.file(`${this.name}.${format}`, "the labels are being written", () => api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format));
+    return this.file(`${this.name}.${format}`, "the labels are being written", () =>
+      api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format),
+    );
   }
 
   picture(wishes: PictureWishes): Promise<void> {

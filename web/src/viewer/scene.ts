@@ -65,7 +65,12 @@ export class Scene {
   private dressOf(state: State, i: number): Dress {
     const shown = state.shown[i] as Shown;
     const pale = GHOSTS.of(state) && i !== state.selected;
-    return { colour: colourOfShown(this.desk.page, shown), opacity: pale ? PALE * shown.opacity : shown.opacity, visible: shown.visible, solid: !pale };
+    return {
+      colour: colourOfShown(this.desk.page, shown),
+      opacity: pale ? PALE * shown.opacity : shown.opacity,
+      visible: shown.visible,
+      solid: !pale,
+    };
   }
 
   private put(entry: number, mesh: Mesh | null, tau: number): void {

@@ -9,9 +9,14 @@ const SCHEMA = "isoatlas/scene/1";
 
 /** Text of the file. Objects are named by the voxel that names them in the store, so that the file outlives the order of the list. */
 export function writeScene(page: Page, state: State): string {
-  const shown = state.shown.map((one) => ({ id: one.entry < 0 ? null : entryOf(page, one.entry).id, name: titleOf(page, one.entry), ...one }));
+  const shown = state.shown.map((one) => ({
+    id: one.entry < 0 ? null : entryOf(page, one.entry).id,
+    name: titleOf(page, one.entry),
+    ...one,
+  }));
   const { name, size } = page.volume;
-  return `${JSON.stringify({ schema: SCHEMA, volume: { name, size }, shown, selected: state.selected, view: state.view, parts: state.parts }, null, 2)}\n`;
+  const { selected, view, parts } = state;
+  return `${JSON.stringify({ schema: SCHEMA, volume: { name, size }, shown, selected, view, parts }, null, 2)}\n`;
 }
 
 /** Throws Error: what is wrong, where, and what was expected. */
@@ -19,7 +24,8 @@ export function readScene(page: Page, text: string): State {
   const file = new Reader(parsed(text), "the scene");
   if (file.text("schema") !== SCHEMA) throw new Error(`The scene has the schema "${file.text("schema")}"; this viewer reads "${SCHEMA}".`);
   const size = file.within("volume").list("size", (at, where) => at.whole(where, 1, Infinity));
-  if (String(size) !== String(page.volume.size)) throw new Error(`The scene is of a volume of ${size.join(" x ")} samples, this one has ${page.volume.size.join(" x ")}.`);
+  if (String(size) !== String(page.volume.size))
+    throw new Error(`The scene is of a volume of ${size.join(" x ")} samples, this one has ${page.volume.size.join(" x ")}.`);
   const shown = file.list("shown", (at, where) => shownOf(page, at.within(where)));
   const twice = shown.findIndex(({ entry }, i) => shown.findIndex((other) => other.entry === entry) < i);
   if (twice >= 0) throw new Error(`shown[${twice}] is in the scene twice.`);
@@ -40,12 +46,23 @@ function shownOf(page: Page, at: Reader): Shown {
   const entry = at.whole("entry", -1, numbersOf(page) - 1);
   const id = at.value("id");
   const expected = entry < 0 ? null : entryOf(page, entry).id;
-  if (id !== expected) throw new Error(`${at.where}.id is ${JSON.stringify(id)}, but entry ${entry} of this volume is ${expected}: the scene is of another volume.`);
+  if (id !== expected)
+    throw new Error(
+      `${at.where}.id is ${JSON.stringify(id)}, but entry ${entry} of this volume is ${expected}: the scene is of another volume.`,
+    );
   const colour = at.value("colour");
-  if (colour !== null && !(typeof colour === "string" && /^#[0-9a-f]{6}$/.test(colour))) throw new Error(`${at.where}.colour is ${JSON.stringify(colour)}; it takes #rrggbb in small letters, or null.`);
+  if (colour !== null && !(typeof colour === "string" && /^#[0-9a-f]{6}$/.test(colour)))
+    throw new Error(`${at.where}.colour is ${JSON.stringify(colour)}; it takes #rrggbb in small letters, or null.`);
   const walls = at.text("walls");
   if (walls !== "all" && walls !== "cavities") throw new Error(`${at.where}.walls is "${walls}"; it takes "all" or "cavities".`);
-  return { entry, tau: at.number("tau", -Infinity, Infinity), opacity: at.number("opacity", 0, 1), visible: at.truth("visible"), colour, walls };
+  return {
+    entry,
+    tau: at.number("tau", -Infinity, Infinity),
+    opacity: at.number("opacity", 0, 1),
+    visible: at.truth("visible"),
+    colour,
+    walls,
+  };
 }
 
 function partsOf(at: Reader): Record<string, string> {
@@ -88,7 +105,9 @@ class Reader {
   }
   number(name: string, least: number, most: number): number {
     const value = this.value(name);
-    return typeof value === "number" && value >= least && value <= most ? value : this.bad(name, `a number${most < Infinity ? ` from ${least} to ${most}` : ""}`);
+    return typeof value === "number" && value >= least && value <= most
+      ? value
+      : this.bad(name, `a number${most < Infinity ? ` from ${least} to ${most}` : ""}`);
   }
   whole(name: string, least: number, most: number): number {
     const value = this.number(name, least, most);

@@ -25,6 +25,9 @@ export function placeText({ page }: Pick<Desk, "page">, place: readonly number[]
   return `${place.map(value).join(", ")} ${page.volume.unit ?? ""}`.trimEnd();
 }
 
+/** back and on along x, y, z */
+const KEYS = ["5", "6", "7", "8", "9", "0"];
+
 export class Slices {
   private readonly grid: Grid;
   private readonly views: SliceView[];
@@ -139,8 +142,8 @@ export class Slices {
       { group: "Tools", name: "select what holds the sample at the crosshair", keys: ["a"], run: () => void this.held.choose(crosshairOf(this.desk)) },
     );
     for (const axis of AXES) {
-      actions.add({ group: "Tools", name: `crosshair back along ${AXIS_NAMES[axis]}`, keys: [String(2 * axis + 1)], run: step(axis, -1) });
-      actions.add({ group: "Tools", name: `crosshair on along ${AXIS_NAMES[axis]}`, keys: [String(2 * axis + 2)], run: step(axis, 1) });
+      actions.add({ group: "Tools", name: `crosshair back along ${AXIS_NAMES[axis]}`, keys: [KEYS[2 * axis] ?? ""], run: step(axis, -1) });
+      actions.add({ group: "Tools", name: `crosshair on along ${AXIS_NAMES[axis]}`, keys: [KEYS[2 * axis + 1] ?? ""], run: step(axis, 1) });
     }
   }
 }

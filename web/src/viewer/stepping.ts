@@ -20,7 +20,13 @@ export function stepping(desk: Desk): void {
     if (editor.selected) editor.move(editor.selected.tau + by * deltaOf(page, history.now));
   };
   const toEvent = (up: boolean) => (): void => {
-    const tau = editor.selected && nextEvent(events.map((event) => event.tau), editor.selected.tau, up);
+    const tau =
+      editor.selected &&
+      nextEvent(
+        events.map((event) => event.tau),
+        editor.selected.tau,
+        up,
+      );
     if (typeof tau !== "number") return;
     editor.move(tau);
     desk.say(events.find((event) => event.tau === tau)?.text ?? "");

@@ -16,7 +16,8 @@ export interface Wish {
 
 /** What there is of an object: how much came, whether more is coming, or why there is nothing. */
 export interface Arrival {
-  tau: number;
+  /** of which wish: keyOf; empty: of none yet */
+  of: string;
   triangles: number;
   bytes: number;
   coarse: boolean;
@@ -26,19 +27,20 @@ export interface Arrival {
   error: string;
 }
 
-const NONE: Arrival = { tau: NaN, triangles: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
+const NONE: Arrival = { of: "", triangles: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
 
 class Lane {
   key = "";
-  /** what has come is of this */
-  shown = "";
   /** how many triangles are being asked for; 0: nothing is */
   asking = 0;
+  /** will the whole surface be asked for without another wish? */
+  toTheEnd = false;
   next: Wish | null = null;
   arrival = NONE;
 }
 
-function keyOf({ tau, walls }: Wish): string {
+/** The same for wishes that are answered by the same surface. */
+export function keyOf({ tau, walls }: Pick<Wish, "tau" | "walls">): string {
   return `${tau} ${walls}`;
 }
 
@@ -62,13 +64,15 @@ export class Surfaces {
     const lane = this.lanes.get(entry) ?? new Lane();
     this.lanes.set(entry, lane);
     const [key, { arrival }] = [keyOf(wish), lane];
-    if (lane.key === key && (dragging || lane.asking === WHOLE || (lane.shown === key && !arrival.coarse))) return;
+    lane.next = null;
+    const isComing = lane.asking > 0 && (dragging || lane.toTheEnd);
+    if (lane.key === key && (isComing || (arrival.of === key && (dragging || !arrival.coarse)))) return;
     if (dragging && lane.asking === COARSE) {
       lane.next = wish;
       return;
     }
-    const steps = dragging ? [COARSE] : lane.shown === key ? [WHOLE] : [COARSE, WHOLE];
-    lane.next = null;
+    const steps = dragging ? [COARSE] : arrival.of === key ? [WHOLE] : [COARSE, WHOLE];
+    lane.toTheEnd = !dragging;
     lane.key = key;
     this.follow(this.ask(entry, lane, wish, steps));
   }
@@ -101,15 +105,21 @@ export class Surfaces {
         this.told(entry);
         const mesh = await this.api.surface(laneName(entry), wish.tau, wish.which, most, wish.walls);
         if (isOld()) return;
-        lane.shown = key;
-        lane.arrival = { tau: wish.tau, triangles: mesh.triangles, bytes: mesh.bytes, coarse: mesh.coarse, walls: wish.walls === "cavities" && !mesh.coarse ? pieces(mesh.corners) : null, waiting: false, error: "" };
+        lane.arrival = {
+          of: key,
+          triangles: mesh.triangles,
+          bytes: mesh.bytes,
+          coarse: mesh.coarse,
+          walls: wish.walls === "cavities" && !mesh.coarse ? pieces(mesh.corners) : null,
+          waiting: false,
+          error: "",
+        };
         this.came(entry, mesh, wish.tau);
         if (!mesh.coarse) break;
       }
     } catch (error) {
       if (isOld() || isOvertaken(error)) return;
-      lane.shown = key;
-      lane.arrival = { ...NONE, tau: wish.tau, error: error instanceof Error ? error.message : String(error) };
+      lane.arrival = { ...NONE, of: key, error: error instanceof Error ? error.message : String(error) };
       this.came(entry, null, wish.tau);
     }
     lane.asking = 0;

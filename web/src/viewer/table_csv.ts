@@ -3,7 +3,22 @@ import { nameOf } from "../names";
 import { branchOf, entryOf, type Page } from "../page";
 import type { State } from "./state";
 
-const COLUMNS = ["name", "id", "side", "best_tau", "appears", "merges", "voxels", "volume", "unit", "tunnels", "cavities", "inside", "cavity_of", "shown_at"];
+const COLUMNS = [
+  "name",
+  "id",
+  "side",
+  "best_tau",
+  "appears",
+  "merges",
+  "voxels",
+  "volume",
+  "unit",
+  "tunnels",
+  "cavities",
+  "inside",
+  "cavity_of",
+  "shown_at",
+];
 
 /** Those of the page, and what else is shown. Comma-separated values; volumes in the unit of the file, or voxels. */
 export function tableCsv(page: Page, state: State): string {
@@ -14,7 +29,22 @@ export function tableCsv(page: Page, state: State): string {
     const name = (k: number): string => (k >= 0 ? nameOf(page, k) : "");
     const shown = state.shown.find((one) => one.entry === i);
     const unit = page.volume.unit ? `${page.volume.unit}3` : "voxel";
-    return [nameOf(page, i), entry.id, branch.side, entry.tau, branch.appears, branch.merges, entry.voxels, entry.measure, unit, entry.tunnels, entry.cavities, name(entry.inside), name(entry.around), shown?.tau];
+    return [
+      nameOf(page, i),
+      entry.id,
+      branch.side,
+      entry.tau,
+      branch.appears,
+      branch.merges,
+      entry.voxels,
+      entry.measure,
+      unit,
+      entry.tunnels,
+      entry.cavities,
+      name(entry.inside),
+      name(entry.around),
+      shown?.tau,
+    ];
   });
   return [COLUMNS, ...lines].map((line) => `${line.map(cell).join(",")}\r\n`).join("");
 }

@@ -28,5 +28,12 @@ export function theme(desk: Desk): void {
     desk.say(now === "system" ? "light or dark, as the system has it" : `${now}, whatever the system has`);
   };
   wear();
-  actions.add({ group: "Look", keys: ["d"], run: next, get name() { return `light or dark: ${now === "system" ? "as the system has it" : now}`; } });
+  actions.add({
+    group: "Look",
+    keys: ["d"],
+    run: next,
+    get name() {
+      return `light or dark: ${now === "system" ? "as the system has it" : now}`;
+    },
+  });
 }
