@@ -162,8 +162,9 @@ Answer Service::surface_answer(const Question& question) {
     const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
     if (format) return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }));
     const Vec3& spacing = atlas.info().geometry.spacing;
-    const WireMesh mesh = wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most});
-    Answer answer = file_answer({reinterpret_cast<const char*>(mesh.bytes.data()), mesh.bytes.size()});
+    WireMesh mesh =
+        wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most, .threads = context_.threads});
+    Answer answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
     return answer;

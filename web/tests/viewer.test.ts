@@ -71,8 +71,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     const { tab, problems } = await open();
     const seen = meshes(tab);
     await tab.getByRole("button", { name: /^Dark object 1/ }).click();
-    await expect.poll(() => seen.length).toBeGreaterThan(0);
-    expect(seen[0]?.asked.has("contour")).toBe(true);
+    await expect.poll(() => seen.some((mesh) => mesh.asked.has("contour"))).toBe(true);
     await tab.keyboard.press("s");
     expect(await tab.locator(".save code").textContent()).toContain("--contour");
     await tab.keyboard.press("Escape");
