@@ -15,7 +15,7 @@
 namespace isoatlas::server {
 namespace {
 
-constexpr int kAtOnce = 2, kMostWaiting = 256;
+constexpr int kAtOnce = 2, kQuickAtOnce = 4, kMostWaiting = 256;
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000;
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
@@ -60,12 +60,14 @@ Service::Service(std::string token, const Context& context, std::int64_t memory)
       memory_((memory > 0 ? memory : available_memory() / 4) / kAtOnce),
       opening_(changes_),
       turns_(kAtOnce, kMostWaiting, &changes_),
+      quick_(kQuickAtOnce, kMostWaiting),
       events_(opening_, turns_, changes_) {
     context_.progress = {};
 }
 
 void Service::end() {
     turns_.end();
+    quick_.end();
     events_.end();
 }
 
@@ -114,18 +116,20 @@ Answer Service::atlas_answer() {
     return json_answer(atlas_json_.get([&atlas = atlas(), this] { return atlas_json(atlas, context_); }));
 }
 
-Answer Service::preview_answer(const Question& question) const {
+Answer Service::preview_answer(const Question& question) {
     Words words(question.words);
     const double tau = required_tau(words);
     words.refuse_others();
+    const std::unique_ptr<Turns::Turn> turn = quick_.take(question.client, question.left);
     return json_answer(preview_json(atlas().preview(stored_tau(atlas(), tau)), tau));
 }
 
-Answer Service::objects_answer(const Question& question) const {
+Answer Service::objects_answer(const Question& question) {
     Words words(question.words);
     const double tau = required_tau(words);
     const std::int64_t top = words.whole("top", 1, kMostListed).value_or(1000);
     words.refuse_others();
+    const std::unique_ptr<Turns::Turn> turn = quick_.take(question.client, question.left);
     return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false), tau, top));
 }
 

@@ -42,8 +42,8 @@ private:
     [[nodiscard]] Answer answer_known(const Question& question);
     [[nodiscard]] Answer events_answer(const Question& question);
     [[nodiscard]] Answer atlas_answer();
-    [[nodiscard]] Answer preview_answer(const Question& question) const;
-    [[nodiscard]] Answer objects_answer(const Question& question) const;
+    [[nodiscard]] Answer preview_answer(const Question& question);
+    [[nodiscard]] Answer objects_answer(const Question& question);
     [[nodiscard]] Answer measures_answer(const Question& question);
     [[nodiscard]] Answer surface_answer(const Question& question);
     [[nodiscard]] Answer label_answer(const Question& question);
@@ -63,6 +63,7 @@ private:
     Changes changes_;
     Opening opening_;
     Turns turns_;
+    Turns quick_;  ///< of what is known from the trees alone
     EventStreams events_;
     Lazy<std::string> atlas_json_;
 };
