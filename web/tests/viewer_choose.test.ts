@@ -28,7 +28,7 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
     expect(await said(tab)).toContain(`${first.branches - first.hidden} of ${count(first.branches)} objects shown`);
     const card = tab.locator(".card").first();
     await card.locator(".turntable").focus();
-    await expect.poll(() => card.locator("img").evaluate((image) => image.style.width), { timeout: 20_000 }).toBe("1200%"); // all around
+    await expect.poll(() => card.locator("img").evaluate((image) => image.style.width)).toBe("1200%"); // all around
     await tab.keyboard.press("ArrowRight");
     expect(await card.locator(".turntable").getAttribute("data-frame")).toBe("1");
     await tab.locator(".card .picture").nth(1).click();

@@ -115,7 +115,7 @@ describe.skipIf(!canServe)("a ball", () => {
         pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
         return (pen.getImageData(0, 0, 1, 1).data[3] ?? 0) / 255;
       });
-    await expect.poll(opacity, { timeout: 10_000 }).toBeGreaterThan(0);
+    await expect.poll(opacity).toBeGreaterThan(0);
     await tab.waitForTimeout(600);
     expect(Math.abs((await opacity()) - expected)).toBeLessThan(0.02);
     expect(await tab.locator(".matter-bar").textContent()).toContain("41 × 41 × 41: every sample");
