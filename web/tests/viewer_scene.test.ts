@@ -26,12 +26,11 @@ describe.skipIf(!canServe)("the scene", () => {
   const settled = (tab: Tab): Promise<void> =>
     expect
       .poll(
-        () =>
+() =>
           tab
             .locator(".scene .state")
             .allTextContents()
             .then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))),
-        { timeout: 10_000 },
       )
       .toBe(true);
   const save = async (tab: Tab, run: () => Promise<void>, name: string): Promise<string> => {
