@@ -26,7 +26,7 @@ describe.skipIf(!canServe)("the scene", () => {
   const settled = (tab: Tab): Promise<void> =>
     expect
       .poll(
-() =>
+        () =>
           tab
             .locator(".scene .state")
             .allTextContents()
