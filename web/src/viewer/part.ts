@@ -53,7 +53,7 @@ export function textOf(list: readonly number[]): string {
 }
 
 /** null: it is none of them. */
-export function numbersOf(text: string): number[] | null {
+export function numbersIn(text: string): number[] | null {
   const list = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
   return list.every(Number.isFinite) ? list : null;
 }
@@ -61,7 +61,7 @@ export function numbersOf(text: string): number[] | null {
 /** So many numbers, null at first. */
 export function numbers(key: string, title: string, count: number, isGood: (list: number[]) => boolean = () => true): Part<number[] | null> {
   const read = (text: string): number[] | null => {
-    const list = numbersOf(text);
+    const list = numbersIn(text);
     return list && list.length === count && isGood(list) ? list : null;
   };
   return new Part<number[] | null>(key, title, null, (list) => (list === null ? "" : textOf(list)), read);
