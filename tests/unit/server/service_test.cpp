@@ -214,15 +214,24 @@ TEST_F(ServiceTest, WhatHoldsAVoxelIsWhatACutSays) {
 
 TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     std::mt19937 random(7);
-    const std::vector<std::string> paths{"/",          "/api/atlas",  "/api/preview",  "/api/objects", "/api/surface",      "/api/measures",
-                                         "/api/label", "/api/events", "/api/branches", "/api/card",    "/api/../api/atlas", "//"};
-    const std::vector<std::string> names{"tau", "object", "most", "top", "entry", "branch", "keep", "persistence", "", "TAU"};
-    const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan", "", "0", "1", "99999999999999999999",
-                                          "1,2,3", "\xff\0x", "0.5;"};
-    const std::vector<std::string> paths{
-        "/",           "/api/atlas", "/api/preview", "/api/objects", "/api/surface",  "/api/measures",     "/api/label",
-        "/api/events", "/api/slice", "/api/volume",  "/api/at",      "/api/transfer", "/api/../api/atlas", "//"};
-    const std::vector<std::string> names{"tau", "object", "most", "top", "", "TAU", "axis", "index", "voxel", "contour"};
+    const std::vector<std::string> paths{"/",
+                                         "/api/atlas",
+                                         "/api/preview",
+                                         "/api/objects",
+                                         "/api/surface",
+                                         "/api/measures",
+                                         "/api/label",
+                                         "/api/events",
+                                         "/api/branches",
+                                         "/api/card",
+                                         "/api/slice",
+                                         "/api/volume",
+                                         "/api/at",
+                                         "/api/transfer",
+                                         "/api/../api/atlas",
+                                         "//"};
+    const std::vector<std::string> names{"tau",         "object", "most", "top",  "entry", "branch", "keep",
+                                         "persistence", "",       "TAU",  "axis", "index", "voxel",  "contour"};
     const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan",       "", "0", "1", "99999999999999999999",
                                           "1,2,3", "\xff\0x", "0.5;",  "7@0.5,9@-1"};
     for (int i = 0; i < 2000; ++i) {
