@@ -3,6 +3,7 @@
 #include <optional>
 #include <thread>
 
+#include <malloc.h>
 #include <spawn.h>
 
 #include "document.h"
@@ -54,6 +55,9 @@ private:
     std::thread thread_;
 };
 
+/// Every arena of the allocator keeps what its largest answer has needed: few of them, not one for each connection.
+void keep_memory_flat() { (void)::mallopt(M_ARENA_MAX, 2); }
+
 Context context_of(const Arguments& arguments) {
     Context context;
     context.threads = arguments.threads;
@@ -67,6 +71,7 @@ void wait_for_the_end() {
 }  // namespace
 
 int run_view(const Arguments& arguments, Terminal& terminal) {
+    keep_memory_flat();
     const std::string store = store_to_view(arguments);
     const AtlasOptions options{.cache_bytes = arguments.memory};
     std::optional<Atlas> atlas;

@@ -1,65 +1,139 @@
 #!/usr/bin/env python3
 """What does a step along the isovalue cost a viewer? Starts `isoatlas view` on a store and walks over its surfaces, as a key held down does.
 
-    /usr/bin/python3 bench/view/steps.py build/release/bin/isoatlas STORE [--from A --to B] [--steps 60] [--clients 1]
+    /usr/bin/python3 bench/view/steps.py build/release/bin/isoatlas STORE [--triangles 200000] [--steps 60] [--clients 1] [--seconds S]
 
-Prints one line of the table in docs/performance.md: triangles, milliseconds a step (surface made, packed, coded and received; median and
-slowest), bytes a triangle on the wire. With several clients, each walks on its own; the slowest client and the memory of the server too.
+Prints lines of the table in docs/performance.md: clients, steps, triangles, milliseconds of a step (surface made, packed, coded and
+received; median, 95 % are faster, slowest, and the median of the slowest client), bytes a triangle on the wire, failures, and the memory of
+the server after a tenth of the steps and at the end, MB. Steps go up and down near the isovalue with about that many triangles, or over the
+whole axis without --triangles. Each of several clients walks on its own, from another place; for SECONDS, instead of STEPS, if given.
 """
 import argparse
-import concurrent.futures
+import http.client
 import json
 import pathlib
 import signal
 import statistics
 import subprocess
+import threading
 import time
-import urllib.request
+
+AROUND = 0.02  # of the axis, on both sides
 
 
-def walk(address, token, taus, client):
-    taken, triangles, sizes = [], [], []
-    for tau in taus:
-        request = urllib.request.Request(f"{address}/api/surface?tau={tau!r}", headers={
-            "Authorization": "Bearer " + token, "Accept-Encoding": "zstd", "X-Client": str(client)})
-        before = time.perf_counter()
-        with urllib.request.urlopen(request, timeout=120) as answer:
-            size = len(answer.read())
-            taken.append(time.perf_counter() - before)
-            triangles.append(int(answer.headers["X-Triangles"]))
-            sizes.append(size)
-    return taken, triangles, sizes
+class Server:
+    def __init__(self, isoatlas, store, arguments):
+        self.process = subprocess.Popen([isoatlas, "view", store, "--no-browser", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        address, self.token = self.process.stdout.readline().strip().split("/?token=")
+        self.port = int(address.rsplit(":", 1)[1])
+
+    def ask(self, connection, path, client):
+        """Status, headers, bytes."""
+        connection.request("GET", path, headers={"Authorization": "Bearer " + self.token, "Accept-Encoding": "zstd", "X-Client": client})
+        answer = connection.getresponse()
+        return answer.status, answer.headers, answer.read()
+
+    def connect(self):
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=120)
+
+    def json(self, path):
+        connection = self.connect()
+        connection.request("GET", path, headers={"Authorization": "Bearer " + self.token})
+        return json.load(connection.getresponse())
+
+    def memory(self):
+        """Resident, MB."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(next(line for line in status.splitlines() if line.startswith("VmRSS")).split()[1]) // 1000
+
+    def stop(self):
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait()
+
+
+class Walk(threading.Thread):
+    """A client that asks again as soon as it is answered."""
+
+    def __init__(self, server, taus, steps, until, name):
+        super().__init__()
+        self.server, self.taus, self.steps, self.until, self.client = server, taus, steps, until, name
+        self.seconds, self.triangles, self.bytes, self.failures = [], [], 0, 0
+
+    def run(self):
+        connection = self.server.connect()
+        while len(self.seconds) < self.steps and time.monotonic() < self.until:
+            tau = self.taus[len(self.seconds) % len(self.taus)]
+            before = time.perf_counter()
+            try:
+                status, headers, body = self.server.ask(connection, f"/api/surface?tau={tau!r}", self.client)
+            except OSError:
+                status, connection = 0, self.server.connect()
+            self.seconds.append(time.perf_counter() - before)
+            if status != 200:
+                self.failures += 1
+                continue
+            self.triangles.append(int(headers["X-Triangles"]))
+            self.bytes += len(body)
+
+
+def axis_around(server, triangles):
+    """The isovalues between which the steps go."""
+    axis = server.json("/api/atlas")["axis"]
+    low, high = axis["low"], axis["high"]
+    if triangles is None:
+        return low, high
+    taus = [low + (high - low) * i / 200 for i in range(1, 200)]
+    middle = min(taus, key=lambda tau: abs(sum(server.json(f"/api/preview?tau={tau!r}")["triangles"]) / 2 - triangles))
+    return middle - AROUND * (high - low), middle + AROUND * (high - low)
+
+
+def up_and_down(low, high, count, start):
+    """Fractions of a way there and back again, so that no step is far."""
+    there = [low + (high - low) * i / max(1, count - 1) for i in range(count)]
+    way = there + there[-2:0:-1]
+    first = int(start * len(way))
+    return way[first:] + way[:first]
+
+
+def measure(server, arguments, low, high):
+    until = time.monotonic() + arguments.seconds if arguments.seconds else float("inf")
+    steps = 10**9 if arguments.seconds else arguments.steps
+    walks = [Walk(server, up_and_down(low, high, 60, i / arguments.clients), steps, until, f"client {i}") for i in range(arguments.clients)]
+    begin = time.monotonic()
+    for walk in walks:
+        walk.start()
+    early = None
+    while any(walk.is_alive() for walk in walks):
+        time.sleep(0.05)
+        done = (time.monotonic() - begin) / arguments.seconds if arguments.seconds else len(walks[0].seconds) / steps
+        if early is None and done >= 0.1:
+            early = server.memory()
+    return walks, early
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("isoatlas")
     parser.add_argument("store")
-    parser.add_argument("--from", dest="first", type=float)
-    parser.add_argument("--to", dest="last", type=float)
+    parser.add_argument("--triangles", type=int)
     parser.add_argument("--steps", type=int, default=60)
     parser.add_argument("--clients", type=int, default=1)
+    parser.add_argument("--seconds", type=float)
+    parser.add_argument("--memory", help="budget of the server")
     arguments = parser.parse_args()
-    server = subprocess.Popen([arguments.isoatlas, "view", arguments.store, "--no-browser"], stdout=subprocess.PIPE, text=True)
+    server = Server(arguments.isoatlas, arguments.store, ["--memory", arguments.memory] if arguments.memory else [])
     try:
-        page = server.stdout.readline().strip()
-        address, token = page.split("/?token=")
-        ask = urllib.request.Request(address + "/api/atlas", headers={"Authorization": "Bearer " + token})
-        axis = json.load(urllib.request.urlopen(ask))["axis"]
-        first = axis["low"] + 0.4 * (axis["high"] - axis["low"]) if arguments.first is None else arguments.first
-        last = axis["low"] + 0.7 * (axis["high"] - axis["low"]) if arguments.last is None else arguments.last
-        taus = [first + (last - first) * i / max(1, arguments.steps - 1) for i in range(arguments.steps)]
-        with concurrent.futures.ThreadPoolExecutor(arguments.clients) as clients:
-            walks = list(clients.map(lambda client: walk(address, token, taus, client), range(arguments.clients)))
-        memory = next(line for line in pathlib.Path(f"/proc/{server.pid}/status").read_text().splitlines() if line.startswith("VmHWM"))
+        low, high = axis_around(server, arguments.triangles)
+        walks, early = measure(server, arguments, low, high)
+        late = server.memory()
     finally:
-        server.send_signal(signal.SIGINT)
-        server.wait()
-    taken = [1e3 * t for walked in walks for t in walked[0]]
-    triangles = walks[0][1]
-    a_triangle = sum(walks[0][2]) / max(1, sum(triangles))
-    print(f"| {pathlib.Path(arguments.store).stem} | {arguments.clients} | {min(triangles):,} to {max(triangles):,} | {statistics.median(taken):.0f} | "
-          f"{max(taken):.0f} | {a_triangle:.2f} | {int(memory.split()[1]) // 1024} |")
+        server.stop()
+    taken = sorted(1e3 * t for walk in walks for t in walk.seconds)
+    triangles = [n for walk in walks for n in walk.triangles]
+    slowest = max(statistics.median(walk.seconds) for walk in walks)
+    print(f"| {pathlib.Path(arguments.store).stem} | {arguments.clients} | {len(taken):,} | {min(triangles):,} to {max(triangles):,} | "
+          f"{statistics.median(taken):.0f} | {taken[int(0.95 * len(taken))]:.0f} | {taken[-1]:.0f} | {1e3 * slowest:.0f} | "
+          f"{sum(walk.bytes for walk in walks) / sum(triangles):.2f} | {sum(walk.failures for walk in walks)} | {early} to {late} |")
 
 
 if __name__ == "__main__":

@@ -180,10 +180,10 @@ PageContents page_contents(const Atlas& atlas, const PageOptions& options, const
     return Gatherer(atlas, options, context).gather();
 }
 
-Turntable draw_object(const Atlas& atlas, bool dark, const PageEntry& entry, const PageOptions& options, const Context& context) {
+Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context) {
     ExtractOptions chosen;
     (dark ? chosen.contours : chosen.objects) = {entry.id};
-    return draw_turntable(atlas.extract(entry.tau, chosen, context), entry.colour, options, context);
+    return atlas.extract(entry.tau, chosen, context);
 }
 
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context) {
@@ -195,8 +195,12 @@ void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions
     for (std::size_t i = 0; i < entries.size(); ++i) {
         PageEntry& entry = entries[i];
         context.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
-        entry.picture = image ? draw_still(*image, entry.tau, entry.colour, options, silent)
-                              : draw_object(atlas, contents.branches[entry.branch].dark, entry, options, silent);
+        if (image) {
+            entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
+            continue;
+        }
+        Surface surface = surface_of(atlas, contents.branches[entry.branch].dark, entry, silent);
+        entry.picture = draw_turntable(std::move(surface), entry.colour, options, silent);
     }
 }
 

@@ -60,9 +60,8 @@ struct PageContents {
 
 /// Without pictures. Throws as write_page(). Cost: Atlas::hierarchy() and Atlas::histogram().
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context);
-/// What an entry shows of a volume, as a turntable. dark: id is that of a contour. Cost: Atlas::extract(), and options.frames pictures.
-[[nodiscard]] Turntable draw_object(const Atlas& atlas, bool dark, const PageEntry& entry, const PageOptions& options,
-                                    const Context& context);
+/// What an entry shows of a 3D volume. dark: of its id, which is that of a contour. Cost: Atlas::extract().
+[[nodiscard]] Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context);
 /// Cost: options.frames pictures for every entry.
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);
 

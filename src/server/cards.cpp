@@ -1,11 +1,13 @@
 #include "server/cards.h"
 
+#include "server/coarse_surface.h"
 #include "server/document.h"
 
 namespace isoatlas::server {
 namespace {
 
 constexpr std::int64_t kPixels = 160;
+constexpr std::size_t kMostTriangles = 60'000;  ///< two a pixel
 
 std::string card_json(const std::string& name, const page::Turntable& picture) {
     return document("card", [&](output::JsonStream& json) {
@@ -30,8 +32,9 @@ std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int
     Context own = context;
     own.threads = 1;  // surfaces that somebody waits for go first
     own.cancelled = [&turn] { return turn->is_over(); };
-    std::string answer =
-        card_json(subject.name, page::draw_object(atlas, subject.dark, subject.entry, {.picture_size = kPixels, .frames = frames}, own));
+    const PageOptions options{.picture_size = kPixels, .frames = frames};
+    Surface surface = coarse_surface(page::surface_of(atlas, subject.dark, subject.entry, own), kMostTriangles);
+    std::string answer = card_json(subject.name, page::draw_turntable(std::move(surface), subject.entry.colour, options, own));
     answers_.keep(name, answer);
     return answer;
 }

@@ -16,7 +16,7 @@ namespace isoatlas::server {
 namespace {
 
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
-constexpr int kAtOnce = 2, kSamplesAtOnce = 2, kMostWaiting = 256;
+constexpr int kAtOnce = 2, kSamplesAtOnce = 2, kQuickAtOnce = 4, kMostWaiting = 256;
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
@@ -61,6 +61,7 @@ Service::Service(std::string token, const Context& context, std::int64_t memory)
       opening_(changes_),
       turns_(kAtOnce, kMostWaiting, &changes_),
       sample_turns_(kSamplesAtOnce, kMostWaiting, &changes_),
+      quick_(kQuickAtOnce, kMostWaiting),
       events_(opening_, turns_, changes_) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
@@ -71,6 +72,7 @@ void Service::end() {
     turns_.end();
     cards_.end();
     sample_turns_.end();
+    quick_.end();
     events_.end();
 }
 
@@ -137,18 +139,20 @@ const page::PageContents& Service::contents() const {
     return contents_.get([&atlas = atlas(), this] { return page::page_contents(atlas, {}, context_); });
 }
 
-Answer Service::preview_answer(const Question& question) const {
+Answer Service::preview_answer(const Question& question) {
     Words words(question.words);
     const double tau = required_tau(words);
     words.refuse_others();
+    const std::unique_ptr<Turns::Turn> turn = quick_.take(question.client, question.left);
     return json_answer(preview_json(atlas().preview(stored_tau(atlas(), tau)), tau));
 }
 
-Answer Service::objects_answer(const Question& question) const {
+Answer Service::objects_answer(const Question& question) {
     Words words(question.words);
     const double tau = required_tau(words);
     const std::int64_t top = words.whole("top", 1, kMostListed).value_or(1000);
     words.refuse_others();
+    const std::unique_ptr<Turns::Turn> turn = quick_.take(question.client, question.left);
     return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false), tau, top));
 }
 
@@ -219,8 +223,9 @@ Answer Service::surface_answer(const Question& question) {
     const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
     if (format) return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }));
     const Vec3& spacing = atlas.info().geometry.spacing;
-    const WireMesh mesh = wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most});
-    Answer answer = file_answer({reinterpret_cast<const char*>(mesh.bytes.data()), mesh.bytes.size()});
+    WireMesh mesh =
+        wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most, .threads = context_.threads});
+    Answer answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
     return answer;

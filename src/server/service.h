@@ -52,8 +52,8 @@ private:
     [[nodiscard]] Answer answer_known(const Question& question);
     [[nodiscard]] Answer events_answer(const Question& question);
     [[nodiscard]] Answer atlas_answer();
-    [[nodiscard]] Answer preview_answer(const Question& question) const;
-    [[nodiscard]] Answer objects_answer(const Question& question) const;
+    [[nodiscard]] Answer preview_answer(const Question& question);
+    [[nodiscard]] Answer objects_answer(const Question& question);
     [[nodiscard]] Answer measures_answer(const Question& question);
     [[nodiscard]] Answer branches_answer(const Question& question) const;
     [[nodiscard]] Answer card_answer(const Question& question);
@@ -79,6 +79,7 @@ private:
     Changes changes_;
     Opening opening_;
     Turns turns_, sample_turns_;
+    Turns quick_;  ///< of what is known from the trees alone
     EventStreams events_;
     Branches branches_;
     Cards cards_;

@@ -4,17 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <functional>
 #include <limits>
 #include <span>
 
+#include "base/parallel.h"
 #include "isoatlas/error.h"
+#include "server/coarse_surface.h"
 
 namespace isoatlas::server {
 namespace {
 
 constexpr std::uint32_t kHeaderBytes = 56;
 constexpr double kSteps = 65535;
+constexpr std::size_t kPart = std::size_t{3} << 15;  ///< corners: fixed, so that the bytes do not depend on threads
 
 struct WirePoint {
     std::array<std::uint16_t, 3> position{};
@@ -58,24 +61,23 @@ std::array<std::int8_t, 2> octahedral(const std::array<float, 3>& normal) {
     return {static_cast<std::int8_t>(std::lround(127 * x)), static_cast<std::int8_t>(std::lround(127 * y))};
 }
 
-std::vector<WirePoint> quantised(const Surface& surface, const Header& header) {
+std::vector<WirePoint> quantised(const Surface& surface, const Header& header, int threads) {
     std::vector<WirePoint> points(surface.points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for_each_index(threads, points.size(), [&](std::size_t i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double steps = std::round((surface.points[i][axis] - header.origin[axis]) / header.step);
             points[i].position[axis] = static_cast<std::uint16_t>(std::clamp(steps, 0.0, kSteps));
         }
         points[i].normal = octahedral(surface.normals[i]);
-    }
+    });
     return points;
 }
 
-std::vector<unsigned> corners_of(const Surface& surface) {
-    std::vector<unsigned> corners;
-    corners.reserve(3 * surface.triangles.size());
-    for (const auto& triangle : surface.triangles) {
-        for (const std::int64_t corner : triangle) corners.push_back(static_cast<unsigned>(corner));
-    }
+std::vector<unsigned> corners_of(const Surface& surface, int threads) {
+    std::vector<unsigned> corners(3 * surface.triangles.size());
+    for_each_index(threads, surface.triangles.size(), [&](std::size_t i) {
+        for (std::size_t k = 0; k < 3; ++k) corners[3 * i + k] = static_cast<unsigned>(surface.triangles[i][k]);
+    });
     return corners;
 }
 
@@ -84,27 +86,54 @@ std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vec
     std::vector<float> positions;
     positions.reserve(3 * points.size());
     for (const WirePoint& point : points) positions.insert(positions.end(), point.position.begin(), point.position.end());
-    std::vector<unsigned> kept(corners.size());
-    kept.resize(meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), positions.data(), points.size(), 3 * sizeof(float),
-                                       3 * most, std::numeric_limits<float>::max(), nullptr));
-    return kept;
+    return fewer_triangles(corners, positions, most);
+}
+
+/// A part of the triangles in strips. Their points have near numbers: memory is for those alone.
+void put_in_strips(std::span<unsigned> corners) {
+    const auto [least, most] = std::ranges::minmax(corners);
+    std::vector<unsigned> near(corners.size());
+    std::ranges::transform(corners, near.begin(), [first = least](unsigned corner) { return corner - first; });
+    std::vector<unsigned> strips(corners.size());
+    meshopt_optimizeVertexCacheStrip(strips.data(), near.data(), near.size(), std::size_t{most} - least + 1);
+    std::ranges::transform(strips, corners.begin(), [first = least](unsigned corner) { return corner + first; });
 }
 
 /// Triangles in strips, points in the order in which they come first: neighbours have near numbers, so both pack well.
-void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points) {
-    std::vector<unsigned> strips(corners.size());
-    meshopt_optimizeVertexCacheStrip(strips.data(), corners.data(), corners.size(), points.size());
+void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points, int threads) {
+    const std::size_t parts = (corners.size() + kPart - 1) / kPart;
+    for_each_block(threads, static_cast<std::int64_t>(parts), [&](std::int64_t part) {
+        const std::size_t first = static_cast<std::size_t>(part) * kPart;
+        put_in_strips(std::span(corners).subspan(first, std::min(kPart, corners.size() - first)));
+    });
     std::vector<WirePoint> ordered(points.size());
     ordered.resize(
-        meshopt_optimizeVertexFetch(ordered.data(), strips.data(), strips.size(), points.data(), points.size(), sizeof(WirePoint)));
-    corners.swap(strips);
+        meshopt_optimizeVertexFetch(ordered.data(), corners.data(), corners.size(), points.data(), points.size(), sizeof(WirePoint)));
     points.swap(ordered);
 }
 
-std::span<unsigned char> room(std::vector<std::byte>& bytes, std::size_t more) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + more);
-    return {reinterpret_cast<unsigned char*>(bytes.data()) + before, more};
+using Bytes = std::vector<unsigned char>;
+
+Bytes packed(const std::vector<WirePoint>& points) {
+    Bytes bytes(meshopt_encodeVertexBufferBound(points.size(), sizeof(WirePoint)));
+    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), points.data(), points.size(), sizeof(WirePoint)));
+    return bytes;
+}
+
+Bytes packed(const std::vector<unsigned>& corners, std::size_t points) {
+    Bytes bytes(meshopt_encodeIndexBufferBound(corners.size(), points));
+    bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), corners.data(), corners.size()));
+    return bytes;
+}
+
+/// The library keeps them in variables of its own: they are set once, before any thread packs.
+void choose_versions() {
+    static const bool chosen = [] {
+        meshopt_encodeVertexVersion(0);
+        meshopt_encodeIndexVersion(1);
+        return true;
+    }();
+    (void)chosen;
 }
 
 void check(const Surface& surface) {
@@ -118,38 +147,30 @@ void check(const Surface& surface) {
 
 WireMesh wire_mesh(const Surface& surface, const WireOptions& options) {
     check(surface);
+    choose_versions();
     const Box box = box_of(surface);
     Header header;
     header.origin = box.low;
     header.step = options.step;
     for (std::size_t axis = 0; axis < 3; ++axis) header.step = std::max(header.step, (box.high[axis] - box.low[axis]) / kSteps);
-    std::vector<WirePoint> points = quantised(surface, header);
-    std::vector<unsigned> corners = corners_of(surface);
+    std::vector<WirePoint> points = quantised(surface, header, options.threads);
+    std::vector<unsigned> corners = corners_of(surface, options.threads);
     WireMesh mesh;
     mesh.coarse = options.most_triangles > 0 && surface.triangles.size() > static_cast<std::size_t>(options.most_triangles);
     if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.most_triangles));
-    put_in_order(corners, points);
+    put_in_order(corners, points, options.threads);
     mesh.points = static_cast<std::int64_t>(points.size());
     mesh.triangles = static_cast<std::int64_t>(corners.size() / 3);
-    mesh.bytes.resize(kHeaderBytes);
-    const auto pack = [&mesh](std::size_t bound, auto&& encode) {
-        const std::size_t before = mesh.bytes.size();
-        const std::span<unsigned char> to = room(mesh.bytes, bound);
-        const std::size_t bytes = encode(to.data(), to.size());
-        mesh.bytes.resize(before + bytes);
-        return static_cast<std::uint32_t>(bytes);
-    };
-    meshopt_encodeVertexVersion(0);
-    meshopt_encodeIndexVersion(1);
+    Bytes point_bytes, triangle_bytes;
+    run_both(options.threads, [&] { point_bytes = packed(points); }, [&] { triangle_bytes = packed(corners, points.size()); });
     header.points = static_cast<std::uint32_t>(points.size());
     header.triangles = static_cast<std::uint32_t>(mesh.triangles);
-    header.point_bytes = pack(meshopt_encodeVertexBufferBound(points.size(), sizeof(WirePoint)), [&](unsigned char* to, std::size_t size) {
-        return meshopt_encodeVertexBuffer(to, size, points.data(), points.size(), sizeof(WirePoint));
-    });
-    header.triangle_bytes = pack(meshopt_encodeIndexBufferBound(corners.size(), points.size()), [&](unsigned char* to, std::size_t size) {
-        return meshopt_encodeIndexBuffer(to, size, corners.data(), corners.size());
-    });
-    std::memcpy(mesh.bytes.data(), &header, sizeof header);
+    header.point_bytes = static_cast<std::uint32_t>(point_bytes.size());
+    header.triangle_bytes = static_cast<std::uint32_t>(triangle_bytes.size());
+    mesh.bytes.reserve(kHeaderBytes + point_bytes.size() + triangle_bytes.size());
+    mesh.bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
+    for (const Bytes& bytes : {std::cref(point_bytes), std::cref(triangle_bytes)})
+        mesh.bytes.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     return mesh;
 }
 

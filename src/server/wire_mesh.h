@@ -11,9 +11,8 @@
 // Everything is little endian. Two bytes of a normal are an octahedral map of the unit sphere, 127 = 1.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <string>
 
 #include "isoatlas/surface.h"
 
@@ -22,10 +21,11 @@ namespace isoatlas::server {
 struct WireOptions {
     double step = 0;                  ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
     std::int64_t most_triangles = 0;  ///< fewer by clustering points where there are more; 0: as many as there are
+    int threads = 0;                  ///< 0: one per processor; the bytes do not depend on it
 };
 
 struct WireMesh {
-    std::vector<std::byte> bytes;
+    std::string bytes;
     std::int64_t points = 0, triangles = 0;
     bool coarse = false;  ///< triangles were left out
 };

@@ -1,6 +1,7 @@
 """Runs the marked blocks of a Markdown file.
 
     <!-- run -->       before ```sh:   run by bash in one empty folder for the whole file, `isoatlas` on the PATH; must succeed
+    <!-- run as python -->  before ```python: run in the same folder
     <!-- run with h5py -->  before ```python: run in the same folder; left out, and said so, where h5py is not installed
     <!-- prints -->    before ```text: exactly what the block before it printed on standard output
     <!-- program -->   before ```cpp:  printed by `blocks.py program FILE`
@@ -12,9 +13,9 @@ import subprocess
 import sys
 import tempfile
 
-MARK = r"<!-- (run with h5py|run|prints|program) -->"
+MARK = r"<!-- (run with h5py|run as python|run|prints|program) -->"
 BLOCK = re.compile(MARK + r"\n+```(\w+)\n(.*?)^```$", re.S | re.M)
-LANGUAGE = {"run": "sh", "run with h5py": "python", "prints": "text", "program": "cpp"}
+LANGUAGE = {"run": "sh", "run as python": "python", "run with h5py": "python", "prints": "text", "program": "cpp"}
 PYTHON = "/usr/bin/python3"   # the one that Debian's packages are for
 
 
@@ -35,7 +36,7 @@ def start(mark, body, folder, environment):
         command = ["bash", "-euo", "pipefail", "-c", body]
     else:
         command = [PYTHON, "-c", body]
-        if subprocess.run([PYTHON, "-c", "import h5py"], capture_output=True).returncode != 0:
+        if mark == "run with h5py" and subprocess.run([PYTHON, "-c", "import h5py"], capture_output=True).returncode != 0:
             print("a block is left out: h5py is not installed")
             return None
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)

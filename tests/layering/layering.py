@@ -31,7 +31,7 @@ DOORS = {
     r"libdeflate\.h": r"src/store/chunk_codec\.cpp|src/render/png\.cpp|src/server/coding\.cpp",
     r"zstd\.h": r"src/server/coding\.cpp",
     r"httplib\.h": r"src/server/connections\.h|tests/.*",
-    r"meshoptimizer\.h": r"src/server/wire_mesh\.cpp|tests/.*",
+    r"meshoptimizer\.h": r"src/server/(wire_mesh|coarse_surface)\.cpp|tests/.*",
     r"webp/.*": r"src/render/webp\.cpp",
     r"embree3/.*": r"src/render/ray_surfaces\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",

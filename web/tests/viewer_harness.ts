@@ -32,10 +32,14 @@ export class Served {
 
   /** phantom: its name and options, such as "demo" or "torus-chain", "--size", "32". */
   static async phantom(...phantom: string[]): Promise<Served> {
-    const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
-    const name = phantom[0] ?? "demo";
-    execFileSync(cli, ["phantom", ...phantom, "-o", `${name}.nrrd`, "--quiet"], { cwd: folder });
+    const [folder, name] = made(phantom);
+    build(folder, name);
     return Served.begin(folder, name);
+  }
+
+  /** The same without a store: it is built while the page is open. options: of the viewer. */
+  static async building(phantom: string[], options: string[] = []): Promise<Served> {
+    return Served.begin(...made(phantom), options);
   }
 
   /** A volume that is there. */
@@ -43,20 +47,25 @@ export class Served {
     const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
     const name = basename(path).replace(/\..*/, "");
     symlinkSync(path, join(folder, `${name}.nrrd`));
+    build(folder, name);
     return Served.begin(folder, name);
   }
 
-  private static async begin(folder: string, name: string): Promise<Served> {
-    execFileSync(cli, ["build", `${name}.nrrd`, "-o", `${name}.atlas`, "--quiet"], { cwd: folder }); // the address comes before the store is there
-    const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet"], { cwd: folder });
+  private static async begin(folder: string, name: string, options: string[] = []): Promise<Served> {
+    const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet", ...options], { cwd: folder });
     const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });
     return new Served(folder, address, `${name}.atlas`, server, browser);
   }
 
+  /** Ends the server alone. */
+  end(): void {
+    this.server.kill("SIGINT");
+  }
+
   async close(): Promise<void> {
     await this.browser.close();
-    this.server.kill("SIGINT");
+    this.end();
     rmSync(this.folder, { recursive: true });
   }
 
@@ -76,6 +85,18 @@ export class Served {
     await tab.waitForSelector(".objects [role=tab]");
     return { tab, problems };
   }
+}
+
+/** A folder with a phantom, and the name of its file without .nrrd. */
+function made(phantom: string[]): [string, string] {
+  const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
+  const name = phantom[0] ?? "demo";
+  execFileSync(cli, ["phantom", ...phantom, "-o", `${name}.nrrd`, "--quiet"], { cwd: folder });
+  return [folder, name];
+}
+
+function build(folder: string, name: string): void {
+  execFileSync(cli, ["build", `${name}.nrrd`, "-o", `${name}.atlas`, "--quiet"], { cwd: folder });
 }
 
 /** Mesh answers from now on. */

@@ -31,6 +31,8 @@ export class ChoosePanel {
   private chosen: number[] = [];
   private kept = 0;
   private found: Found = { bright: [], dark: [], also: [] };
+  /** what was found: of which scene, words and choice */
+  private sought = "";
   /** what has not been filled with what is found now */
   private readonly stale = new Set<TabName>(["cards", "list", "tree"]);
 
@@ -60,6 +62,7 @@ export class ChoosePanel {
   learned(): void {
     this.scatter.learned();
     this.recount(this.desk.history.now);
+    this.sought = "";
     this.refresh(this.desk.history.now);
   }
 
@@ -78,17 +81,25 @@ export class ChoosePanel {
   }
 
   private refresh(state: State): void {
-    const found = find(this.desk.page, this.chosen, state.shown, { text: this.text.value, order: this.order.value });
-    if (JSON.stringify(found) !== JSON.stringify(this.found)) {
-      this.found = found;
-      for (const name of ["cards", "list", "tree"] as const) this.stale.add(name);
-    }
-    this.say(CHOICE.of(state));
+    this.search(state);
     const open = TAB.of(state);
     if (open === "scatter") return this.scatter.mark(state, this.chosen);
     const tab = { cards: this.cards, list: this.list, tree: this.tree }[open];
-    if (this.stale.delete(open)) tab.fill(found);
+    if (this.stale.delete(open)) tab.fill(this.found);
     tab.mark(state);
+  }
+
+  /** Thousands may be chosen, and states come as fast as something is dragged: only what matters to the list makes it anew. */
+  private search(state: State): void {
+    const wanted = { text: this.text.value, order: this.order.value };
+    const sought = JSON.stringify([state.shown.map(({ entry }) => entry), wanted, state.parts.choice]);
+    if (sought === this.sought) return;
+    this.sought = sought;
+    const found = find(this.desk.page, this.chosen, state.shown, wanted);
+    const same = JSON.stringify(found) === JSON.stringify(this.found); // then what has the focus stays where it is
+    this.found = found;
+    if (!same) for (const name of ["cards", "list", "tree"] as const) this.stale.add(name);
+    this.say(CHOICE.of(state));
   }
 
   private say(choice: Choice | null): void {

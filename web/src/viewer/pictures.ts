@@ -71,7 +71,8 @@ export class Pictures {
       const picture = await this.api.card(number < entries.length ? { entry: number } : { branch: number - entries.length }, frames);
       this.put(place, picture);
     } catch (error) {
-      if (!isOvertaken(error)) place.element.textContent = "no picture"; // the object itself can be shown all the same
+      if (isOvertaken(error)) place.frames = 0;
+      else place.element.textContent = "no picture"; // the object itself can be shown all the same
     }
   }
 

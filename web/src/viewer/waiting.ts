@@ -8,6 +8,13 @@ const AGAIN = 2000;
 /** an answer that comes sooner needs no words */
 const SOON = 400;
 
+function lossOf(error: unknown): string {
+  if (!(error instanceof Refusal))
+    return "The viewer has ended: nothing new can be shown. Start isoatlas view again and open its address; the part behind # shows the same there.";
+  if (error.status !== 403) return error.message;
+  return "The token is wrong: this page belongs to a viewer that has ended. Open the address that isoatlas view has printed last.";
+}
+
 class Waiting {
   private readonly title = html("h1", {}, "Opening the volume");
   private readonly bar = html("progress", { max: 1, "aria-label": "how much of the store is built" });
@@ -52,15 +59,12 @@ class Waiting {
     this.card.remove();
   }
 
-  /** The server does not answer. */
+  /** The server does not answer, or refuses to. */
   lose(error: unknown): void {
     this.wait("");
     if (error instanceof Refusal) this.end();
     this.note.hidden = false;
-    this.note.textContent =
-      error instanceof Refusal && error.status === 403
-        ? "The token is wrong: this page belongs to a viewer that has ended. Open the address that isoatlas view has printed last."
-        : "The viewer has ended: nothing new can be shown. Start isoatlas view again and open its address; copy the part behind # to see the same.";
+    this.note.textContent = lossOf(error);
   }
 
   private wait(text: string): void {

@@ -1,0 +1,35 @@
+#include "server/coarse_surface.h"
+
+#include <meshoptimizer.h>
+
+#include <limits>
+#include <utility>
+
+namespace isoatlas::server {
+
+std::vector<unsigned> fewer_triangles(std::span<const unsigned> corners, std::span<const float> positions, std::size_t most) {
+    std::vector<unsigned> kept(corners.size());
+    kept.resize(meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), positions.data(), positions.size() / 3,
+                                       3 * sizeof(float), 3 * most, std::numeric_limits<float>::max(), nullptr));
+    return kept;
+}
+
+Surface coarse_surface(Surface surface, std::size_t most) {
+    if (surface.triangles.size() <= most) return surface;
+    std::vector<unsigned> corners;
+    corners.reserve(3 * surface.triangles.size());
+    for (const auto& triangle : surface.triangles) {
+        for (const std::int64_t corner : triangle) corners.push_back(static_cast<unsigned>(corner));
+    }
+    std::vector<float> positions;
+    positions.reserve(3 * surface.points.size());
+    for (const auto& point : surface.points) {
+        for (const double coordinate : point) positions.push_back(static_cast<float>(coordinate));
+    }
+    const std::vector<unsigned> kept = fewer_triangles(corners, positions, most);
+    surface.triangles.resize(kept.size() / 3);
+    for (std::size_t i = 0; i < kept.size(); ++i) surface.triangles[i / 3][i % 3] = kept[i];
+    return surface;
+}
+
+}  // namespace isoatlas::server

@@ -1,0 +1,42 @@
+// A page that is there before its store: it shows how far the build is, why it failed, and that the viewer has ended.
+import { describe, expect, it } from "vitest";
+import { canServe, Served } from "./viewer_harness";
+
+describe.skipIf(!canServe)("the viewer before its store", () => {
+  it("shows how far the build is, then the atlas, without a reload", async () => {
+    const served = await Served.building(["noise", "--size", "80", "--quantise", "8"]);
+    const tab = await served.browser.newPage();
+    const titles: string[] = [];
+    await tab.exposeFunction("heard", (text: string) => titles.push(text));
+    await tab.addInitScript(() => {
+      new MutationObserver(() => {
+        const title = document.querySelector(".waiting h1")?.textContent;
+        if (title) void (window as unknown as { heard: (text: string) => void }).heard(title);
+      }).observe(document, { childList: true, subtree: true, characterData: true });
+    });
+    await tab.goto(served.address);
+    await tab.waitForSelector(".objects", { timeout: 60_000 });
+    expect(titles.some((title) => /^building \d+ %$/.test(title))).toBe(true);
+    expect(await tab.locator(".waiting").count()).toBe(0);
+    await served.close();
+  }, 90_000);
+
+  it("says why a build has failed, and what to do", async () => {
+    const served = await Served.building(["demo"], ["--gaussian", "1e9"]);
+    const tab = await served.browser.newPage();
+    await tab.goto(served.address);
+    const alert = tab.getByRole("alert");
+    await alert.waitFor();
+    expect(await alert.textContent()).toContain("Next:");
+    await served.close();
+  }, 60_000);
+
+  it("says that it has ended, and keeps what it shows", async () => {
+    const served = await Served.phantom("demo");
+    const { tab } = await served.open();
+    served.end();
+    await tab.getByText("The viewer has ended").waitFor();
+    expect(await tab.locator(".objects li").count()).toBeGreaterThan(0);
+    await served.close();
+  }, 60_000);
+});
