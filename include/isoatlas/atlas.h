@@ -141,8 +141,8 @@ public:
     /// sticks out, or the step is less than 1. Cost: reads the bricks that hold one of them, and keeps none; memory: the result.
     [[nodiscard]] Volume samples(const SampleBox& box, std::int64_t step = 1, const Context& context = {}) const;
     /// The whole volume coarser: means of cubes of step^3 samples, step the first power of two that leaves at most `most` of them.
-    /// Throws Error{usage} when most is less than 1. Cost: reads all bricks, and keeps none; memory: the result and, where the step is
-    /// more than 8, 4 bytes for 512 samples.
+    /// Throws Error: usage (most is less than 1), cancelled. Cost: reads all bricks, and keeps none; memory: the result and, where the step
+    /// is more than 8, 4 bytes for 512 samples.
     [[nodiscard]] CoarseVolume coarse(std::int64_t most, const Context& context = {}) const;
 
     /// How many samples lie in [edges[i], edges[i + 1]); the last count includes its end. Stored values, ascending, two at least. Throws

@@ -77,7 +77,13 @@ CoarseVolume Atlas::coarse(std::int64_t most, const Context& context) const {
     }
     result.mean.resize(static_cast<std::size_t>(result.extent.voxels()));
     LevelQuery spent;
-    AtlasAccess::samples(*this).read_means(result.step, result.mean, context, spent);
+    StoredSamples& samples = AtlasAccess::samples(*this);
+    const std::int64_t layers = samples.grid().size[2];
+    for (std::int64_t layer = 0; layer < layers; ++layer) {
+        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        context.report("read", 0, 1, static_cast<double>(layer) / static_cast<double>(layers));
+        samples.read_means(result.step, layer, result.mean, context, spent);
+    }
     AtlasAccess::count(*this, spent, 0, nullptr);
     while (result.extent.voxels() > most) result = halved(result);
     return result;

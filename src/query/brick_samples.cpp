@@ -1,6 +1,7 @@
 #include "query/brick_samples.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/check.h"
 
@@ -74,14 +75,15 @@ void read_samples(const store::BrickReader<T>& bricks, const Box& box, std::int6
 }
 
 template <class T>
-void read_means(const store::BrickReader<T>& bricks, std::int64_t step, int threads, std::span<float> out, IoCounters& counters) {
+void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, int threads, std::span<float> out,
+                IoCounters& counters) {
     ISOATLAS_CHECK(step == 1 || step == 2 || step == 4 || step == 8);
     const BrickGrid& grid = bricks.grid();
     const Box whole{{0, 0, 0}, grid.extent.size};
     const std::int64_t columns = steps_along(grid.extent.size[0], step), rows = steps_along(grid.extent.size[1], step);
-    std::vector<std::int64_t> all(static_cast<std::size_t>(grid.count()));
-    for (std::int64_t b = 0; b < grid.count(); ++b) all[b] = b;
-    counters += bricks.read(std::move(all), threads, [&](std::int64_t brick, std::span<const T> samples) {
+    std::vector<std::int64_t> wanted(static_cast<std::size_t>(grid.size[0] * grid.size[1]));
+    std::iota(wanted.begin(), wanted.end(), grid.brick({0, 0, layer}));
+    counters += bricks.read(std::move(wanted), threads, [&](std::int64_t brick, std::span<const T> samples) {
         const Box own = grid.box(brick), cubes = steps_in(own, whole, step);
         for (std::int64_t z = cubes.begin[2]; z < cubes.end[2]; ++z) {
             for (std::int64_t y = cubes.begin[1]; y < cubes.end[1]; ++y) {
@@ -100,7 +102,7 @@ void read_means(const store::BrickReader<T>& bricks, std::int64_t step, int thre
 
 #define ISOATLAS_INSTANTIATE(T)                                                                                            \
     template void read_samples<T>(const store::BrickReader<T>&, const Box&, std::int64_t, int, std::span<T>, IoCounters&); \
-    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, int, std::span<float>, IoCounters&)
+    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, std::int64_t, int, std::span<float>, IoCounters&)
 ISOATLAS_INSTANTIATE(std::uint8_t);
 ISOATLAS_INSTANTIATE(std::int8_t);
 ISOATLAS_INSTANTIATE(std::uint16_t);

@@ -140,8 +140,8 @@ public:
         read_samples(bricks_, box, step, context.threads, std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), counters);
     }
 
-    void read_means(std::int64_t step, std::span<float> out, const Context& context, IoCounters& counters) override {
-        isoatlas::read_means(bricks_, step, context.threads, out, counters);
+    void read_means(std::int64_t step, std::int64_t layer, std::span<float> out, const Context& context, IoCounters& counters) override {
+        isoatlas::read_means(bricks_, step, layer, context.threads, out, counters);
     }
 
     std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context, IoCounters& counters) override {

@@ -84,7 +84,8 @@ public:
     /// query/brick_samples.h; out: samples of the type of the store.
     virtual void read_box(const store::Box& box, std::int64_t step, std::span<std::byte> out, const Context& context,
                           store::IoCounters& counters) = 0;
-    virtual void read_means(std::int64_t step, std::span<float> out, const Context& context, store::IoCounters& counters) = 0;
+    virtual void read_means(std::int64_t step, std::int64_t layer, std::span<float> out, const Context& context,
+                            store::IoCounters& counters) = 0;
     /// query/brick_histogram.h
     [[nodiscard]] virtual std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context,
                                                               store::IoCounters& counters) = 0;

@@ -95,6 +95,7 @@ class Outline {
     );
     dot.renderOrder = 1000;
     this.lines = new three.Group().add(line, dot);
+    this.lines.userData.isTool = true;
     this.handle = { place: new three.Vector3(...middle), direction: new three.Vector3(...plane.normal) };
     stage.add(this.lines);
   }

@@ -7,6 +7,7 @@ import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
 import { Catalogue, MOST_LISTED, needsAll, numbersOf } from "./catalogue";
 import { ChoosePanel } from "./choose_panel";
+import { onClick, placeOn } from "./clicks";
 import type { Desk } from "./desk";
 import { Editor } from "./editor";
 import { History } from "./history";
@@ -25,9 +26,6 @@ import { Tour } from "./tour";
 import { pageWhenThere } from "./waiting";
 import "./viewer.css";
 import "./scene.css";
-
-/** a press that moves less is a click */
-const CLICK_PIXELS = 4;
 
 class Viewer implements Desk {
   readonly history: History;
@@ -98,13 +96,9 @@ class Viewer implements Desk {
   }
 
   private listenToClicks(): void {
-    let pressed = { x: 0, y: 0 };
     const { canvas } = this.stage;
-    canvas.addEventListener("pointerdown", (event) => (pressed = { x: event.clientX, y: event.clientY }));
-    canvas.addEventListener("click", (event) => {
-      if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > CLICK_PIXELS) return;
-      const frame = canvas.getBoundingClientRect();
-      const entry = this.stage.pick(event.clientX - frame.left, event.clientY - frame.top);
+    onClick(canvas, (event) => {
+      const entry = this.stage.pick(...placeOn(canvas, event));
       this.editor.select(this.history.now.shown.findIndex((shown) => shown.entry === entry));
     });
   }

@@ -22,6 +22,7 @@ export class Mark {
     this.lines.renderOrder = this.point.renderOrder = 1000;
     for (const thing of [this.lines, this.point]) thing.frustumCulled = false;
     this.group.add(this.lines, this.point);
+    this.group.userData.isTool = true;
   }
 
   /** null: nowhere. */

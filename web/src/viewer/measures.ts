@@ -1,6 +1,6 @@
 // Lengths and angles between places in space, as they are kept in a state.
 import { distance, dot, type Triple } from "./grid";
-import { numbersOf, Part, textOf } from "./part";
+import { numbersIn, Part, textOf } from "./part";
 
 /** two places: how far they are from each other; three: the angle at the second one */
 export type Measure = Triple[];
@@ -11,7 +11,7 @@ function read(text: string): Measure[] | null {
   if (text === "") return [];
   const measures: Measure[] = [];
   for (const item of text.split(";")) {
-    const list = numbersOf(item);
+    const list = numbersIn(item);
     if (list?.length !== 6 && list?.length !== 9) return null;
     measures.push(Array.from({ length: list.length / 3 }, (_, i) => list.slice(3 * i, 3 * i + 3) as Triple));
   }

@@ -1,14 +1,13 @@
 // Measuring: places are clicked on surfaces and slices, or taken from the crosshair.
 import { html } from "../dom";
 import { value } from "../format";
+import { onClick, placeOn } from "./clicks";
 import type { Desk } from "./desk";
 import { follow } from "./follow";
 import type { Triple } from "./grid";
 import { MeasureDrawing } from "./measure_drawing";
 import { angleOf, lengthOf, MEASURES, type Measure } from "./measures";
 
-/** a press that moves less is a click */
-const CLICK_PIXELS = 4;
 const WHAT = { 2: "distance", 3: "angle" } as const;
 const NUMBERS = ["first", "second", "third"];
 
@@ -103,17 +102,13 @@ export class Measuring {
 
   private listenToClicks(): void {
     const { overlay, stage } = this.desk;
-    let pressed = { x: 0, y: 0 };
-    overlay.addEventListener("pointerdown", (event) => (pressed = { x: event.clientX, y: event.clientY }), { capture: true });
     const click = (event: MouseEvent): void => {
-      const moved = Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > CLICK_PIXELS;
-      if (this.places === 0 || moved || event.target !== stage.canvas) return;
+      if (this.places === 0 || event.target !== stage.canvas) return;
       event.stopPropagation();
-      const frame = stage.canvas.getBoundingClientRect();
-      const place = stage.touch(event.clientX - frame.left, event.clientY - frame.top);
+      const place = stage.touch(...placeOn(stage.canvas, event));
       if (place) this.take(place.toArray());
       else this.desk.say("there is no surface: click one, or a slice");
     };
-    overlay.addEventListener("click", click, { capture: true });
+    onClick(overlay, click, true);
   }
 }

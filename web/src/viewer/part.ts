@@ -60,7 +60,7 @@ export function textOf(list: readonly number[]): string {
 }
 
 /** null: it is none of them. */
-export function numbersOf(text: string): number[] | null {
+export function numbersIn(text: string): number[] | null {
   const list = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
   return list.every(Number.isFinite) ? list : null;
 }
@@ -73,7 +73,7 @@ export function numbers(
   isGood: (list: number[]) => boolean = () => true,
 ): Part<number[] | null> {
   const read = (text: string): number[] | null => {
-    const list = numbersOf(text);
+    const list = numbersIn(text);
     return list && list.length === count && isGood(list) ? list : null;
   };
   return new Part<number[] | null>(key, title, null, (list) => (list === null ? "" : textOf(list)), read);

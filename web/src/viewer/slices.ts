@@ -1,6 +1,7 @@
 // Three slices through one point, with the contour of every surface that is shown, and a crosshair that they share with the picture.
 import { html } from "../dom";
 import { value } from "../format";
+import { onClick, placeOn } from "./clicks";
 import { Contours } from "./contours";
 import type { Desk } from "./desk";
 import { follow, quickly, switching } from "./follow";
@@ -93,6 +94,13 @@ export class Slices {
       if (SLICES.of(history.now)) this.held.look(crosshairOf(this.desk));
     });
     stage.onChange(() => this.redraw());
+    history.listen((state, before, dragging) => {
+      if (!dragging && state.shown !== before.shown && SLICES.of(state)) this.held.look(crosshairOf(this.desk));
+    });
+    onClick(stage.canvas, (event) => {
+      const place = SLICES.of(history.now) ? stage.touch(...placeOn(stage.canvas, event)) : null;
+      if (place) this.move(this.grid.nearest(place.toArray()));
+    });
     new ResizeObserver(() => this.redraw()).observe(this.element);
   }
 

@@ -68,7 +68,7 @@ export class Stage {
     this.passes.push(listener);
   }
 
-  /** Puts something beside the surfaces. */
+  /** Puts something beside the surfaces. With userData.isTool it is for the hand: pictures that are kept are without it. */
   add(thing: three.Object3D): void {
     this.scene.add(thing);
     this.draw();
@@ -172,11 +172,14 @@ export class Stage {
 
   /** Draws once in another size, in pixels; `use` gets the canvas, which must be read at once. */
   shoot(width: number, height: number, use: (canvas: HTMLCanvasElement) => void): void {
+    const tools = this.scene.children.filter(({ visible, userData }) => visible && userData.isTool === true);
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(width, height, false);
     this.eye.resize(width / height);
+    for (const tool of tools) tool.visible = false;
     this.render(true);
     use(this.canvas);
+    for (const tool of tools) tool.visible = true;
     this.resize();
     this.render();
   }
