@@ -5,6 +5,7 @@ import { Actions } from "./actions";
 import { fromHash, toHash } from "./address";
 import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
+import { brackets } from "./brackets";
 import { Catalogue, MOST_LISTED, needsAll, numbersOf } from "./catalogue";
 import { ChoosePanel } from "./choose_panel";
 import type { Desk } from "./desk";
@@ -59,6 +60,7 @@ class Viewer implements Desk {
     this.shown = new ScenePanel(this);
     this.panel = new ObjectPanel(this);
     looking(this);
+    brackets(this);
     theme(this);
     const tour = new Tour(this);
     const side = html("div", { class: "side" }, this.choosing.element);
