@@ -106,6 +106,7 @@ export class ScatterTab {
   }
 
   private commit(): void {
+    for (const input of [...this.limits, this.keep]) if (read(input) === null) input.value = ""; // what is no limit
     const [a, b, c, d] = this.limits.map(read);
     const keep = read(this.keep);
     const contrast: Limits = [a ?? null, b ?? null];
