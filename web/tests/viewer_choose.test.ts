@@ -76,7 +76,8 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
     await expect.poll(() => seen.filter((mesh) => !mesh.coarse).length).toBeGreaterThan(0);
     const asked = seen.at(-1)?.asked;
     const [object, tau] = [asked?.get("object") ?? "", asked?.get("tau") ?? ""];
-    const extracted = JSON.parse(served.isoatlas("extract", served.store, "--object", object, "--tau", tau, "-o", "x.ply", "--json")) as { triangles: number };
+    const words = ["extract", served.store, "--object", object, "--tau", tau, "-o", "x.ply", "--json"];
+    const extracted = JSON.parse(served.isoatlas(...words)) as { triangles: number };
     expect(seen.at(-1)?.triangles).toBe(extracted.triangles);
     expect(await title(tab)).toBe("Object of rank 12");
     await tab.keyboard.press("1");
