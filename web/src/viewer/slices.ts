@@ -16,6 +16,9 @@ import { SliceView } from "./slice_view";
 import type { State } from "./state";
 import { valueAt } from "./wire_samples";
 
+/** back and on along x, y, z */
+const KEYS = ["5", "6", "7", "8", "9", "0"];
+
 /** Where the crosshair is. */
 export function crosshairOf({ page, history }: Pick<Desk, "page" | "history">): Triple {
   return new Grid(page).inside(CROSSHAIR.of(history.now) ?? middleOf(page));
@@ -147,8 +150,8 @@ export class Slices {
       { group: "Tools", name: "select what holds the sample at the crosshair", keys: ["a"], run: () => void this.held.choose(crosshairOf(this.desk)) },
     );
     for (const axis of AXES) {
-      actions.add({ group: "Tools", name: `crosshair back along ${AXIS_NAMES[axis]}`, keys: [String(2 * axis + 1)], run: step(axis, -1) });
-      actions.add({ group: "Tools", name: `crosshair on along ${AXIS_NAMES[axis]}`, keys: [String(2 * axis + 2)], run: step(axis, 1) });
+      actions.add({ group: "Tools", name: `crosshair back along ${AXIS_NAMES[axis]}`, keys: [KEYS[2 * axis] ?? ""], run: step(axis, -1) });
+      actions.add({ group: "Tools", name: `crosshair on along ${AXIS_NAMES[axis]}`, keys: [KEYS[2 * axis + 1] ?? ""], run: step(axis, 1) });
     }
   }
 }
