@@ -27,7 +27,7 @@ function ballFile(path: string): void {
 }
 
 /** A machine that draws with its processor alone takes its time. */
-const poll = <T>(what: () => T) => expect.poll(what, { timeout: 10_000 });
+const poll = <T>(what: () => T) => expect.poll(what);
 
 describe.skipIf(!canServe)("a ball", () => {
   let served: Served;

@@ -12,7 +12,7 @@ function hashOf(tab: Tab): URLSearchParams {
 }
 
 /** A machine that draws with its processor alone takes its time. */
-const poll = <T>(what: () => T) => expect.poll(what, { timeout: 10_000 });
+const poll = <T>(what: () => T) => expect.poll(what);
 
 describe.skipIf(!canServe)("slices", () => {
   let served: Served;

@@ -29,8 +29,6 @@ export function placeText({ page }: Pick<Desk, "page">, place: readonly number[]
   return `${place.map(value).join(", ")} ${page.volume.unit ?? ""}`.trimEnd();
 }
 
-/** back and on along x, y, z */
-const KEYS = ["5", "6", "7", "8", "9", "0"];
 
 export class Slices {
   private readonly grid: Grid;
