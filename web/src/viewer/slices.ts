@@ -29,7 +29,6 @@ export function placeText({ page }: Pick<Desk, "page">, place: readonly number[]
   return `${place.map(value).join(", ")} ${page.volume.unit ?? ""}`.trimEnd();
 }
 
-
 export class Slices {
   private readonly grid: Grid;
   private readonly views: SliceView[];
