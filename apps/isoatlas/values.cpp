@@ -21,24 +21,17 @@ std::string seven_digits(double value) {
 
 }  // namespace
 
-double Scale::stored(double reported) const {
-    const double exact = calibration_.stored(reported);
-    if (type_ == ValueType::f64 && calibration_.is_identity()) return exact;
-    const double sample = is_floating(type_) ? static_cast<double>(static_cast<float>(exact)) : std::round(exact);
-    return text(sample) == text(exact) ? sample : exact;
-}
-
 std::string Scale::text(double stored) const {
     if (std::isinf(stored)) return "never";
-    if (!calibration_.is_identity()) return seven_digits(calibration_.reported(stored));
-    if (type_ == ValueType::f32 && stored == static_cast<double>(static_cast<float>(stored)))
+    if (!info_.calibration.is_identity()) return seven_digits(info_.calibration.reported(stored));
+    if (info_.type == ValueType::f32 && stored == static_cast<double>(static_cast<float>(stored)))
         return fmt::format("{}", static_cast<float>(stored) + 0.0F);
     return fmt::format("{}", stored + 0.0);
 }
 
 std::string Scale::brief(double stored) const {
     const std::string exact = text(stored);
-    return exact.size() <= 10 ? exact : seven_digits(calibration_.reported(stored));
+    return exact.size() <= 10 ? exact : seven_digits(info_.calibration.reported(stored));
 }
 
 std::string Scale::text_within(double stored, double low, double high) const {

@@ -5,18 +5,18 @@
 #include <string>
 
 #include <isoatlas/analysis.h>
+#include <isoatlas/isovalue.h>
 
 namespace isoatlas::cli {
 
 /// Between the stored values of a file and the calibrated ones that users give and see.
 class Scale {
 public:
-    explicit Scale(const VolumeInfo& info) : calibration_(info.calibration), type_(info.type) {}
+    explicit Scale(const VolumeInfo& info) { info_.calibration = info.calibration, info_.type = info.type; }
 
-    /// The stored isovalue that the user means. A decimal that names a sample value exactly as text() prints it becomes that sample
-    /// value, bit for bit: High means >=, so a last-digit difference would lose the plateau.
-    [[nodiscard]] double stored(double reported) const;
-    [[nodiscard]] double reported(double stored) const { return calibration_.reported(stored); }
+    /// The stored isovalue that the user means: the sample value that text() prints like that, if there is one.
+    [[nodiscard]] double stored(double reported) const { return stored_isovalue(info_, reported); }
+    [[nodiscard]] double reported(double stored) const { return info_.calibration.reported(stored); }
 
     /// Shortest text that means this value again; infinities: "never".
     [[nodiscard]] std::string text(double stored) const;
@@ -26,8 +26,7 @@ public:
     [[nodiscard]] std::string text_within(double stored, double low, double high) const;
 
 private:
-    Calibration calibration_;
-    ValueType type_;
+    VolumeInfo info_;  ///< of which calibration and type
 };
 
 /// "16,777,216"

@@ -29,6 +29,7 @@
 #include "isoatlas/filter.h"
 #include "isoatlas/handles.h"
 #include "isoatlas/holders.h"
+#include "isoatlas/isovalue.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"

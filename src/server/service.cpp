@@ -6,6 +6,7 @@
 
 #include "base/memory_limit.h"
 #include "isoatlas/error.h"
+#include "isoatlas/isovalue.h"
 #include "isoatlas/output.h"
 #include "page/template.h"
 #include "server/answers.h"
@@ -49,8 +50,7 @@ double required_tau(Words& words) {
     return *tau;
 }
 
-/// In stored values.
-double stored_tau(const Atlas& atlas, double reported) { return atlas.info().calibration.stored(reported); }
+double stored_tau(const Atlas& atlas, double reported) { return stored_isovalue(atlas.info(), reported); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@ import { titleOf } from "../src/viewer/shown";
 import { nameOf } from "../src/names";
 import { entryOf } from "../src/page";
 import { fromHash, toHash } from "../src/viewer/address";
+import { armsOf, boxOf } from "../src/viewer/brackets";
 import { Catalogue, numbersOf, type Branches } from "../src/viewer/catalogue";
 import { ANY, CHOICE, commandOf, isChosen, isSelection, selectionWords, TAB, type Choice } from "../src/viewer/choosing";
 import { find } from "../src/viewer/found";
@@ -18,16 +19,34 @@ function listed(n: number, all = n): Branches {
   const ranks = Array.from({ length: n }, (_, rank) => rank);
   const of = <T>(value: (rank: number) => T): T[] => ranks.map(value);
   return {
-    source: "scan.atlas", all, id: of((r) => 100 + r), voxel: of((r) => 200 + r), tau: of((r) => 50 + r), low: of((r) => 40 + r), high: of((r) => 60 + r),
-    tunnels: of((r) => r % 3), cavities: of(() => 0), appears: of((r) => 90 - r), merges: of((r) => (r === 0 ? null : 30 + r)), parent: of((r) => r - 1),
-    persistence: of((r) => 64 / 2 ** r), hypervolume: of((r) => 1e6 / 2 ** r), voxels: of((r) => 1024 / 2 ** r), measure: of((r) => 2048 / 2 ** r), standsOut: of((r) => r < 3),
+    source: "scan.atlas",
+    all,
+    id: of((r) => 100 + r),
+    voxel: of((r) => 200 + r),
+    tau: of((r) => 50 + r),
+    low: of((r) => 40 + r),
+    high: of((r) => 60 + r),
+    tunnels: of((r) => r % 3),
+    cavities: of(() => 0),
+    appears: of((r) => 90 - r),
+    merges: of((r) => (r === 0 ? null : 30 + r)),
+    parent: of((r) => r - 1),
+    persistence: of((r) => 64 / 2 ** r),
+    hypervolume: of((r) => 1e6 / 2 ** r),
+    voxels: of((r) => 1024 / 2 ** r),
+    measure: of((r) => 2048 / 2 ** r),
+    standsOut: of((r) => r < 3),
   };
 }
 
 /** Ranks 0 and 2 have entries, 0 two of them; and there is a dark one. */
 function small(): ReturnType<typeof page> {
   const made = page(
-    [branch({ id: 100, rank: 0, merges: null }), branch({ id: 102, rank: 2, parent: 0, merges: 32 }), branch({ side: "dark", id: 5, rank: 0 })],
+    [
+      branch({ id: 100, rank: 0, merges: null }),
+      branch({ id: 102, rank: 2, parent: 0, merges: 32 }),
+      branch({ side: "dark", id: 5, rank: 0 }),
+    ],
     [entry({ id: 100 }), entry({ id: 100, tau: 70 }), entry({ branch: 1, id: 102, reason: "steady" }), entry({ branch: 2, id: 5 })],
   );
   made.objects.bright.all = 6;
@@ -107,7 +126,8 @@ describe("a choice", () => {
     expect(line(null)).toEqual(["", true]);
     expect(line(ANY)).toEqual(["--all", true]);
     expect(line({ ...ANY, standsOut: true })).toEqual(["--top 20", true]);
-    expect(line({ ...ANY, keep: 9, contrast: [2.5, null], size: [10, null] })).toEqual(["--keep 9 --persistence 2.5 --min-voxels 10", true]);
+    const three = "--keep 9 --persistence 2.5 --min-voxels 10";
+    expect(line({ ...ANY, keep: 9, contrast: [2.5, null], size: [10, null] })).toEqual([three, true]);
     expect(line({ ...ANY, size: [10, 20] }, true)).toEqual(["--min-volume 10", false]);
     expect(selectionWords({ ...ANY, contrast: [0, 3] }, true)).toEqual([["persistence", 0]]);
     expect(isSelection({ ...ANY, contrast: [0, 3] })).toBe(false);
@@ -118,7 +138,8 @@ describe("a choice", () => {
     const back = fromHash(toHash(state), 4);
     expect(back && CHOICE.of(back)).toEqual(choice);
     expect(back && TAB.of(back)).toBe("tree");
-    for (const word of ["", "1,2", "x,,,,,", ",-1,,,,", ",1.5,,,,", ",,nan,,,", ",,-2,,,", ",,,,,,"]) expect(CHOICE.takes(word), word).toBe(false);
+    const wrong = ["", "1,2", "x,,,,,", ",-1,,,,", ",1.5,,,,", ",,nan,,,", ",,-2,,,", ",,,,,,"];
+    for (const word of wrong) expect(CHOICE.takes(word), word).toBe(false);
     expect(CHOICE.takes(",,,,,")).toBe(true);
     expect(TAB.takes("pictures")).toBe(false);
   });
@@ -150,6 +171,17 @@ describe("what is found", () => {
     expect(found("", "isovalue").slice(0, 2)).toEqual([1, 9]);
     const scene = isolate(NOTHING, 8, 1).shown;
     expect(find(volume, [0], scene, { text: "", order: "rank" })).toEqual({ bright: [0], dark: [3], also: [8] });
+  });
+});
+
+describe("the mark of what is selected", () => {
+  it("is at the corners of its box", () => {
+    const box = boxOf({ positions: new Uint16Array([0, 4, 8, 10, 2, 6]), origin: [1, 2, 3], step: 0.5 });
+    expect(box).toEqual([[1, 3, 6], [6, 4, 7]]);
+    const arms = armsOf([[0, 0, 0], [100, 100, 100]]);
+    expect(arms.length).toBe(8 * 3 * 2 * 3);
+    expect(arms.slice(0, 6)).toEqual([0, 0, 0, 16, 0, 0]);
+    expect(arms.slice(-6)).toEqual([100, 100, 100, 100, 100, 84]);
   });
 });
 

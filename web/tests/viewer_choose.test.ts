@@ -28,7 +28,7 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
     expect(await said(tab)).toContain(`${first.branches - first.hidden} of ${count(first.branches)} objects shown`);
     const card = tab.locator(".card").first();
     await card.locator(".turntable").focus();
-    await expect.poll(() => card.locator("img").evaluate((image) => image.style.width), { timeout: 20_000 }).toBe("1200%"); // all around
+    await expect.poll(() => card.locator("img").evaluate((image) => image.style.width)).toBe("1200%"); // all around
     await tab.keyboard.press("ArrowRight");
     expect(await card.locator(".turntable").getAttribute("data-frame")).toBe("1");
     await tab.locator(".card .picture").nth(1).click();
@@ -76,7 +76,8 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
     await expect.poll(() => seen.filter((mesh) => !mesh.coarse).length).toBeGreaterThan(0);
     const asked = seen.at(-1)?.asked;
     const [object, tau] = [asked?.get("object") ?? "", asked?.get("tau") ?? ""];
-    const extracted = JSON.parse(served.isoatlas("extract", served.store, "--object", object, "--tau", tau, "-o", "x.ply", "--json")) as { triangles: number };
+    const words = ["extract", served.store, "--object", object, "--tau", tau, "-o", "x.ply", "--json"];
+    const extracted = JSON.parse(served.isoatlas(...words)) as { triangles: number };
     expect(seen.at(-1)?.triangles).toBe(extracted.triangles);
     expect(await title(tab)).toBe("Object of rank 12");
     await tab.keyboard.press("1");

@@ -20,7 +20,7 @@ async function violations(tab: Tab): Promise<string[]> {
   return found.flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 160)} ${node.failureSummary.slice(0, 200)}`));
 }
 
-describe.skipIf(!canServe)("the viewer for everyone", { timeout: 60_000 }, () => {
+describe.skipIf(!canServe)("the viewer for everyone", () => {
   let served: Served;
   beforeAll(async () => {
     served = await Served.phantom("demo", "--size", "48");

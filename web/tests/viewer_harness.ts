@@ -78,6 +78,7 @@ export class Served {
   async open(hash = "", options: BrowserContextOptions = {}, firstTime = false): Promise<{ tab: Tab; problems: string[] }> {
     const tab = await this.browser.newPage({ viewport: { width: 1000, height: 700 }, ...options });
     if (!firstTime) await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
+    tab.setDefaultTimeout(120_000);
     const problems: string[] = [];
     tab.on("pageerror", (error) => problems.push(error.message));
     tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));

@@ -11,7 +11,7 @@ interface Listed {
   cavities: number;
 }
 
-describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
+describe.skipIf(!canServe)("the scene", () => {
   let served: Served;
   let listed: Listed[] = [];
 
@@ -31,7 +31,6 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
             .locator(".scene .state")
             .allTextContents()
             .then((notes) => notes.every((note) => /triangles$|hidden$|cavities$/.test(note))),
-        { timeout: 10_000 },
       )
       .toBe(true);
   const save = async (tab: Tab, run: () => Promise<void>, name: string): Promise<string> => {
@@ -166,7 +165,7 @@ describe.skipIf(!canServe)("the scene", { timeout: 30_000 }, () => {
     );
     await tab.getByRole("button", { name: "play upwards" }).click();
     await expect.poll(() => tab.getByRole("button", { name: "play upwards" }).isVisible()).toBe(true);
-    await expect.poll(() => box.inputValue(), { timeout: 10_000 }).toBe(String(Number((top - 9 + 7.5).toPrecision(7))));
+    await expect.poll(() => box.inputValue()).toBe(String(Number((top - 9 + 7.5).toPrecision(7))));
     expect(new Set(asked).size).toBe(3);
     expect(problems).toEqual([]);
     await tab.close();

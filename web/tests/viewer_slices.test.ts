@@ -11,6 +11,9 @@ function hashOf(tab: Tab): URLSearchParams {
   return new URLSearchParams(new URL(tab.url()).hash.slice(1));
 }
 
+/** A machine that draws with its processor alone takes its time. */
+const poll = <T>(what: () => T) => expect.poll(what);
+
 describe.skipIf(!canServe)("slices", () => {
   let served: Served;
   let api: Api;
@@ -68,33 +71,33 @@ describe.skipIf(!canServe)("slices", () => {
     const captions = (): Promise<string[]> => tab.locator(".slices figcaption").allTextContents();
     const page = await api.page();
     const middle = page.volume.size.map((n) => Math.floor(n / 2));
-    await expect.poll(captions).toEqual(AXES.map((axis) => `${"xyz"[axis]} ${middle[axis]} of ${page.volume.size[axis]}`));
-    await expect.poll(() => tab.locator(".at-crosshair .value").textContent()).toMatch(/\d/);
+    await poll(captions).toEqual(AXES.map((axis) => `${"xyz"[axis]} ${middle[axis]} of ${page.volume.size[axis]}`));
+    await poll(() => tab.locator(".at-crosshair .value").textContent()).toMatch(/\d/);
     const slice = tab.locator(".slices canvas");
     await slice.nth(2).focus();
     for (const key of ["ArrowRight", "ArrowUp", "PageDown"]) await tab.keyboard.press(key);
     const moved = [middle[0]! + 1, middle[1]! - 1, middle[2]! - 1];
-    await expect.poll(() => hashOf(tab).get("cross")).toBe(moved.join());
-    await expect.poll(captions).toEqual(AXES.map((axis) => `${"xyz"[axis]} ${moved[axis]} of ${page.volume.size[axis]}`));
+    await poll(() => hashOf(tab).get("cross")).toBe(moved.join());
+    await poll(captions).toEqual(AXES.map((axis) => `${"xyz"[axis]} ${moved[axis]} of ${page.volume.size[axis]}`));
     const [across] = acrossAndDown(2);
     const said = await tab.locator(".at-crosshair").textContent();
     const answer = (await (await api.ask(`/api/at?voxel=${moved.join()}`, "at")).json()) as { value: number };
     expect(said).toContain(`sample ${moved.join(", ")}`);
     expect(Number(await tab.locator(".at-crosshair .value").textContent())).toBeCloseTo(answer.value, 1);
     await tab.locator(".objects h1").click();
-    await tab.keyboard.press(String(2 * across + 1));
-    await expect.poll(() => hashOf(tab).get("cross")).toBe([moved[0]! - 1, moved[1], moved[2]].join());
+    await tab.keyboard.press(["5", "7", "9"][across]!);
+    await poll(() => hashOf(tab).get("cross")).toBe([moved[0]! - 1, moved[1], moved[2]].join());
     await tab.keyboard.press("Control+z");
-    await expect.poll(() => hashOf(tab).get("cross")).toBe(moved.join());
+    await poll(() => hashOf(tab).get("cross")).toBe(moved.join());
     const box = (await slice.nth(0).boundingBox())!;
     await tab.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await tab.mouse.wheel(0, 100);
-    await expect.poll(() => hashOf(tab).get("cross")).toBe([moved[0]! - 1, moved[1], moved[2]].join());
+    await poll(() => hashOf(tab).get("cross")).toBe([moved[0]! - 1, moved[1], moved[2]].join());
     await tab.mouse.click(box.x + box.width / 2 + 20, box.y + box.height / 2);
-    await expect.poll(() => Number(hashOf(tab).get("cross")?.split(",")[1])).toBeGreaterThan(moved[1]!);
+    await poll(() => Number(hashOf(tab).get("cross")?.split(",")[1])).toBeGreaterThan(moved[1]!);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 30_000);
+  }, 60_000);
 
   it("select what holds a sample: the innermost, shown or not", async () => {
     const page = await api.page();
@@ -103,33 +106,33 @@ describe.skipIf(!canServe)("slices", () => {
     const { id, inside } = page.entries[inner]!;
     const voxel = [id % size[0], Math.floor(id / size[0]) % size[1], Math.floor(id / size[0] / size[1])];
     const { tab, problems } = await served.open(`#scene=${inside},${page.entries[inside]!.tau},1,1&selected=-1&slices=1&cross=${voxel.join()}`);
-    await expect.poll(() => tab.locator(".slices .chip").count()).toBeGreaterThan(0);
+    await poll(() => tab.locator(".slices .chip").count()).toBeGreaterThan(0);
     await tab.locator(".objects h1").click();
     await tab.keyboard.press("a");
-    await expect.poll(() => tab.locator(".object h2").textContent()).toBe(`Object ${inside + 1}`);
+    await poll(() => tab.locator(".object h2").textContent()).toBe(`Object ${inside + 1}`);
     await tab.locator(".slices .chip", { hasText: `Object ${inner + 1}` }).click();
-    await expect.poll(() => tab.locator(".object h2").textContent()).toBe(`Object ${inner + 1}`);
+    await poll(() => tab.locator(".object h2").textContent()).toBe(`Object ${inner + 1}`);
     expect(hashOf(tab).get("scene")?.split(";").length).toBe(2);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 30_000);
+  }, 60_000);
 
   it("stand in the picture, in the brightness one chooses, and a link restores all of it", async () => {
     const { tab, problems } = await served.open();
     await tab.locator(".objects h1").click();
     for (const key of ["k", "K", "b", "o"]) await tab.keyboard.press(key);
     await tab.getByRole("slider", { name: "value that is white" }).fill("500");
-    await expect.poll(() => hashOf(tab).has("grey")).toBe(true);
+    await poll(() => hashOf(tab).has("grey")).toBe(true);
     const { hash } = new URL(tab.url());
     const other = await served.open(hash);
-    await expect.poll(() => other.tab.locator(".slices").isVisible()).toBe(true);
+    await poll(() => other.tab.locator(".slices").isVisible()).toBe(true);
     expect(await other.tab.getByRole("slider", { name: "value that is white" }).inputValue()).toBe("500");
     expect(["slices", "planes", "edges", "flat"].map((key) => hashOf(other.tab).get(key))).toEqual(["1", "1", "1", "1"]);
     for (let i = 0; i < 3; ++i) await other.tab.keyboard.press("K");
     expect(problems.concat(other.problems)).toEqual([]);
     await tab.close();
     await other.tab.close();
-  }, 30_000);
+  }, 60_000);
 
   it("leave a volume that is cut where one says: by a slider, a key, and the handle", async () => {
     const { tab, problems } = await served.open();
@@ -138,13 +141,13 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.keyboard.press("Y");
     await tab.keyboard.press("c");
     const cut = (): number[] => (hashOf(tab).get("cut") ?? "").split(",").map(Number);
-    await expect.poll(() => cut().length).toBe(4);
+    await poll(() => cut().length).toBe(4);
     await tab.getByRole("button", { name: "cut along x" }).click();
-    await expect.poll(cut).toEqual([1, 0, 0, 0.5]);
+    await poll(cut).toEqual([1, 0, 0, 0.5]);
     await tab.keyboard.press(">");
-    await expect.poll(cut).toEqual([1, 0, 0, 0.48]);
+    await poll(cut).toEqual([1, 0, 0, 0.48]);
     await tab.keyboard.press("Control+z");
-    await expect.poll(cut).toEqual([1, 0, 0, 0.5]);
+    await poll(cut).toEqual([1, 0, 0, 0.5]);
     await tab.keyboard.press("f");
     const box = (await tab.locator(".stage > canvas").boundingBox())!;
     const middle = [box.x + box.width / 2, box.y + box.height / 2] as const;
@@ -153,44 +156,45 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.mouse.down();
     await tab.mouse.move(middle[0] + 30, middle[1], { steps: 3 });
     await tab.mouse.up();
-    await expect.poll(() => Math.abs((cut()[3] ?? 0.5) - 0.5)).toBeGreaterThan(0.02);
+    await poll(() => Math.abs((cut()[3] ?? 0.5) - 0.5)).toBeGreaterThan(0.02);
+    await tab.waitForTimeout(800);
     const share = cut()[3]!;
     await tab.getByRole("button", { name: "keep the other half" }).click();
-    await expect.poll(cut).toEqual([-1, 0, 0, expect.closeTo(1 - share, 5)]);
+    await poll(cut).toEqual([-1, 0, 0, expect.closeTo(1 - share, 5)]);
     await tab.getByRole("button", { name: "close the cut" }).click();
-    await expect.poll(() => hashOf(tab).has("cut")).toBe(false);
+    await poll(() => hashOf(tab).has("cut")).toBe(false);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 30_000);
+  }, 60_000);
 
   it("are looked at from a face of the cube, and turn by themselves until something is touched", async () => {
     const { tab, problems } = await served.open();
     await tab.waitForTimeout(500);
     await tab.getByRole("button", { name: "look from the far end of z" }).click();
     const view = (): number[] => (hashOf(tab).get("view") ?? "").split(",").map(Number);
-    await expect.poll(() => Math.abs(view()[0]! - view()[3]!) + Math.abs(view()[1]! - view()[4]!)).toBeLessThan(1);
+    await poll(() => Math.abs(view()[0]! - view()[3]!) + Math.abs(view()[1]! - view()[4]!)).toBeLessThan(1);
     const before = view();
     await tab.keyboard.press("T");
     await tab.waitForTimeout(600);
     await tab.keyboard.press("Escape");
-    await expect.poll(view).not.toEqual(before);
+    await poll(view).not.toEqual(before);
     const after = view();
     await tab.waitForTimeout(300);
     expect(view()).toEqual(after);
     const calm = await served.open("", { reducedMotion: "reduce" });
     await calm.tab.waitForTimeout(800);
     await calm.tab.keyboard.press("T");
-    await expect.poll(() => calm.tab.locator(".said").textContent()).toContain("less motion");
+    await poll(() => calm.tab.locator(".said").textContent()).toContain("less motion");
     expect(problems).toEqual([]);
     await tab.close();
     await calm.tab.close();
-  }, 30_000);
+  }, 60_000);
 
   it("take no more memory of the graphics after many steps", async () => {
     const { tab, problems } = await served.open("#scene=0,120,1,1;1,130,0.5,1&selected=0&slices=1&planes=1&cut=1,0,0,0.5&edges=1&measure=0,0,0,9,9,9");
     const held = (): Promise<string | undefined> => tab.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage > canvas")?.dataset.held);
     const steps = async (count: number): Promise<void> => {
-      for (let i = 0; i < count; ++i) await tab.keyboard.press(["]", "2", "K", "[", "4", "<", "K", "6", "ArrowLeft", ">"][i % 10]!);
+      for (let i = 0; i < count; ++i) await tab.keyboard.press(["]", "6", "K", "[", "8", "<", "K", "0", "ArrowLeft", ">"][i % 10]!);
       await tab.waitForTimeout(1000);
     };
     await tab.locator(".objects h1").click();

@@ -121,7 +121,7 @@ const volumes: [name: string, there: boolean, serve: () => Promise<Served>][] = 
 ];
 
 for (const [volume, there, serve] of volumes) {
-  describe.skipIf(!canServe || !there)(`ten minutes with ${volume}`, { timeout: 60_000 }, () => {
+  describe.skipIf(!canServe || !there)(`ten minutes with ${volume}`, () => {
     let served: Served;
     let listed: Listed[] = [];
 
@@ -150,13 +150,13 @@ for (const [volume, there, serve] of volumes) {
         const title = `Object ${largest + 1}`;
         const other = `Object ${((largest + 1) % listed.length) + 1}`;
         const note = (): Promise<string[]> => tab.locator(".scene .state").allTextContents();
-        await expect.poll(note, { timeout: 10_000 }).toEqual([expect.stringMatching(/triangles$/)]);
+        await expect.poll(note).toEqual([expect.stringMatching(/triangles$/)]);
         await step("1-opened");
 
         const seen = meshes(tab);
         await hand.choose(tab, title);
         await expect
-          .poll(note, { timeout: 10_000 })
+          .poll(note)
           .toEqual([expect.stringContaining(`${extracted(object.id, object.best_tau).toLocaleString("en")} triangles`)]);
         expect(await tab.getByRole("textbox", { name: "isovalue" }).inputValue()).toBe(String(Number(object.best_tau.toPrecision(7))));
         await step("2-isolated");
@@ -164,7 +164,7 @@ for (const [volume, there, serve] of volumes) {
         const tau = Number((object.best_tau * 1.1).toPrecision(4));
         await hand.type(tab, tau);
         const triangles = extracted(object.id, tau);
-        await expect.poll(note, { timeout: 10_000 }).toEqual([expect.stringContaining(`${triangles.toLocaleString("en")} triangles`)]);
+        await expect.poll(note).toEqual([expect.stringContaining(`${triangles.toLocaleString("en")} triangles`)]);
         expect(seen.at(-1)?.asked.get("tau")).toBe(String(tau));
         const { objects } = JSON.parse(served.isoatlas("objects", served.store, "--tau", String(tau), "--json")) as { objects: unknown[] };
         await expect.poll(() => tab.locator(".badge").textContent()).toContain(`${objects.length.toLocaleString("en")} object`);
@@ -176,7 +176,7 @@ for (const [volume, there, serve] of volumes) {
         await hand.ghost(tab);
         expect(await tab.locator('.scene [aria-current="true"] b').textContent()).toBe(title);
         expect(await tab.getByRole("button", { name: "Ghost others" }).getAttribute("aria-pressed")).toBe("true");
-        await expect.poll(note, { timeout: 10_000 }).toEqual([expect.stringMatching(/triangles$/), expect.stringMatching(/triangles$/)]);
+        await expect.poll(note).toEqual([expect.stringMatching(/triangles$/), expect.stringMatching(/triangles$/)]);
         await hand.select(tab, other);
         await step("4-ghosts");
         await hand.select(tab, title);
@@ -190,12 +190,12 @@ for (const [volume, there, serve] of volumes) {
         await hand.copyLink(tab);
         const link = await tab.evaluate(() => navigator.clipboard.readText());
         const restored = await served.open(new URL(link).hash, { viewport: { width: 1280, height: 800 } });
-        await expect.poll(() => restored.tab.locator(".scene .state").allTextContents(), { timeout: 10_000 }).toEqual(await note());
+        await expect.poll(() => restored.tab.locator(".scene .state").allTextContents()).toEqual(await note());
         expect(restored.tab.url()).toBe(link);
         await keepPicture(restored.tab, `${hand.name}-5-restored`);
         const drawn = (page: Tab): Promise<string> =>
           page.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage canvas")?.toDataURL() ?? "");
-        await expect.poll(async () => (await drawn(restored.tab)) === (await drawn(tab)), { timeout: 10_000 }).toBe(true); // pixel by pixel
+        await expect.poll(async () => (await drawn(restored.tab)) === (await drawn(tab))).toBe(true); // pixel by pixel
         expect([...problems, ...restored.problems]).toEqual([]);
         await restored.tab.close();
         await tab.close();

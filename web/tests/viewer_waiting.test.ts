@@ -15,7 +15,7 @@ describe.skipIf(!canServe)("the viewer before its store", () => {
       }).observe(document, { childList: true, subtree: true, characterData: true });
     });
     await tab.goto(served.address);
-    await tab.waitForSelector(".objects", { timeout: 60_000 });
+    await tab.waitForSelector(".objects");
     expect(titles.some((title) => /^building \d+ %$/.test(title))).toBe(true);
     expect(await tab.locator(".waiting").count()).toBe(0);
     await served.close();

@@ -35,7 +35,11 @@ export function numbersOf(page: Page): number {
   return page.entries.length + Math.min(page.objects.bright.all, MOST_LISTED);
 }
 
-const NONE: Branches = { source: "", all: 0, id: [], voxel: [], tau: [], low: [], high: [], tunnels: [], cavities: [], appears: [], merges: [], parent: [], persistence: [], hypervolume: [], voxels: [], measure: [], standsOut: [] };
+const [SOME, FLAGS]: [number[], boolean[]] = [[], []];
+const NONE: Branches = {
+  ...{ source: "", all: 0, id: SOME, voxel: SOME, tau: SOME, low: SOME, high: SOME, tunnels: SOME, cavities: SOME },
+  ...{ appears: SOME, merges: SOME, parent: SOME, persistence: SOME, hypervolume: SOME, voxels: SOME, measure: SOME, standsOut: FLAGS },
+};
 
 /** Does a state speak of more than the page has? */
 export function needsAll(page: Page, state: State): boolean {

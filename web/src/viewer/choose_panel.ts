@@ -16,6 +16,12 @@ import { Tabs } from "./tabs";
 import { TreeTab } from "./tree_tab";
 import "./choose.css";
 
+const FIND = "find objects by name, number or reason";
+
+function orderOption(name: string): HTMLElement {
+  return html("option", { value: name }, name === "rank" ? "by importance" : `by ${name}`);
+}
+
 export class ChoosePanel {
   readonly element: HTMLElement;
   private readonly tabs: Tabs<TabName>;
@@ -23,11 +29,11 @@ export class ChoosePanel {
   private readonly list: ItemsTab;
   private readonly tree: TreeTab;
   private readonly scatter: ScatterTab;
-  private readonly text = html("input", { type: "search", placeholder: "find: 3, cavity, sharp", "aria-label": "find objects by name, number or reason" });
-  private readonly order = html("select", { "aria-label": "order" }, ...orders.map(([name]) => html("option", { value: name }, name === "rank" ? "by importance" : `by ${name}`)));
+  private readonly text = html("input", { type: "search", placeholder: "find: 3, cavity, sharp", "aria-label": FIND });
+  private readonly order = html("select", { "aria-label": "order" }, ...orders.map(([name]) => orderOption(name)));
   private readonly words = html("p", { role: "status" });
   private readonly command = html("div", { class: "same-list" });
-  private readonly tools = html("div", { class: "tools" }, this.text, this.order);
+  private readonly finder = html("div", { class: "finder" }, this.text, this.order);
   private chosen: number[] = [];
   private kept = 0;
   private found: Found = { bright: [], dark: [], also: [] };
@@ -53,7 +59,8 @@ export class ChoosePanel {
       "how objects are listed",
       (name) => this.open(name),
     );
-    this.element = html("nav", { class: "objects", "aria-label": "objects" }, html("h1", {}, page.volume.name), this.words, this.hidden(), this.tools, this.tabs.element);
+    const head = [html("h1", {}, page.volume.name), this.words, this.hidden(), this.finder];
+    this.element = html("nav", { class: "objects", "aria-label": "objects" }, ...head, this.tabs.element);
     for (const input of [this.text, this.order]) input.addEventListener("input", () => this.refresh(desk.history.now));
     this.addActions();
   }
@@ -75,7 +82,7 @@ export class ChoosePanel {
     if (state.parts.choice !== before.parts.choice || this.chosen.length === 0) this.recount(state);
     const tab = TAB.of(state);
     this.tabs.show(tab);
-    this.tools.hidden = tab === "scatter";
+    this.finder.hidden = tab === "scatter";
     this.order.hidden = tab === "tree";
     this.refresh(state);
   }
@@ -106,7 +113,8 @@ export class ChoosePanel {
     const { page } = this.desk;
     const words = [this.countWords(choice)];
     if (this.found.dark.length > 0) words.push(`and ${plural(this.desk.catalogue.objectsOf(this.found.dark), "dark object")}`);
-    if (this.text.value.trim() !== "") words.push(`found: ${count(this.found.bright.length + this.found.dark.length + this.found.also.length)}`);
+    const { bright, dark, also } = this.found;
+    if (this.text.value.trim() !== "") words.push(`found: ${count(bright.length + dark.length + also.length)}`);
     if (this.words.textContent !== words.join(", ")) this.words.textContent = words.join(", "); // what is said again is read out again
     if (!this.desk.catalogue.isKnown) return;
     const { line, same } = commandOf(choice, this.desk.catalogue.source, page.objects.bright.standingOut, page.volume.unit !== null);
@@ -142,7 +150,8 @@ export class ChoosePanel {
     const { page } = this.desk;
     const { standingOut } = page.objects.bright;
     const pictured = this.desk.catalogue.objectsOf(this.desk.catalogue.chosen(null));
-    const more = (name: string, choice: Choice | null): HTMLElement => html("button", { type: "button", click: () => this.choose(choice, false) }, name);
+    const more = (name: string, choice: Choice | null): HTMLElement =>
+      html("button", { type: "button", click: () => this.choose(choice, false) }, name);
     return html(
       "details",
       { class: "hidden-words" },

@@ -32,7 +32,8 @@ export interface Sizes {
 /** The largest object, of rank 0, is kept by every choice that has no upper limit: as on the command line. */
 export function isChosen(choice: Choice, { rank, contrast, size, standsOut }: Sizes): boolean {
   if (rank === 0 && choice.contrast[1] === null && choice.size[1] === null) return true;
-  return (!choice.standsOut || standsOut) && (choice.keep === null || rank < choice.keep) && isIn(choice.contrast, contrast) && isIn(choice.size, size);
+  if ((choice.standsOut && !standsOut) || (choice.keep !== null && rank >= choice.keep)) return false;
+  return isIn(choice.contrast, contrast) && isIn(choice.size, size);
 }
 
 function isIn([least, most]: Limits, number: number): boolean {
@@ -89,4 +90,8 @@ function choiceOf(word: string): Choice | null {
 export const CHOICE = new Part<Choice | null>("choice", "choice of what is listed", null, wordOf, choiceOf);
 
 /** How they are listed: no step of its own, see History.everywhere(). */
-export const TAB = new Part<TabName>("tab", "how objects are listed", "cards", String, (word) => TABS.find((name) => name === word) ?? null);
+export const TAB = new Part<TabName>("tab", "how objects are listed", "cards", String, tabOf);
+
+function tabOf(word: string): TabName | null {
+  return TABS.find((name) => name === word) ?? null;
+}

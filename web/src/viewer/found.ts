@@ -25,7 +25,8 @@ export function find(page: Page, chosen: number[], shown: State["shown"], wanted
   const listed = new Set([...chosen, ...dark, EVERYTHING]);
   const also = shown.map(({ entry }) => entry).filter((i) => !listed.has(i));
   const words = wanted.text.toLowerCase().split(/\s+/).filter((word) => word !== "");
-  const matching = (numbers: number[]): number[] => (words.length === 0 ? numbers : numbers.filter((i) => words.every((word) => isAbout(page, i, word))));
+  const isMatch = (i: number): boolean => words.every((word) => isAbout(page, i, word));
+  const matching = (numbers: number[]): number[] => (words.length === 0 ? numbers : numbers.filter(isMatch));
   const sorted = (numbers: number[]): number[] => sortedBy(page, matching(numbers), wanted.order);
   return { bright: sorted(chosen), dark: sorted(dark), also: matching(also) };
 }

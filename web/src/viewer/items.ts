@@ -22,7 +22,8 @@ export interface Chooser {
 
 export function row(page: Page, i: number, chooser: Chooser): Item {
   const swatch = html("span", { class: "swatch", style: `background:${colourOf(page, i)}` });
-  const { box, button } = controls(page, i, chooser, swatch, html("span", {}, html("b", {}, titleOf(page, i)), ` ${about(page, i).join(", ")}`));
+  const words = html("span", {}, html("b", {}, titleOf(page, i)), ` ${about(page, i).join(", ")}`);
+  const { box, button } = controls(page, i, chooser, swatch, words);
   return { element: html("li", {}, box, button), box, button };
 }
 
@@ -33,7 +34,8 @@ export function card(page: Page, i: number, chooser: Chooser, pictures: Pictures
   picture.addEventListener("click", (event) => choose(event, i, chooser));
   const branch = branchOfShown(page, i);
   const bar = branch ? html("div", { class: "bar", title: `on its own: ${rangeOf(branch)}` }, rangeBar(page, i)) : null;
-  const element = html("li", { class: "card", style: `--colour:${colourOf(page, i)}` }, picture, bar, html("label", { class: "add" }, box), button);
+  const add = html("label", { class: "add" }, box);
+  const element = html("li", { class: "card", style: `--colour:${colourOf(page, i)}` }, picture, bar, add, button);
   return { element, box, button };
 }
 

@@ -5,6 +5,7 @@ import { Actions } from "./actions";
 import { fromHash, toHash } from "./address";
 import { Api, isOvertaken } from "./api";
 import { AxisPanel } from "./axis_panel";
+import { brackets } from "./brackets";
 import { Catalogue, MOST_LISTED, needsAll, numbersOf } from "./catalogue";
 import { ChoosePanel } from "./choose_panel";
 import { onClick, placeOn } from "./clicks";
@@ -57,6 +58,7 @@ class Viewer implements Desk {
     this.shown = new ScenePanel(this);
     this.panel = new ObjectPanel(this);
     looking(this);
+    brackets(this);
     theme(this);
     const tour = new Tour(this);
     const side = html("div", { class: "side" }, this.choosing.element);

@@ -216,5 +216,6 @@ interface Ink {
 /** Colours that differ by theme, as the borders that choose.css gives the canvas: a canvas knows no variables. */
 function inkOf(element: HTMLElement): Ink {
   const style = getComputedStyle(element);
-  return { ink: style.color, soft: style.borderTopColor, line: style.borderRightColor, mark: style.borderBottomColor, chosen: style.borderLeftColor };
+  const { color, borderTopColor, borderRightColor, borderBottomColor, borderLeftColor } = style;
+  return { ink: color, soft: borderTopColor, line: borderRightColor, mark: borderBottomColor, chosen: borderLeftColor };
 }

@@ -9,6 +9,8 @@ import { ScatterPlot } from "./scatter_plot";
 import { titleOf } from "./shown";
 import type { State } from "./state";
 
+const HOW_TO_USE = "Circles: what noise does not explain. Drag a box around what is essential; a click shows an object.";
+
 export class ScatterTab {
   readonly panel: HTMLElement;
   private readonly plot: ScatterPlot;
@@ -57,7 +59,9 @@ export class ScatterTab {
     const rankOf = (i: number): number => (i < 0 ? -1 : this.rankOf(i));
     const shown = state.shown.map(({ entry }) => rankOf(entry));
     const ranks = new Set(chosen.map(rankOf));
-    this.plot.show({ choice: this.choice, chosen: ranks, shown: new Set(shown), selected: shown[state.selected] ?? -1 }, `contrast and size of ${count(this.catalogue.sizes.length)} objects, ${count(ranks.size)} of them chosen`);
+    const label = `contrast and size of ${count(this.catalogue.sizes.length)} objects, ${count(ranks.size)} of them chosen`;
+    const selected = shown[state.selected] ?? -1;
+    this.plot.show({ choice: this.choice, chosen: ranks, shown: new Set(shown), selected }, label);
     const { contrast, size, keep, standsOut } = this.choice ?? ANY;
     [...contrast, ...size].forEach((limit, i) => put(this.limits[i], limit));
     put(this.keep, keep);
@@ -86,7 +90,7 @@ export class ScatterTab {
   private about(): string {
     const { sizes, all } = this.catalogue;
     const which = sizes.length < all ? `The ${count(sizes.length)} most important of ${count(all)} objects` : `${count(all)} objects`;
-    return `${which}, a dot each: how far it rises above where it merges, and how large it is there. Circles: what noise does not explain. Drag a box around what is essential; a click shows an object.`;
+    return `${which}, a dot each: how far it rises above where it merges, and how large it is there. ${HOW_TO_USE}`;
   }
 
   private nameOf(rank: number): string {
@@ -102,6 +106,7 @@ export class ScatterTab {
   }
 
   private commit(): void {
+    for (const input of [...this.limits, this.keep]) if (read(input) === null) input.value = ""; // what is no limit
     const [a, b, c, d] = this.limits.map(read);
     const keep = read(this.keep);
     const contrast: Limits = [a ?? null, b ?? null];
@@ -119,6 +124,10 @@ function read(input: HTMLInputElement): number | null {
   return input.value.trim() === "" || !Number.isFinite(number) || number < 0 ? null : number;
 }
 
+/** Writes what the state has, when that has changed: what is being typed stays. */
 function put(input: HTMLInputElement | undefined, number: number | null): void {
-  if (input && read(input) !== number) input.value = number === null ? "" : String(number);
+  const text = number === null ? "" : String(number);
+  if (!input || input.dataset.put === text) return;
+  input.dataset.put = text;
+  input.value = text;
 }

@@ -16,6 +16,9 @@ import { SliceView } from "./slice_view";
 import type { State } from "./state";
 import { valueAt } from "./wire_samples";
 
+/** back and on along x, y, z */
+const KEYS = ["5", "6", "7", "8", "9", "0"];
+
 /** Where the crosshair is. */
 export function crosshairOf({ page, history }: Pick<Desk, "page" | "history">): Triple {
   return new Grid(page).inside(CROSSHAIR.of(history.now) ?? middleOf(page));
@@ -26,8 +29,6 @@ export function placeText({ page }: Pick<Desk, "page">, place: readonly number[]
   return `${place.map(value).join(", ")} ${page.volume.unit ?? ""}`.trimEnd();
 }
 
-/** back and on along x, y, z */
-const KEYS = ["5", "6", "7", "8", "9", "0"];
 
 export class Slices {
   private readonly grid: Grid;

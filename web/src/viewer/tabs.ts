@@ -16,9 +16,10 @@ export class Tabs<Name extends string> {
     label: string,
     private readonly opened: (name: Name) => void,
   ) {
-    this.buttons = tabs.map(({ name, title }) =>
-      html("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `panel-${name}`, click: () => opened(name) }, title),
-    );
+    this.buttons = tabs.map(({ name, title }) => {
+      const roles = { role: "tab", id: `tab-${name}`, "aria-controls": `panel-${name}` };
+      return html("button", { type: "button", ...roles, click: () => opened(name) }, title);
+    });
     for (const { name, panel } of tabs) {
       panel.id = `panel-${name}`;
       panel.setAttribute("role", "tabpanel");

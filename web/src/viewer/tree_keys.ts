@@ -1,5 +1,5 @@
-// The marks of a drawn tree as the items of a tree widget: one of them has the focus; arrows go up, down, to what it merges into and to what
-// merges into it, and fold.
+// The marks of a drawn tree as the items of a tree widget: one of them has the focus; arrows go up, down, to what it merges into and to
+// what merges into it, and fold.
 import { keptParent, lanesOf } from "../overview";
 import { entryOf, type Page } from "../page";
 

@@ -1,4 +1,4 @@
-// The chosen objects over the isovalue, as the branches of their tree: as many as one wants to see, what merges into one folded away or not.
+// The chosen objects over the isovalue, as the branches of their tree: as many as one wants to see; what merges into one may be folded.
 import { Axis } from "../axis";
 import { html, svg } from "../dom";
 import { count, plural } from "../format";
@@ -14,6 +14,7 @@ import { foldedAway, TreeKeys } from "./tree_keys";
 
 const FIRST = 40;
 const MOST = 300;
+const HOW_TO_READ = "A line is an object from where it appears (right) to where it merges (left); dark ones the other way round.";
 
 export class TreeTab {
   private readonly budget = html("input", { type: "range", min: 1, max: FIRST, value: FIRST, "aria-label": "how many branches are drawn" });
@@ -50,7 +51,9 @@ export class TreeTab {
     this.state = state;
     const shown = state.shown[state.selected];
     const selected = shown && branchOfShown(this.page, shown.entry) ? entryOf(this.page, shown.entry).branch : -1;
-    for (const line of this.place.querySelectorAll<SVGElement>("[data-branch]")) line.classList.toggle("selected", Number(line.dataset.branch) === selected);
+    for (const line of this.place.querySelectorAll<SVGElement>("[data-branch]")) {
+      line.classList.toggle("selected", Number(line.dataset.branch) === selected);
+    }
     for (const mark of this.place.querySelectorAll<SVGElement>("[data-entry]")) {
       const number = Number(mark.dataset.entry);
       mark.setAttribute("aria-selected", String(number === shown?.entry));
@@ -99,7 +102,7 @@ export class TreeTab {
   private say(all: number, wanted: number, kept: number): void {
     const drawn = all === wanted ? `${plural(all, "branch", "branches")}` : `the ${count(wanted)} most important of ${count(all)} branches`;
     const hidden = kept < wanted ? `, ${count(wanted - kept)} of them folded away` : "";
-    this.words.textContent = `${drawn}${hidden}. A line is an object from where it appears (right) to where it merges (left); dark ones the other way round.`;
+    this.words.textContent = `${drawn}${hidden}. ${HOW_TO_READ}`;
     this.budget.setAttribute("aria-valuetext", drawn);
   }
 
@@ -110,8 +113,10 @@ export class TreeTab {
     if (number === undefined || !line) return;
     const { tau, colour } = entryOf(this.page, number);
     const y = line.getAttribute("y1") ?? 0;
-    const mark = svg("g", { class: "mark dot", "data-entry": number, "aria-label": describe(this.page, number), click: () => this.chooser.isolate(number) });
-    mark.append(svg("title", {}, describe(this.page, number)), svg("circle", { cx: axis.x(tau), cy: y, r: 5, fill: colour }));
+    const words = describe(this.page, number);
+    const choose = (): void => this.chooser.isolate(number);
+    const mark = svg("g", { class: "mark dot", "data-entry": number, "aria-label": words, click: choose });
+    mark.append(svg("title", {}, words), svg("circle", { cx: axis.x(tau), cy: y, r: 5, fill: colour }));
     drawing.append(mark);
   }
 
