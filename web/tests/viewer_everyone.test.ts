@@ -49,6 +49,10 @@ describe.skipIf(!canServe)("the viewer for everyone", () => {
         await tab.waitForSelector(`.objects [role="tab"]:nth-child(${key})[aria-selected="true"]`);
         expect(await violations(tab), `objects by ${key}`).toEqual([]);
       }
+      for (const key of ["k", "c", "m", "v"]) {
+        await tab.keyboard.press(key);
+        expect(await violations(tab), `tool of ${key}`).toEqual([]);
+      }
       for (const key of ["s", "?"]) {
         await tab.keyboard.press(key);
         await tab.waitForSelector("dialog[open]");

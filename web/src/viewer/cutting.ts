@@ -42,7 +42,7 @@ export function cutting(desk: Desk, tools: HTMLElement): void {
     { class: "cut-bar", role: "group", "aria-label": "the cut", hidden: true },
     html("span", {}, "Cut"),
     ...AXES.map((axis) => button(AXIS_NAMES[axis], `cut along ${AXIS_NAMES[axis]}`, along(axis))),
-    button("view", "cut from where you look", () => go(fromHere())),
+    button("view", "cut from the view of the eye", () => go(fromHere())),
     slider,
     button("⇄", "keep the other half", change(turned)),
     button("✕", "close the cut", () => go(null)),
