@@ -154,6 +154,7 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.mouse.move(middle[0] + 30, middle[1], { steps: 3 });
     await tab.mouse.up();
     await expect.poll(() => Math.abs((cut()[3] ?? 0.5) - 0.5)).toBeGreaterThan(0.02);
+    await tab.waitForTimeout(800);
     const share = cut()[3]!;
     await tab.getByRole("button", { name: "keep the other half" }).click();
     await expect.poll(cut).toEqual([-1, 0, 0, expect.closeTo(1 - share, 5)]);
