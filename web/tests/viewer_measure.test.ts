@@ -73,15 +73,15 @@ describe.skipIf(!canServe)("a ball", () => {
   it("is measured with keys alone, angles too, and on a slice", async () => {
     const { tab, problems } = await served.open(`${scene}&slices=1&cross=6,20,20`);
     await tab.locator(".objects h1").click();
-    for (const key of ["M", "e", ...Array<string>(14).fill("2"), "e", ...Array<string>(14).fill("4"), "e"]) await tab.keyboard.press(key);
+    for (const key of ["M", "e", ...Array<string>(14).fill("6"), "e", ...Array<string>(14).fill("8"), "e"]) await tab.keyboard.press(key);
     await expect.poll(() => text(tab)).toEqual(["90°"]);
-    for (const key of ["m", "e", ...Array<string>(28).fill("3"), "e"]) await tab.keyboard.press(key);
-    await expect.poll(() => text(tab)).toEqual(["90°", "14 mm"]);
+    for (const key of ["m", "e", ...Array<string>(14).fill("5"), "e"]) await tab.keyboard.press(key);
+    await expect.poll(() => text(tab)).toEqual(["90°", "7 mm"]);
     await tab.keyboard.press("m");
     const box = (await tab.locator(".slices canvas").nth(2).boundingBox())!;
     const sample = Math.min(box.width, box.height) / SIDE;
     for (const by of [-10, 10]) await tab.mouse.click(box.x + box.width / 2 + by * sample, box.y + box.height / 2);
-    await expect.poll(() => text(tab)).toEqual(["90°", "14 mm", "10 mm"]);
+    await expect.poll(() => text(tab)).toEqual(["90°", "7 mm", "10 mm"]);
     await tab.getByRole("button", { name: "look from the left" }).press("Enter");
     expect(problems).toEqual([]);
     await tab.close();

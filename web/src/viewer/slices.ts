@@ -16,9 +16,6 @@ import { SliceView } from "./slice_view";
 import type { State } from "./state";
 import { valueAt } from "./wire_samples";
 
-/** back and on along x, y, z */
-const KEYS = ["5", "6", "7", "8", "9", "0"];
-
 /** Where the crosshair is. */
 export function crosshairOf({ page, history }: Pick<Desk, "page" | "history">): Triple {
   return new Grid(page).inside(CROSSHAIR.of(history.now) ?? middleOf(page));
