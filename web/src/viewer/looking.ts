@@ -11,7 +11,7 @@ import { crosshairOf, Slices } from "./slices";
 import "./looking.css";
 
 export function looking(desk: Desk): void {
-  const tools = html("div", { class: "stage-tools" });
+  const tools = html("div", { class: "hand-tools" });
   desk.overlay.append(tools);
   look(desk);
   cube(desk);
