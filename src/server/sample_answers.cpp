@@ -4,6 +4,7 @@
 
 #include "isoatlas/error.h"
 #include "isoatlas/holders.h"
+#include "isoatlas/isovalue.h"
 #include "isoatlas/page.h"
 #include "isoatlas/render.h"
 #include "server/answers.h"
@@ -31,7 +32,7 @@ void require_volume(const Atlas& atlas) {
 
 /// Does an object of one voxel hold another one at an isovalue?
 bool holds(const Atlas& atlas, const Holders& sample, const NumberAt& object) {
-    const double tau = atlas.info().calibration.stored(object.at);
+    const double tau = stored_isovalue(atlas.info(), object.at);
     const std::optional<std::int64_t> own = sample.object(tau);
     return own && (*own == object.number || own == Holders(atlas, object.number).object(tau));
 }
@@ -94,7 +95,7 @@ Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, con
     AtVoxel found{.voxel = {at[0], at[1], at[2]}, .position = {}, .value = info.calibration.reported(sample.value())};
     found.position = to_physical(info.geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
     for (const NumberAt& object : objects) found.objects.push_back(holds(atlas, sample, object));
-    for (const NumberAt& contour : contours) found.contours.push_back(sample.cavity(info.calibration.stored(contour.at)) == contour.number);
+    for (const NumberAt& contour : contours) found.contours.push_back(sample.cavity(stored_isovalue(info, contour.at)) == contour.number);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const NamedEntry& entry = entries[i];
         const std::optional<std::int64_t> holder = entry.dark ? sample.cavity(entry.tau) : sample.object(entry.tau);
