@@ -128,7 +128,7 @@ export class ChoosePanel {
     const { all } = this.desk.catalogue;
     const shown = this.desk.catalogue.objectsOf(this.chosen);
     const hidden = choice !== null && this.kept > shown ? ` ${count(this.kept)} chosen ones, of` : "";
-    const isovalues = this.chosen.length > shown ? `, at ${count(this.chosen.length)} isovalues` : "";
+    const isovalues = this.chosen.length > shown ? ", some at several isovalues" : "";
     return `${count(shown)} of${hidden} ${plural(all, "object")} shown${isovalues}`;
   }
 
