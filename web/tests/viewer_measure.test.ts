@@ -26,9 +26,6 @@ function ballFile(path: string): void {
   writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
 }
 
-/** A machine that draws with its processor alone takes its time. */
-const poll = <T>(what: () => T) => expect.poll(what);
-
 describe.skipIf(!canServe)("a ball", () => {
   let served: Served;
   let folder: string;
@@ -59,16 +56,16 @@ describe.skipIf(!canServe)("a ball", () => {
     await tab.keyboard.press("Y");
     await tab.waitForTimeout(300);
     await tab.mouse.click(...(await middleOf(tab)));
-    await poll(() => text(tab)).toHaveLength(1);
+    await expect.poll(() => text(tab)).toHaveLength(1);
     const [length, unit] = ((await text(tab))[0] ?? "").split(" ");
     expect(Math.abs(Number(length) - 2 * RADIUS)).toBeLessThan(0.05);
     expect(unit).toBe("mm");
     expect(new URL(tab.url()).hash).toContain("measure=");
     await tab.keyboard.press("Control+z");
-    await poll(() => tab.locator(".measures").isHidden()).toBe(true);
+    await expect.poll(() => tab.locator(".measures").isHidden()).toBe(true);
     await tab.keyboard.press("Control+y");
     await tab.getByRole("button", { name: "remove distance" }).click();
-    await poll(() => tab.locator(".measures").isHidden()).toBe(true);
+    await expect.poll(() => tab.locator(".measures").isHidden()).toBe(true);
     expect(problems).toEqual([]);
     await tab.close();
   }, 60_000);
@@ -77,14 +74,14 @@ describe.skipIf(!canServe)("a ball", () => {
     const { tab, problems } = await served.open(`${scene}&slices=1&cross=6,20,20`);
     await tab.locator(".objects h1").click();
     for (const key of ["M", "e", ...Array<string>(14).fill("6"), "e", ...Array<string>(14).fill("8"), "e"]) await tab.keyboard.press(key);
-    await poll(() => text(tab)).toEqual(["90°"]);
+    await expect.poll(() => text(tab)).toEqual(["90°"]);
     for (const key of ["m", "e", ...Array<string>(14).fill("5"), "e"]) await tab.keyboard.press(key);
-    await poll(() => text(tab)).toEqual(["90°", "7 mm"]);
+    await expect.poll(() => text(tab)).toEqual(["90°", "7 mm"]);
     await tab.keyboard.press("m");
     const box = (await tab.locator(".slices canvas").nth(2).boundingBox())!;
     const sample = Math.min(box.width, box.height) / SIDE;
     for (const by of [-10, 10]) await tab.mouse.click(box.x + box.width / 2 + by * sample, box.y + box.height / 2);
-    await poll(() => text(tab)).toEqual(["90°", "7 mm", "10 mm"]);
+    await expect.poll(() => text(tab)).toEqual(["90°", "7 mm", "10 mm"]);
     await tab.getByRole("button", { name: "look from the left" }).press("Enter");
     expect(problems).toEqual([]);
     await tab.close();
@@ -118,7 +115,7 @@ describe.skipIf(!canServe)("a ball", () => {
         pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
         return (pen.getImageData(0, 0, 1, 1).data[3] ?? 0) / 255;
       });
-    await poll(opacity).toBeGreaterThan(0);
+    await expect.poll(opacity).toBeGreaterThan(0);
     await tab.waitForTimeout(600);
     expect(Math.abs((await opacity()) - expected)).toBeLessThan(0.02);
     expect(await tab.locator(".matter-bar").textContent()).toContain("41 × 41 × 41: every sample");
@@ -146,7 +143,7 @@ describe.skipIf(!canServe)("a ball", () => {
     expect(covered).toHaveLength(4);
     await tab.locator(".objects h1").click();
     await tab.keyboard.press("v");
-    await poll(() => tab.locator(".matter-bar").isHidden()).toBe(true);
+    await expect.poll(() => tab.locator(".matter-bar").isHidden()).toBe(true);
     expect(problems).toEqual([]);
     await tab.close();
   }, 60_000);
