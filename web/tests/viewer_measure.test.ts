@@ -26,8 +26,6 @@ function ballFile(path: string): void {
   writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
 }
 
-/** A machine that draws with its processor alone takes its time. */
-
 describe.skipIf(!canServe)("a ball", () => {
   let served: Served;
   let folder: string;
