@@ -99,6 +99,7 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
   it("drags a box over dots, and a click on a dot shows its object everywhere", async () => {
     const { tab, problems } = await served.open("#scene=&tab=scatter");
     const plot = tab.locator("canvas.scatter");
+    await tab.getByText("a dot each").waitFor(); // all objects are known
     const box = await plot.boundingBox();
     if (!box) throw new Error("no plot");
     await tab.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.55);

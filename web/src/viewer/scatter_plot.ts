@@ -35,6 +35,8 @@ export class ScatterPlot {
   private up = new Logarithmic(1, 1, 1, 0);
   private sizes: Sizes[] = [];
   private pressed: { x: number; y: number } | null = null;
+  /** where the plot was when it was pressed: words above it may change what room they take while a box is dragged */
+  private held: DOMRect | null = null;
 
   constructor(
     private readonly names: { across: string; up: string },
@@ -150,6 +152,8 @@ export class ScatterPlot {
   private listen(): void {
     const { element } = this;
     element.addEventListener("pointerdown", (event) => {
+      if (this.sizes.length === 0) return;
+      this.held = element.getBoundingClientRect();
       this.pressed = this.placeOf(event);
       element.setPointerCapture(event.pointerId);
     });
@@ -160,13 +164,13 @@ export class ScatterPlot {
     element.addEventListener("pointerup", (event) => {
       if (this.pressed && this.isDrag(event)) this.drag(event, false);
       else if (this.pressed) this.click(event);
-      this.pressed = null;
+      this.pressed = this.held = null;
     });
-    element.addEventListener("pointercancel", () => (this.pressed = null));
+    element.addEventListener("pointercancel", () => (this.pressed = this.held = null));
   }
 
   private placeOf(event: PointerEvent): { x: number; y: number } {
-    const box = this.element.getBoundingClientRect();
+    const box = this.held ?? this.element.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
 
