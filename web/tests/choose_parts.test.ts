@@ -1,17 +1,17 @@
 // Choosing among all objects, without a browser.
 import { describe, expect, it } from "vitest";
-import { titleOf } from "../src/viewer/shown";
+import { titleOf } from "../src/viewer/ask/shown";
 import { nameOf } from "../src/names";
 import { entryOf } from "../src/page";
-import { fromHash, toHash } from "../src/viewer/address";
-import { armsOf, boxOf } from "../src/viewer/brackets";
-import { Catalogue, numbersOf, type Branches } from "../src/viewer/catalogue";
-import { ANY, CHOICE, commandOf, isChosen, isSelection, selectionWords, TAB, type Choice } from "../src/viewer/choosing";
-import { find } from "../src/viewer/found";
-import { History } from "../src/viewer/history";
-import { Logarithmic, spanOf } from "../src/viewer/plane";
-import { isolate, NOTHING } from "../src/viewer/state";
-import { foldedAway } from "../src/viewer/tree_keys";
+import { fromHash, toHash } from "../src/viewer/state/address";
+import { armsOf, boxOf } from "../src/viewer/look/brackets";
+import { Catalogue, numbersOf, type Branches } from "../src/viewer/ask/catalogue";
+import { ANY, CHOICE, commandOf, isChosen, isSelection, selectionWords, TAB, type Choice } from "../src/viewer/state/choosing";
+import { find } from "../src/viewer/choose/found";
+import { History } from "../src/viewer/state/history";
+import { Logarithmic, spanOf } from "../src/viewer/choose/plane";
+import { isolate, NOTHING } from "../src/viewer/state/state";
+import { foldedAway } from "../src/viewer/choose/tree_keys";
 import { branch, entry, page } from "./sample";
 
 /** Of rank 0 to n - 1: contrast and size halve from one to the next; each merges into the one before. */

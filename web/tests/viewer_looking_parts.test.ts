@@ -1,21 +1,21 @@
 import { describe, expect, it } from "vitest";
-import { facesOf } from "../src/viewer/axis_names";
-import { besideWords } from "../src/viewer/beside";
-import { march } from "../src/viewer/compositing";
-import { CUT, moved, outlineOf, planeOf, turned } from "../src/viewer/cut_plane";
-import { AXES, distance, dot, Grid, type Triple } from "../src/viewer/grid";
-import { innermostFirst } from "../src/viewer/holders";
-import { colouredAs } from "../src/viewer/matter";
-import { MATTER } from "../src/viewer/matter_state";
-import { angleOf, arcOf, lengthOf, MEASURES } from "../src/viewer/measures";
-import { SlicedMesh } from "../src/viewer/plane_cut";
-import { clipped, firstHit } from "../src/viewer/ray";
-import { CROSSHAIR, greyRange, PLANES } from "../src/viewer/slice_state";
-import { EVERYTHING } from "../src/viewer/shown";
-import { NOTHING } from "../src/viewer/state";
-import { linearOf, meanBetween, PLACES, transferTable, type Bump } from "../src/viewer/transfer";
-import type { Mesh } from "../src/viewer/wire";
-import { decodeSlice, decodeVolume, greyOf, valueAt } from "../src/viewer/wire_samples";
+import { facesOf } from "../src/viewer/look/axis_names";
+import { besideWords } from "../src/viewer/state/beside";
+import { march } from "../src/viewer/draw/compositing";
+import { CUT, moved, outlineOf, planeOf, turned } from "../src/viewer/state/cut_plane";
+import { AXES, distance, dot, Grid, type Triple } from "../src/viewer/state/grid";
+import { innermostFirst } from "../src/viewer/ask/holders";
+import { colouredAs } from "../src/viewer/look/matter";
+import { MATTER } from "../src/viewer/state/matter_state";
+import { angleOf, arcOf, lengthOf, MEASURES } from "../src/viewer/state/measures";
+import { SlicedMesh } from "../src/viewer/draw/plane_cut";
+import { clipped, firstHit } from "../src/viewer/draw/ray";
+import { CROSSHAIR, greyRange, PLANES } from "../src/viewer/state/slice_state";
+import { EVERYTHING } from "../src/viewer/ask/shown";
+import { NOTHING } from "../src/viewer/state/state";
+import { linearOf, meanBetween, PLACES, transferTable, type Bump } from "../src/viewer/ask/transfer";
+import type { Mesh } from "../src/viewer/ask/wire";
+import { decodeSlice, decodeVolume, greyOf, valueAt } from "../src/viewer/ask/wire_samples";
 import { scene } from "./sample";
 
 /** Turned around z by 30 degrees, with steps of 1, 1 and 2. */

@@ -3,10 +3,10 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Api } from "../src/viewer/api";
-import { march } from "../src/viewer/compositing";
-import { PLACES, transferTable, type Bump } from "../src/viewer/transfer";
-import { decodeVolume } from "../src/viewer/wire_samples";
+import { Api } from "../src/viewer/ask/api";
+import { march } from "../src/viewer/draw/compositing";
+import { PLACES, transferTable, type Bump } from "../src/viewer/ask/transfer";
+import { decodeVolume } from "../src/viewer/ask/wire_samples";
 import { canServe, Served } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
 

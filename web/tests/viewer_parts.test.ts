@@ -1,10 +1,10 @@
 import { describe, expect, it } from "vitest";
-import { fromHash, toHash } from "../src/viewer/address";
-import { History } from "../src/viewer/history";
-import { flag, number } from "../src/viewer/part";
-import { add, change, changeAll, isolate, nextEvent, NOTHING, remove, shownAt, type State } from "../src/viewer/state";
-import { roundLength } from "../src/viewer/scale_bar";
-import { unfolded } from "../src/viewer/wire";
+import { fromHash, toHash } from "../src/viewer/state/address";
+import { History } from "../src/viewer/state/history";
+import { flag, number } from "../src/viewer/state/part";
+import { add, change, changeAll, isolate, nextEvent, NOTHING, remove, shownAt, type State } from "../src/viewer/state/state";
+import { roundLength } from "../src/viewer/draw/scale_bar";
+import { unfolded } from "../src/viewer/ask/wire";
 
 const two: State = add(isolate(NOTHING, 3, 10), 1, 20.5);
 

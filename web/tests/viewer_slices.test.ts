@@ -1,9 +1,9 @@
 // Slices, the crosshair, what holds a sample, the cut and where one looks from: in a browser, on a store that `isoatlas view` serves.
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Api } from "../src/viewer/api";
-import { acrossAndDown, AXES, Grid, type AxisNumber } from "../src/viewer/grid";
-import { SlicedMesh } from "../src/viewer/plane_cut";
-import { decodeSlice } from "../src/viewer/wire_samples";
+import { Api } from "../src/viewer/ask/api";
+import { acrossAndDown, AXES, Grid, type AxisNumber } from "../src/viewer/state/grid";
+import { SlicedMesh } from "../src/viewer/draw/plane_cut";
+import { decodeSlice } from "../src/viewer/ask/wire_samples";
 import { canServe, Served } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
 

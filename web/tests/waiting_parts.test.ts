@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { detailsOf, messages, progressOf, waitingFor, type Build, type ServerState } from "../src/viewer/server_state";
+import { detailsOf, messages, progressOf, waitingFor, type Build, type ServerState } from "../src/viewer/ask/server_state";
 
 function streamOf(...pieces: string[]): ReadableStream<Uint8Array> {
   return new ReadableStream({

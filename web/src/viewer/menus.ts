@@ -1,6 +1,6 @@
 // All actions by group, to be found without knowing a key; and all keys, on '?'.
 import { html } from "../dom";
-import type { Action, Actions, Group } from "./actions";
+import type { Action, Actions, Group } from "./desk/actions";
 
 const GROUPS: Group[] = ["Objects", "Isovalue", "Scene", "Look", "Tools", "Save", "Help"];
 const SIGNS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };

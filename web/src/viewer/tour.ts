@@ -1,7 +1,7 @@
 // Four steps for the first time. It takes nothing away: the page works behind it, Escape closes it, and it comes again from the menu.
 import { html } from "../dom";
-import type { Desk } from "./desk";
-import { recall, remember } from "./remembered";
+import type { Desk } from "./desk/desk";
+import { recall, remember } from "./state/remembered";
 
 interface Step {
   /** what it is about */

@@ -1,8 +1,8 @@
 // While there is nothing to show, or not yet: how far a build is, why it failed, what a question waits for, and that the server has gone.
 import { html } from "../dom";
 import type { Page } from "../page";
-import { type Api, Refusal } from "./api";
-import { detailsOf, progressOf, waitingFor, type ServerState } from "./server_state";
+import { type Api, Refusal } from "./ask/api";
+import { detailsOf, progressOf, waitingFor, type ServerState } from "./ask/server_state";
 
 const AGAIN = 2000;
 /** an answer that comes sooner needs no words */

@@ -1,0 +1,53 @@
+// Slices in the picture: where they are in space, with the grey values of their views.
+import * as three from "three";
+import { acrossAndDown, type AxisNumber, type Grid } from "../state/grid";
+import type { Stage } from "./stage";
+
+export class SlicePlanes {
+  private readonly planes = new Map<AxisNumber, three.Mesh<three.BufferGeometry, three.MeshBasicMaterial>>();
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly grid: Grid,
+  ) {}
+
+  /** fresh: the picture is another one than the last time. */
+  show(axis: AxisNumber, picture: HTMLCanvasElement, index: number, fresh: boolean): void {
+    const plane = this.planes.get(axis) ?? this.made(axis, picture);
+    const { map } = plane.material;
+    if (fresh && map) map.needsUpdate = true;
+    const [across, down] = acrossAndDown(axis);
+    const position = plane.geometry.getAttribute("position") as three.BufferAttribute;
+    for (let corner = 0; corner < 4; ++corner) {
+      const sample = [index, index, index];
+      sample[across] = corner & 1 ? this.grid.size[across] - 0.5 : -0.5;
+      sample[down] = corner & 2 ? this.grid.size[down] - 0.5 : -0.5;
+      position.setXYZ(corner, ...this.grid.place(sample));
+    }
+    position.needsUpdate = true;
+    plane.geometry.computeBoundingSphere();
+    this.stage.draw();
+  }
+
+  hide(): void {
+    for (const plane of this.planes.values()) this.stage.drop(plane);
+    this.planes.clear();
+  }
+
+  private made(axis: AxisNumber, picture: HTMLCanvasElement): three.Mesh<three.BufferGeometry, three.MeshBasicMaterial> {
+    const map = new three.CanvasTexture(picture);
+    map.colorSpace = three.SRGBColorSpace;
+    map.flipY = false;
+    map.generateMipmaps = false;
+    map.minFilter = three.LinearFilter;
+    const geometry = new three.BufferGeometry();
+    geometry.setAttribute("position", new three.BufferAttribute(new Float32Array(12), 3));
+    geometry.setAttribute("uv", new three.BufferAttribute(new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]), 2));
+    geometry.setIndex([0, 1, 2, 2, 1, 3]);
+    const plane = new three.Mesh(geometry, new three.MeshBasicMaterial({ map, side: three.DoubleSide }));
+    plane.userData.touchable = true;
+    this.planes.set(axis, plane);
+    this.stage.add(plane);
+    return plane;
+  }
+}

@@ -1,0 +1,81 @@
+// Where samples lie in space: a sample's place is origin + direction x (spacing x its numbers).
+import type { Page } from "../../page";
+
+export type Triple = [number, number, number];
+export type AxisNumber = 0 | 1 | 2;
+/** y = matrix x + offset, by rows: three factors and an offset each */
+export type Affine = [number[], number[], number[]];
+
+export const AXES: readonly AxisNumber[] = [0, 1, 2];
+export const AXIS_NAMES = ["x", "y", "z"] as const;
+
+/** The two other axes, the lower one first: columns and rows of a slice. */
+export function acrossAndDown(axis: AxisNumber): [AxisNumber, AxisNumber] {
+  return axis === 0 ? [1, 2] : axis === 1 ? [0, 2] : [0, 1];
+}
+
+export function dot(a: readonly number[], b: readonly number[]): number {
+  return a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
+}
+
+export function cross(a: readonly number[], b: readonly number[]): Triple {
+  return [a[1]! * b[2]! - a[2]! * b[1]!, a[2]! * b[0]! - a[0]! * b[2]!, a[0]! * b[1]! - a[1]! * b[0]!];
+}
+
+export function distance(a: readonly number[], b: readonly number[]): number {
+  return Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!, a[2]! - b[2]!);
+}
+
+export class Grid {
+  readonly size: Triple;
+  readonly origin: Triple;
+  /** per axis: what one sample further is in space */
+  readonly steps: [Triple, Triple, Triple];
+  /** per axis: where a place lies along it, in samples from the origin */
+  private readonly inverse: [Triple, Triple, Triple];
+
+  constructor({ volume }: Page) {
+    this.size = AXES.map((axis) => volume.size[axis] ?? 1) as Triple;
+    this.origin = volume.origin;
+    const step = (axis: AxisNumber): Triple => volume.direction.map((row) => (row[axis] ?? 0) * (volume.spacing?.[axis] ?? 1)) as Triple;
+    const [a, b, c] = (this.steps = [step(0), step(1), step(2)]);
+    const volumeOfCell = dot(a, cross(b, c));
+    const over = (normal: Triple): Triple => normal.map((n) => n / volumeOfCell) as Triple;
+    this.inverse = [over(cross(b, c)), over(cross(c, a)), over(cross(a, b))];
+  }
+
+  /** Of a sample, physical; numbers between samples are places between them. */
+  place(sample: readonly number[]): Triple {
+    return AXES.map((row) => this.origin[row] + this.steps.reduce((sum, step, axis) => sum + step[row] * (sample[axis] ?? 0), 0)) as Triple;
+  }
+
+  sample(place: readonly number[]): Triple {
+    const from = AXES.map((row) => (place[row] ?? 0) - this.origin[row]);
+    return this.inverse.map((row) => dot(row, from)) as Triple;
+  }
+
+  /** The nearest sample inside of the volume. */
+  nearest(place: readonly number[]): Triple {
+    return this.inside(this.sample(place));
+  }
+
+  inside(sample: readonly number[]): Triple {
+    return AXES.map((axis) => Math.min(Math.max(Math.round(sample[axis] ?? 0), 0), this.size[axis] - 1)) as Triple;
+  }
+
+  /** From steps of a mesh (origin + step x numbers) to samples. */
+  fromSteps(origin: readonly number[], step: number): Affine {
+    const first = this.sample(origin);
+    return this.inverse.map((row, axis) => [...row.map((n) => n * step), first[axis]]) as Affine;
+  }
+
+  /** Physical length of a step along an axis. */
+  spacing(axis: AxisNumber): number {
+    return Math.hypot(...this.steps[axis]);
+  }
+
+  /** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */
+  corners(): Triple[] {
+    return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => this.place(AXES.map((axis) => (corner & (1 << axis) ? this.size[axis] - 1 : 0))));
+  }
+}
