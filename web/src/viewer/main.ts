@@ -106,6 +106,7 @@ class Viewer implements Desk {
   }
 
   private show(state: State, before: State, dragging: boolean): void {
+    if (state.shown !== before.shown || state.selected !== before.selected) this.say(""); // what was said was about what was before
     if (!dragging) history.replaceState(null, "", toHash(state));
     this.choosing.show(state, before);
     this.shown.show(state);
