@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 16;
+constexpr std::size_t kChunk = std::size_t{1} << 17;  // large enough not to stay in memory where that is short
 
 }  // namespace
 

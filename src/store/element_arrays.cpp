@@ -49,9 +49,10 @@ constexpr ElementForm element_of(std::uint64_t key) {
 }
 
 BigVector<std::uint64_t> sorted_grid_keys(std::span<const std::uint64_t> codes, int threads) {
-    std::vector<BigVector<std::uint64_t>> chunks((codes.size() + kTogether - 1) / kTogether);
+    constexpr std::size_t kKeys = std::size_t{1} << 18;  // of a chunk: large enough not to stay in memory where that is short
+    std::vector<BigVector<std::uint64_t>> chunks((codes.size() + kKeys - 1) / kKeys);
     for (std::size_t c = 0; c < chunks.size(); ++c) {
-        const auto some = codes.subspan(c * kTogether, std::min(kTogether, codes.size() - c * kTogether));
+        const auto some = codes.subspan(c * kKeys, std::min(kKeys, codes.size() - c * kKeys));
         chunks[c].resize(some.size());
         std::transform(some.begin(), some.end(), chunks[c].begin(),
                        [](std::uint64_t code) { return grid_key(form_of(ElementCode{code})); });
