@@ -160,6 +160,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
         app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store beside the volume");
         add_build(app, arguments, typed);
+    } else if (verb == "ask") {
+        add_output(app, arguments, "what the question gives", false);
     } else if (verb == "handles") {
         app.add_flag("--exact", arguments.exact, "Which tunnel closes where, truly: persistent homology (slower)");
         app.add_option("--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
@@ -197,17 +199,19 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
     }
 }
 
-bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion" && verb != "dump"; }
+bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion" && verb != "dump" && verb != "ask"; }
 
 std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
     auto app = std::make_unique<CLI::App>(verb.summary, "isoatlas " + verb.name);
     CLI::Option* operand = app->add_option(verb.operand, arguments.file,
                                            reads_volumes(verb.name) ? "The file (or folder of slices)"
                                            : verb.name == "dump"    ? "The store"
+                                           : verb.name == "ask"     ? "What `isoatlas view` printed"
                                                                     : "");
     operand->type_name("");
     if (verb.name != "phantom") operand->required();
     if (verb.name == "dump") app->add_option("PART", arguments.part, "What to print; left out: a list of all parts")->type_name("");
+    if (verb.name == "ask") app->add_option("QUESTION", arguments.part, "Such as '/api/objects?tau=300' (docs/server.md)")->type_name("");
     add_own(*app, verb.name, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
     if (reads_volumes(verb.name) && verb.name != "info" && verb.name != "convert") add_interpolant(*app, typed);

@@ -21,6 +21,7 @@
 #include "isoatlas/array.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/build.h"
+#include "isoatlas/client.h"
 #include "isoatlas/context.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/dark_objects.h"

@@ -116,12 +116,13 @@ Answer Service::answer_known(const Question& question) {
         {.where = question.path.substr(0, 100),
          .what = "there is nothing here",
          .expected =
-             "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label, slice, volume, at, transfer"});
+             "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label, slice, volume, at, transfer",
+         .next = "docs/server.md lists the questions"});
 }
 
-Answer Service::samples_answer(const Question& question, Answer (*answer)(const Atlas&, const Question&, const Context&)) {
+Answer Service::samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&)) {
     const std::unique_ptr<Turns::Turn> turn = sample_turns_.take(question.client, question.left);
-    return answer(atlas(), question, context_of(*turn));
+    return make(atlas(), question, context_of(*turn));
 }
 
 Answer Service::events_answer(const Question& question) {

@@ -62,7 +62,7 @@ private:
     [[nodiscard]] const page::PageContents& contents() const;
     [[nodiscard]] CardSubject card_subject(Words& words) const;
     /// When it is its turn.
-    [[nodiscard]] Answer samples_answer(const Question& question, Answer (*answer)(const Atlas&, const Question&, const Context&));
+    [[nodiscard]] Answer samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&));
 
     [[nodiscard]] const Atlas& atlas() const { return opening_.atlas(); }
     /// Throws Error{unsupported} for an image.

@@ -5,7 +5,7 @@ import subprocess
 
 from harness import CLI, CliTest, main
 
-VERBS = ["atlas", "info", "objects", "extract", "render", "animate", "tree", "label", "build", "convert", "handles", "spectrum", "table131", "dump", "phantom",
+VERBS = ["atlas", "view", "ask", "info", "objects", "extract", "render", "animate", "tree", "label", "build", "convert", "handles", "spectrum", "table131", "dump", "phantom",
          "verify", "completion"]
 
 

@@ -128,6 +128,22 @@ class View(harness.CliTest):
         self.assert_schema(transfer, "server-transfer")
         self.assertGreater(len(transfer["bumps"]), 0)
 
+    def test_the_command_line_asks(self):
+        address = self.viewer.document["address"]
+        printed = self.run_ok("ask", address, "/api/preview?tau=0.5").stdout
+        self.assertEqual(json.loads(printed), self.json_of("/api/preview?tau=0.5"))
+        self.run_ok("extract", "field.atlas", "--tau", "0.5", "-o", "own.stl")
+        told = self.run_json("ask", address, "/api/surface?tau=0.5&format=stl", "-o", "asked.stl")
+        self.assert_schema(told, "ask")
+        self.assertEqual((self.folder / "asked.stl").read_bytes(), (self.folder / "own.stl").read_bytes())
+        self.run_error(2, "ask", address, "/api/preview", says="isovalue is missing")
+        self.run_error(6, "ask", address, "/api/nothing", says="nothing here")
+        self.run_error(2, "ask", address, "/api/events", says="ends")
+        self.run_error(2, "ask", address, "/api/surface?tau=0.5", says="octet-stream", next_says="-o")
+        self.run_error(2, "ask", address[:-1], "/api/atlas", says="token")
+        self.run_error(2, "ask", "http://example.org/?token=1", "/api/atlas", says="no address")
+        self.run_error(3, "ask", "http://127.0.0.1:1/?token=1", "/api/atlas", says="nobody answers", next_says="isoatlas view")
+
     def test_who_may_ask(self):
         for path in ("/api/atlas", "/api/events", "/api/label?tau=0"):
             self.assertEqual(self.ask(path, token="")[0], 403)

@@ -1,0 +1,35 @@
+// isoatlas ask ADDRESS QUESTION: what a running viewer knows, on standard output or in a file.
+#include "document.h"
+#include "terminal.h"
+#include "values.h"
+#include "verbs.h"
+
+namespace isoatlas::cli {
+
+int run_ask(const Arguments& arguments, Terminal& terminal) {
+    const std::string question = arguments.part.empty() ? "/api/atlas" : arguments.part.front();
+    if (arguments.output.empty()) {
+        const ServerAnswer answer = ask_server(arguments.file, question);
+        if (answer.type != "application/json") {
+            throw Error(ErrorKind::usage,
+                        {.where = question,
+                         .what = "the answer is " + bytes_text(static_cast<double>(answer.bytes.size())) + " of " + answer.type,
+                         .next = "give a file for it: -o FILE"});
+        }
+        terminal.out() << answer.bytes << '\n';
+        return 0;
+    }
+    const std::size_t bytes = ask_server(arguments.file, question, arguments.output);
+    if (arguments.json) {
+        Json json = document("ask");
+        json["question"] = question;
+        json["output"] = arguments.output;
+        json["bytes"] = bytes;
+        print(terminal, json);
+    } else {
+        terminal.out() << arguments.output << ": " << bytes_text(static_cast<double>(bytes)) << '\n';
+    }
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,21 @@
+// Client: questions to a running `isoatlas view`, from the command line and from programs.
+#pragma once
+
+#include <string>
+
+namespace isoatlas {
+
+struct ServerAnswer {
+    std::string type;   ///< such as "application/json"
+    std::string bytes;  ///< text of a JSON document, a mesh, a file: docs/server.md
+};
+
+/// address: as `isoatlas view` prints it, http://127.0.0.1:PORT/?token=TOKEN. question: a path with its words, such as
+/// /api/objects?tau=100. Waits for the answer. Throws the Error with which the server refuses; also usage (no address of a viewer, no
+/// question with an end), input (nobody answers there).
+[[nodiscard]] ServerAnswer ask_server(const std::string& address, const std::string& question);
+
+/// The same into a file, which appears whole or not at all. Returns its bytes. Throws also Error{resource}.
+std::size_t ask_server(const std::string& address, const std::string& question, const std::string& path);
+
+}  // namespace isoatlas
