@@ -1,10 +1,13 @@
 // A volume that `isoatlas view` serves, and a browser that opens the page: what the stories of the viewer share. Skipped where there is no
 // Chromium or no isoatlas.
+import { webcrypto } from "node:crypto";
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Page as Tab } from "playwright-core";
+
+globalThis.crypto ??= webcrypto as Crypto; // Debian's Node 18 keeps it to itself
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
 const cli = process.env.ISOATLAS_CLI ?? "";
