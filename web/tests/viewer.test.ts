@@ -12,7 +12,7 @@ describe.skipIf(!canServe)("the viewer", () => {
   let served: Served;
   beforeAll(async () => {
     served = await Served.phantom("demo");
-  }, 60_000);
+  });
   afterAll(() => served?.close());
   const open: Served["open"] = (...all) => served.open(...all);
   const isoatlas = (...words: string[]): string => served.isoatlas(...words);

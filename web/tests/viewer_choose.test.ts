@@ -13,7 +13,7 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
   let served: Served;
   beforeAll(async () => {
     served = await Served.phantom("random-field", "--size", "40", "--noise", "0.05");
-  }, 60_000);
+  });
   afterAll(() => served?.close());
 
   const table = (...words: string[]): Table => JSON.parse(served.isoatlas("objects", served.store, ...words, "--json")) as Table;

@@ -24,7 +24,7 @@ describe.skipIf(!canServe)("the viewer for everyone", () => {
   let served: Served;
   beforeAll(async () => {
     served = await Served.phantom("demo", "--size", "48");
-  }, 60_000);
+  });
   afterAll(() => served?.close());
 
   for (const colorScheme of ["light", "dark"] as const) {

@@ -34,7 +34,7 @@ describe.skipIf(!canServe)("a ball", () => {
     folder = mkdtempSync(join(tmpdir(), "isoatlas-ball-"));
     ballFile(join(folder, "ball.nrrd"));
     served = await Served.file(join(folder, "ball.nrrd"));
-  }, 60_000);
+  });
   afterAll(async () => {
     await served?.close();
     rmSync(folder, { recursive: true });
@@ -68,7 +68,7 @@ describe.skipIf(!canServe)("a ball", () => {
     await expect.poll(() => tab.locator(".measures").isHidden()).toBe(true);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 
   it("is measured with keys alone, angles too, and on a slice", async () => {
     const { tab, problems } = await served.open(`${scene}&slices=1&cross=6,20,20`);
@@ -85,7 +85,7 @@ describe.skipIf(!canServe)("a ball", () => {
     await tab.getByRole("button", { name: "look from the left" }).press("Enter");
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 
   it("swallows as much light as the integral through it says", async () => {
     const { origin, searchParams } = new URL(served.address);
@@ -121,7 +121,7 @@ describe.skipIf(!canServe)("a ball", () => {
     expect(await tab.locator(".matter-bar").textContent()).toContain("41 × 41 × 41: every sample");
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 
   it("hides matter behind it, and none in front", async () => {
     const { tab, problems } = await served.open(`${scene}&matter=16`);
@@ -146,5 +146,5 @@ describe.skipIf(!canServe)("a ball", () => {
     await expect.poll(() => tab.locator(".matter-bar").isHidden()).toBe(true);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 });

@@ -18,7 +18,7 @@ describe.skipIf(!canServe)("the scene", () => {
   beforeAll(async () => {
     served = await Served.phantom("demo", "--size", "128");
     listed = (JSON.parse(served.isoatlas("objects", served.store, "--json")) as { objects: Listed[] }).objects;
-  }, 60_000);
+  });
   afterAll(() => served?.close());
 
   const shownAs = (tab: Tab, name: string) =>

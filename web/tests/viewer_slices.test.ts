@@ -18,7 +18,7 @@ describe.skipIf(!canServe)("slices", () => {
     served = await Served.phantom("demo", "--size", "48");
     const { origin, searchParams } = new URL(served.address);
     api = new Api(searchParams.get("token") ?? "", origin);
-  }, 60_000);
+  });
   afterAll(() => served?.close());
 
   /** How far the contour is from where neighbouring samples of the slice say that it passes between them: the farthest of all. */
@@ -94,7 +94,7 @@ describe.skipIf(!canServe)("slices", () => {
     await expect.poll(() => Number(hashOf(tab).get("cross")?.split(",")[1])).toBeGreaterThan(moved[1]!);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 
   it("select what holds a sample: the innermost, shown or not", async () => {
     const page = await api.page();
@@ -112,7 +112,7 @@ describe.skipIf(!canServe)("slices", () => {
     expect(hashOf(tab).get("scene")?.split(";").length).toBe(2);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 
   it("stand in the picture, in the brightness one chooses, and a link restores all of it", async () => {
     const { tab, problems } = await served.open();
@@ -129,7 +129,7 @@ describe.skipIf(!canServe)("slices", () => {
     expect(problems.concat(other.problems)).toEqual([]);
     await tab.close();
     await other.tab.close();
-  }, 60_000);
+  });
 
   it("leave a volume that is cut where one says: by a slider, a key, and the handle", async () => {
     const { tab, problems } = await served.open();
@@ -162,7 +162,7 @@ describe.skipIf(!canServe)("slices", () => {
     await expect.poll(() => hashOf(tab).has("cut")).toBe(false);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 
   it("are looked at from a face of the cube, and turn by themselves until something is touched", async () => {
     const { tab, problems } = await served.open();
@@ -185,7 +185,7 @@ describe.skipIf(!canServe)("slices", () => {
     expect(problems).toEqual([]);
     await tab.close();
     await calm.tab.close();
-  }, 60_000);
+  });
 
   it("take no more memory of the graphics after many steps", async () => {
     const { tab, problems } = await served.open("#scene=0,120,1,1;1,130,0.5,1&selected=0&slices=1&planes=1&cut=1,0,0,0.5&edges=1&measure=0,0,0,9,9,9");
@@ -202,5 +202,5 @@ describe.skipIf(!canServe)("slices", () => {
     expect(await held()).toBe(before);
     expect(problems).toEqual([]);
     await tab.close();
-  }, 60_000);
+  });
 });

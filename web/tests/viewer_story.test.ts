@@ -127,7 +127,7 @@ for (const [volume, there, serve] of volumes) {
 
     beforeAll(async () => {
       served = await serve();
-    }, 120_000);
+    });
     afterAll(() => served?.close());
 
     const keepPicture = async (tab: Tab, name: string): Promise<void> => {
