@@ -95,11 +95,12 @@ std::vector<std::uint32_t> object_labels(const Cut& cut, std::span<const std::in
         const bool is_inside = voxel >= 0 && voxel < static_cast<std::int64_t>(cut.label.size());
         const std::int32_t object = is_inside ? cut.label[static_cast<std::size_t>(voxel)] : -1;
         if (object < 0) throw Error(ErrorKind::not_found, {.what = "no object holds voxel " + std::to_string(voxel) + " at this isovalue"});
-        is_wanted[static_cast<std::size_t>(object + 1)] = 1;
+        is_wanted[static_cast<std::size_t>(object) + 1] = 1;
     }
     std::vector<std::uint32_t> labels(cut.label.size());
     std::ranges::transform(cut.label, labels.begin(), [&](std::int32_t object) {
-        return static_cast<std::uint32_t>(is_wanted[static_cast<std::size_t>(object + 1)] != 0 ? object + 1 : 0);
+        const auto label = static_cast<std::uint32_t>(object + 1);
+        return is_wanted[label] != 0 ? label : 0;
     });
     return labels;
 }
