@@ -113,7 +113,7 @@ struct Server::Data {
         });
     }
 
-    static void send_events(server::Answer answer, httplib::Response& response) {
+    static void send_events(const server::Answer& answer, httplib::Response& response) {
         response.set_chunked_content_provider(answer.type, [events = answer.events](std::size_t, httplib::DataSink& sink) {
             const std::string message = events->next();
             if (message.empty()) sink.done();
