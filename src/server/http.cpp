@@ -84,7 +84,7 @@ struct Server::Data {
         server::Answer answer = *on_its_way > most_on_its_way ? too_much() : service.answer(question);
         response.status = answer.status;
         for (const auto& [name, value] : answer.headers) response.set_header(name, value);
-        if (answer.events) return send_events(std::move(answer), response);
+        if (answer.events) return send_events(answer, response);
         send(std::move(answer), server::coding_for(request.get_header_value("Accept-Encoding")), response);
     }
 
