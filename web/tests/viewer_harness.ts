@@ -84,7 +84,8 @@ export class Served {
     tab.setDefaultTimeout(120_000);
     const problems: string[] = [];
     tab.on("pageerror", (error) => problems.push(error.message));
-    tab.on("console", (message) => message.type() === "error" && problems.push(message.text()));
+    const isOvertaken = (text: string): boolean => text.includes("409 (Conflict)"); // a newer question has ended it, as it should
+    tab.on("console", (message) => message.type() === "error" && !isOvertaken(message.text()) && problems.push(message.text()));
     await tab.goto(this.address + hash);
     await tab.waitForSelector(".objects [role=tab]");
     return { tab, problems };
