@@ -26,6 +26,18 @@ function ballFile(path: string): void {
   writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
 }
 
+/** Red, green, blue and opacity in the middle of the picture, 0 to 255. */
+function middlePixel(tab: Tab): Promise<number[]> {
+  return tab.evaluate(() => {
+    const canvas = document.querySelector<HTMLCanvasElement>(".stage > canvas")!;
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [1, 1];
+    const pen = copy.getContext("2d")!;
+    pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
+    return [...pen.getImageData(0, 0, 1, 1).data];
+  });
+}
+
 describe.skipIf(!canServe)("a ball", () => {
   let served: Served;
   let folder: string;
@@ -106,15 +118,7 @@ describe.skipIf(!canServe)("a ball", () => {
     expect(expected).toBeLessThan(0.95);
     const middle = [MIDDLE, MIDDLE, MIDDLE].map((n) => n * SPACING);
     const { tab, problems } = await served.open(`#scene=&selected=-1&flat=1&matter=${factor}&view=${middle[0]! - 40},${middle[1]},${middle[2]},${middle.join()}`);
-    const opacity = (): Promise<number> =>
-      tab.evaluate(() => {
-        const canvas = document.querySelector<HTMLCanvasElement>(".stage > canvas")!;
-        const copy = document.createElement("canvas");
-        [copy.width, copy.height] = [1, 1];
-        const pen = copy.getContext("2d")!;
-        pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
-        return (pen.getImageData(0, 0, 1, 1).data[3] ?? 0) / 255;
-      });
+    const opacity = async (): Promise<number> => ((await middlePixel(tab))[3] ?? 0) / 255;
     await expect.poll(opacity).toBeGreaterThan(0);
     await tab.waitForTimeout(600);
     expect(Math.abs((await opacity()) - expected)).toBeLessThan(0.02);
@@ -126,19 +130,10 @@ describe.skipIf(!canServe)("a ball", () => {
   it("hides matter behind it, and none in front", async () => {
     const { tab, problems } = await served.open(`${scene}&matter=16`);
     await tab.waitForTimeout(1500);
-    const seen = (): Promise<number[]> =>
-      tab.evaluate(() => {
-        const canvas = document.querySelector<HTMLCanvasElement>(".stage > canvas")!;
-        const copy = document.createElement("canvas");
-        [copy.width, copy.height] = [1, 1];
-        const pen = copy.getContext("2d")!;
-        pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
-        return [...pen.getImageData(0, 0, 1, 1).data];
-      });
-    const covered = await seen();
+    const covered = await middlePixel(tab);
     await tab.getByRole("slider", { name: "density" }).fill("-4");
     await tab.waitForTimeout(800);
-    const thin = await seen();
+    const thin = await middlePixel(tab);
     expect(thin[3]).toBe(255);
     expect(covered).toHaveLength(4);
     await tab.locator(".objects h1").click();
