@@ -5,7 +5,6 @@
 #include "isoatlas/error.h"
 #include "isoatlas/holders.h"
 #include "isoatlas/isovalue.h"
-#include "isoatlas/page.h"
 #include "isoatlas/render.h"
 #include "server/answers.h"
 #include "server/wire_samples.h"
@@ -39,13 +38,12 @@ bool holds(const Atlas& atlas, const Holders& sample, const NumberAt& object) {
 
 }  // namespace
 
-std::vector<NamedEntry> named_entries(const Atlas& atlas, const Context& context) {
-    const PageOptions page;
+std::vector<NamedEntry> named_entries(const page::PageContents& contents) {
     std::vector<NamedEntry> entries;
-    const ObjectTable bright = atlas.objects({.top = page.top}, context);
-    for (const ObjectEntry& entry : bright.entries) entries.push_back({entry.id, entry.best_tau, entry.voxels, false});
-    const DarkTable dark = atlas.dark_objects({.top = page.top_dark}, context);
-    for (const DarkEntry& entry : dark.entries) entries.push_back({entry.id, entry.best_tau, entry.voxels, true});
+    for (const page::PageEntry& entry : contents.entries) {
+        const bool is_dark = contents.branches[static_cast<std::size_t>(entry.branch)].dark;
+        entries.push_back({entry.id, entry.tau, entry.voxels, is_dark});
+    }
     return entries;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "isoatlas/atlas.h"
+#include "page/contents.h"
 #include "server/question.h"
 
 namespace isoatlas::server {
@@ -15,8 +16,8 @@ struct NamedEntry {
     std::int64_t voxels;
     bool dark;
 };
-/// In the order of /api/atlas. Cost: reads the tables.
-[[nodiscard]] std::vector<NamedEntry> named_entries(const Atlas& atlas, const Context& context);
+/// In the order of /api/atlas. contents: what that shows.
+[[nodiscard]] std::vector<NamedEntry> named_entries(const page::PageContents& contents);
 
 /// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store).
 [[nodiscard]] Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context);

@@ -107,7 +107,7 @@ Answer Service::answer_known(const Question& question) {
     if (question.path == "/api/card") return card_answer(question);
     if (question.path == "/api/surface") return surface_answer(question);
     if (question.path == "/api/label") return label_answer(question);
-    if (question.path == "/api/at") return at_answer(atlas(), entries_.get([this] { return named_entries(atlas(), context_); }), question);
+    if (question.path == "/api/at") return at_answer(atlas(), entries_.get([this] { return named_entries(contents()); }), question);
     if (question.path == "/api/transfer") return transfer_answer(atlas(), question, context_);
     if (question.path == "/api/slice") return samples_answer(question, slice_answer);
     if (question.path == "/api/volume") return samples_answer(question, volume_answer);
