@@ -50,8 +50,7 @@ bool belongs(const store::Contents& found, const store::Contents& wanted) {
 
 BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(store_path + ".build") {
     OpenedFile lock{nullptr, -ENOENT};
-    // A build that has just finished takes its folder away, and somebody may ask whether the lock is held.
-    for (int attempt = 0; attempt < 3 && (lock.error == -ENOENT || lock.error == -EWOULDBLOCK); ++attempt) {
+    for (int attempt = 0; attempt < 3 && lock.error == -ENOENT; ++attempt) {  // a build that has just finished takes its folder away
         const int made = file_system().make_folder(path_);
         if (made < 0 && made != -EEXIST) cannot_make(path_, made);
         lock = file_system().create(file(kLock));

@@ -65,7 +65,7 @@ public:
     [[nodiscard]] virtual OpenedFile open_stream(const std::string& path);
     /// Makes an empty file, or empties the one that is there, and locks it until it is closed: -EWOULDBLOCK when somebody else holds it.
     [[nodiscard]] virtual OpenedFile create(const std::string& path);
-    /// Does somebody hold a file that create() gave him? For the time of the question create() may say that it is held.
+    /// Does somebody hold a file that create() gave him? Asking takes nothing.
     [[nodiscard]] virtual bool is_held(const std::string& path);
     [[nodiscard]] virtual int set_mode(const std::string& path, unsigned mode);
     [[nodiscard]] virtual int rename(const std::string& from, const std::string& to);

@@ -1,6 +1,5 @@
 // The operating system's files.
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,6 +20,14 @@ int repeated(const Call& call) {
     int error = error_of(call());
     while (error == -EINTR) error = error_of(call());
     return error;
+}
+
+/// The whole file as a lock that belongs to the open file, not to the process: two parts of one process exclude each other too.
+struct flock whole_file(short type) {
+    struct flock lock{};
+    lock.l_type = type;
+    lock.l_whence = SEEK_SET;
+    return lock;
 }
 
 class SystemFile : public File {
@@ -101,7 +108,8 @@ public:
             const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
             if (descriptor < 0) return {nullptr, -errno};
             result.file = std::make_unique<SystemFile>(descriptor);
-            if (repeated([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == -EWOULDBLOCK) return {nullptr, -EWOULDBLOCK};
+            struct flock lock = whole_file(F_WRLCK);
+            if (repeated([&] { return ::fcntl(descriptor, F_OFD_SETLK, &lock); }) == -EWOULDBLOCK) return {nullptr, -EWOULDBLOCK};
             if (!is_named(descriptor, path)) continue;  // not every file system has locks, so that only "held" is an answer
             result.error = result.file->resize(0);
             if (result.error < 0) result.file.reset();
@@ -112,7 +120,8 @@ public:
         const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
         if (descriptor < 0) return false;
         const SystemFile closes(descriptor);
-        return repeated([&] { return ::flock(descriptor, LOCK_SH | LOCK_NB); }) == -EWOULDBLOCK;
+        struct flock lock = whole_file(F_RDLCK);  // asked for, not taken: taking it would be in the way of create()
+        return repeated([&] { return ::fcntl(descriptor, F_OFD_GETLK, &lock); }) == 0 && lock.l_type != F_UNLCK;
     }
     int set_mode(const std::string& path, unsigned mode) override { return error_of(::chmod(path.c_str(), mode)); }
     int rename(const std::string& from, const std::string& to) override { return error_of(::rename(from.c_str(), to.c_str())); }
