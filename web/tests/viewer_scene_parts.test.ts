@@ -169,7 +169,8 @@ describe("what is measured", () => {
       ["area", "2.5 cm²"],
       ["shape", "1 tunnel, no cavities"],
     ]);
-    expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: 10 to 12 voxels");
+    expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: about 1,230 voxels");
+    expect(factsOf({ ...there, voxels: [11, 11] }, 4, 50, null)[0]?.[1]).toBe("11 voxels");
     expect(factsOf(there, 4, 50, null)[1]?.[1]).toBe("250 faces of a voxel");
   });
 });

@@ -1,28 +1,36 @@
 // What the server measures of an object at the isovalue it is shown at.
 import { area, count, plural, value, volume } from "../../format";
-import { entryOf } from "../../page";
+import { entryOf, type Page } from "../../page";
 import { isOvertaken, type Measures } from "../ask/api";
 import type { Desk } from "../desk/desk";
 import { branchOfShown } from "../ask/shown";
 import type { Shown } from "../state/state";
 
+/** Is it measured at the isovalue of its entry? Then the number of its voxels is known, too. */
+export function tellsOfItself(page: Page, { entry, tau }: Shown): boolean {
+  return branchOfShown(page, entry)?.side === "bright" && entryOf(page, entry).tau === tau;
+}
+
 /** Nothing where it cannot be told: of a dark object, of all there is, or of an object that is not there. */
 export async function measuredFacts({ api, page }: Desk, shown: Shown): Promise<[name: string, text: string][]> {
   if (branchOfShown(page, shown.entry)?.side !== "bright") return [];
-  const { id } = entryOf(page, shown.entry);
+  const { id, voxels } = entryOf(page, shown.entry);
   try {
     const [there] = await api.measures(shown.tau, [id]);
-    return there ? factsOf(there, id, shown.tau, page.volume.unit) : [];
+    if (!there) return [];
+    return factsOf(tellsOfItself(page, shown) ? { ...there, voxels: [voxels, voxels] } : there, id, shown.tau, page.volume.unit);
   } catch (error) {
     return isOvertaken(error) ? [] : [[`at ${value(shown.tau)}`, "it is not there"]];
   }
 }
 
-/** id: of the object that was asked for. */
+/** id: of the object that was asked for. Without a unit, and with bounds alone, its size is what its surface encloses. */
 export function factsOf(there: Measures, id: number, tau: number, unit: string | null): [name: string, text: string][] {
   const [least, most] = there.voxels;
-  const voxels = least === most ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
-  const size = unit === null ? voxels : `${volume(there.volume, unit)}, ${voxels}`;
+  const isKnown = least === most;
+  const voxels = isKnown ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
+  const alone = isKnown ? voxels : `about ${plural(Number(there.volume.toPrecision(3)), "voxel")}`;
+  const size = unit === null ? alone : `${volume(there.volume, unit)}, ${voxels}`;
   return [
     [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${size}`],
     ["area", area(there.area, unit)],

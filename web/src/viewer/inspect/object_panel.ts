@@ -5,7 +5,7 @@ import { contentsOf, entriesOf, placeOf, rangeOf, shapeOf } from "../../names";
 import { branchOf, entryOf } from "../../page";
 import type { Desk } from "../desk/desk";
 import { Latest } from "../ask/latest";
-import { measuredFacts } from "./measured";
+import { measuredFacts, tellsOfItself } from "./measured";
 import { branchOfShown, EVERYTHING, titleOf } from "../ask/shown";
 import type { Shown, State } from "../state/state";
 
@@ -20,6 +20,7 @@ export class ObjectPanel {
   private readonly here = html("dl", { class: "here" });
   private readonly measured: Latest<Shown>;
   private entry = NaN;
+  private isMeasured = false;
 
   constructor(private readonly desk: Desk) {
     this.measured = new Latest((shown) => this.measure(shown));
@@ -30,17 +31,20 @@ export class ObjectPanel {
     const shown = state.shown[state.selected];
     this.element.hidden = !shown;
     if (!shown) return;
-    if (shown.entry !== this.entry) this.describe(shown.entry);
+    const isMeasured = tellsOfItself(this.desk.page, shown);
+    if (shown.entry !== this.entry) this.here.replaceChildren();
+    if (shown.entry !== this.entry || isMeasured !== this.isMeasured) this.describe(shown.entry, isMeasured);
     this.entry = shown.entry;
+    this.isMeasured = isMeasured;
     if (!dragging) this.measured.want(shown, `${shown.entry} ${shown.tau}`);
   }
 
-  private describe(i: number): void {
+  /** isMeasured: what it is where it is best seen is already told as what it is at the isovalue it is shown at. */
+  private describe(i: number, isMeasured: boolean): void {
     this.title.textContent = titleOf(this.desk.page, i);
-    this.here.replaceChildren();
     fill(
       this.facts,
-      i === EVERYTHING ? [["what", ["everything at least as bright as its isovalue"]]] : [...this.known(i), ...this.relations(i)],
+      i === EVERYTHING ? [["what", ["everything at least as bright as its isovalue"]]] : [...this.known(i), ...(isMeasured ? [] : this.there(i)), ...this.relations(i)],
     );
   }
 
@@ -62,13 +66,18 @@ export class ObjectPanel {
       ["on its own", branch ? [`${rangeOf(branch)}${unitOf(page.volume.valueUnit)}`] : []],
       ["best seen at", [this.place(entry.tau, entry.why), entry.why ? `: ${entry.why}` : ""]],
       ["look also at", more.flatMap(({ tau, why }, n) => [n > 0 ? ", " : "", this.place(tau, why)])],
-      [
-        "size there",
-        [`${volume(entry.measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(entry.voxels, "voxel")}`}`],
-      ],
-      ["shape there", [shapeOf(page, i)]],
     ];
     return facts.filter(([, what]) => what.length > 0);
+  }
+
+  /** What it is where it is best seen. */
+  private there(i: number): Fact[] {
+    const { page } = this.desk;
+    const { measure, voxels } = entryOf(page, i);
+    return [
+      ["size there", [`${volume(measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(voxels, "voxel")}`}`]],
+      ["shape there", [shapeOf(page, i)]],
+    ];
   }
 
   /** An isovalue that what is selected goes to. */
