@@ -64,6 +64,14 @@ std::string store_to_view(const Arguments& arguments) {
     return is_atlas(arguments.file) || arguments.file.ends_with(".atlas") ? arguments.file : stem_of(arguments.file) + ".atlas";
 }
 
+void check_is_volume(const Arguments& arguments, const VolumeInfo& info) {
+    if (info.extent.rank == 3) return;
+    throw Error(ErrorKind::usage, {.file = arguments.file,
+                                   .what = "an image has no surfaces to explore",
+                                   .expected = "a volume",
+                                   .next = "isoatlas " + shell_word(arguments.file) + reading_options(arguments) + " makes a page of it"});
+}
+
 bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string& store) {
     if (is_atlas(arguments.file)) return true;
     if (is_fresh(store, arguments.file) && !arguments.restart) {
@@ -71,7 +79,7 @@ bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string&
         return true;
     }
     if (build_state(store)) return false;
-    (void)open_volume(arguments.file, arguments.open);
+    check_is_volume(arguments, open_volume(arguments.file, arguments.open)->info());
     if (arguments.read_only) no_store(arguments, store, "it has no store that is newer than it, and --read-only writes none");
     return false;
 }

@@ -13,8 +13,11 @@ class Terminal;
 /// Where the store is: arguments.file, or beside that volume.
 [[nodiscard]] std::string store_to_view(const Arguments& arguments);
 
-/// Can it be opened at once? Says so where it stands beside a volume. Throws Error when it will never be there: no such file, or a volume
-/// without a store and --read-only.
+/// Throws Error{usage} unless it is 3D.
+void check_is_volume(const Arguments& arguments, const VolumeInfo& info);
+
+/// Can it be opened at once? Says so where it stands beside a volume. Throws Error when it will never be there: no such file, or an image,
+/// a volume without a store and --read-only.
 [[nodiscard]] bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string& store);
 
 /// Returns when the store is there: builds it, or waits for the process that does so, and goes on where that one has stopped. tell: where

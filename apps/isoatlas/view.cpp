@@ -75,7 +75,10 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
     const std::string store = store_to_view(arguments);
     const AtlasOptions options{.cache_bytes = arguments.memory};
     std::optional<Atlas> atlas;
-    if (is_ready(arguments, terminal, store)) atlas.emplace(store, options);
+    if (is_ready(arguments, terminal, store)) {
+        atlas.emplace(store, options);
+        check_is_volume(arguments, atlas->info());
+    }
     Server server({.port = arguments.port, .memory = arguments.memory}, context_of(arguments));
     if (atlas) server.open(*atlas);
     const Answering answering(server);

@@ -83,6 +83,15 @@ class Watching(harness.CliTest):
         self.assertNotEqual(code, 0)
         self.assertIn(state["error"]["what"], said)
 
+    def test_an_image_is_refused_with_what_to_do_instead(self):
+        (self.folder / "image.nrrd").write_bytes(b"NRRD0004\ntype: uint8\ndimension: 2\nsizes: 4 4\nencoding: raw\n\n" + bytes(range(16)))
+        self.run_ok("build", "image.nrrd", "-o", "image2.atlas", "--quiet")
+        for file in ("image.nrrd", "image2.atlas"):
+            done = self.start(["view", file, "--no-browser"])
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"Next: isoatlas {file} makes a page of it", done.stderr)
+            self.run_ok(file, "--quiet")
+
     def test_read_only_writes_nothing(self):
         before = sorted(os.listdir(self.folder))
         done = self.start(["view", "small.nrrd", "--no-browser", "--read-only"])
