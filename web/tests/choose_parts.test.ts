@@ -9,7 +9,7 @@ import { Catalogue, numbersOf, type Branches } from "../src/viewer/ask/catalogue
 import { ANY, CHOICE, commandOf, isChosen, isSelection, selectionWords, TAB, type Choice } from "../src/viewer/state/choosing";
 import { find } from "../src/viewer/choose/found";
 import { History } from "../src/viewer/state/history";
-import { Logarithmic, spanOf } from "../src/viewer/choose/plane";
+import { spanOf } from "../src/viewer/choose/scatter_plot";
 import { isolate, NOTHING } from "../src/viewer/state/state";
 import { foldedAway } from "../src/viewer/choose/tree_keys";
 import { branch, entry, page } from "./sample";
@@ -185,16 +185,10 @@ describe("the mark of what is selected", () => {
   });
 });
 
-describe("a logarithmic axis", () => {
-  it("goes there and back, and has no limit beyond its ends", () => {
-    const axis = new Logarithmic(0.5, 2000, 300, 20);
-    for (const value of [0.5, 1, 37, 2000]) expect(axis.value(axis.pixel(value))).toBeCloseTo(value, 0);
-    expect(axis.value(301)).toBeNull();
-    expect(axis.value(20)).toBeNull();
-    expect(axis.pixel(0)).toBe(300);
-    expect(axis.tens(40)).toEqual([1, 10, 100, 1000]);
-    expect(axis.tens(100)).toEqual([1, 100]);
-    expect(spanOf([0, 3, 0.5])).toEqual([0.5, 3]);
-    expect(spanOf([])).toEqual([1, 1]);
+describe("the plane of contrast and size", () => {
+  it("goes from the least that is positive to the most, with a little room", () => {
+    const { min, max } = spanOf([0, 1, 1e6]);
+    expect([min, max].map((limit) => Number(limit.toPrecision(3)))).toEqual([0.575, 1740000]);
+    for (const one of [spanOf([3]), spanOf([]), spanOf([0])]) expect(one.max / one.min).toBeGreaterThan(1.1);
   });
 });

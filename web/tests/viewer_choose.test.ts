@@ -98,7 +98,8 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
 
   it("drags a box over dots, and a click on a dot shows its object everywhere", async () => {
     const { tab, problems } = await served.open("#scene=&tab=scatter");
-    const plot = tab.locator("canvas.scatter");
+    const plot = tab.locator(".scatter");
+    const dots = tab.locator(".scatter .u-over"); // between the axes
     await tab.getByText("a dot each").waitFor(); // all objects are known
     const box = await plot.boundingBox();
     if (!box) throw new Error("no plot");
@@ -111,7 +112,8 @@ describe.skipIf(!canServe)("choosing in the viewer", () => {
     const chosen = table(...line.split(" ").slice(3));
     expect(await said(tab)).toContain(`${count(chosen.branches - chosen.hidden)} of ${count(chosen.branches)} objects shown`);
     expect(await plot.getAttribute("aria-label")).toContain(`${count(chosen.branches - chosen.hidden)} of them chosen`);
-    await plot.click({ position: { x: box.width - 8 - (box.width - 54) * 0.03, y: 8 + (box.height - 44) * 0.03 } });
+    const { width, height } = (await dots.boundingBox()) ?? box;
+    await dots.click({ position: { x: width * 0.97, y: height * 0.03 } });
     expect(await title(tab)).toMatch(/^Object/);
     await tab.keyboard.press("2");
     expect(await tab.locator(".rows li.selected").count()).toBe(1);

@@ -142,6 +142,27 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
+  for (const [colorScheme, mark] of [["light", [0, 114, 178]], ["dark", [86, 180, 233]]] as const)
+    it(`draws the line of the isovalue where the histogram is pressed, ${colorScheme}`, async () => {
+      const { tab, problems } = await served.open(scene(1), { colorScheme });
+      await settled(tab);
+      const box = await tab.locator(".drawn").boundingBox();
+      if (!box) throw new Error("no histogram");
+      const colourAt = (left: number): Promise<number[]> =>
+        tab.locator(".drawn canvas").evaluate((canvas: HTMLCanvasElement, at) => {
+          const near = canvas.getContext("2d")?.getImageData(Math.round(at * devicePixelRatio), 6 * devicePixelRatio, 1, 1).data ?? [];
+          return [...near].slice(0, 3);
+        }, left);
+      for (const share of [0.05, 0.4, 0.95]) {
+        const left = Math.round(share * box.width);
+        await tab.mouse.click(box.x + left, box.y + 20);
+        const away = (colour: number[]): number => Math.max(...mark.map((n, i) => Math.abs(n - (colour[i] ?? 0))));
+        await expect.poll(async () => away(await colourAt(left))).toBeLessThan(16);
+      }
+      expect(problems).toEqual([]);
+      await tab.close();
+    });
+
   it("steps by a delta of one's own, and plays to the end of its range", async () => {
     const { tab, problems } = await served.open(scene(1));
     await settled(tab);

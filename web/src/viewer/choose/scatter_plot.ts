@@ -1,15 +1,19 @@
 // All objects as dots on a plane of contrast and size, both logarithmic; those that stand out and those that are chosen are marked. A box
 // is dragged open on it; a click chooses the dot next to it.
+import type uPlot from "uplot";
 import { html } from "../../dom";
 import { value } from "../../format";
 import type { Choice, Limits, Sizes } from "../state/choosing";
-import { Logarithmic, spanOf, type Frame } from "./plane";
-import { onTheme } from "../desk/theme";
+import { plotAxis, plotIn } from "../desk/plot";
+import { ink } from "../desk/theme";
 
 /** Pixels from a dot at which a click still means it; a press that moves less than a drag is a click. */
 const NEAR = 12;
 const DRAG = 5;
 const TURN = 2 * Math.PI;
+
+/** pixels for the numbers below and on the left, and for what they are of */
+const [UNDER, LEFT, NAME] = [20, 48, 16];
 
 export interface Marks {
   choice: Choice | null;
@@ -28,132 +32,103 @@ export interface Hand {
 }
 
 export class ScatterPlot {
-  readonly element: HTMLCanvasElement;
+  readonly element = html("div", { class: "scatter", role: "img" });
+  private readonly plot: uPlot;
   private marks: Marks = { choice: null, chosen: new Set(), shown: new Set(), selected: -1 };
-  private frame: Frame = { left: 46, right: 0, top: 8, bottom: 0 };
-  private across = new Logarithmic(1, 1, 0, 1);
-  private up = new Logarithmic(1, 1, 1, 0);
   private sizes: Sizes[] = [];
   private pressed: { x: number; y: number } | null = null;
   /** where the plot was when it was pressed: words above it may change what room they take while a box is dragged */
   private held: DOMRect | null = null;
 
   constructor(
-    private readonly names: { across: string; up: string },
+    names: { across: string; up: string },
     private readonly hand: Hand,
   ) {
-    this.element = html("canvas", { class: "scatter", role: "img" });
-    new ResizeObserver(() => this.resize()).observe(this.element);
-    onTheme(() => this.draw());
+    // what is not positive lies at the low end
+    const range: uPlot.Range.Function = (_, least, most) => [least, most];
+    const scale: uPlot.Scale = { time: false, distr: 3, range, clamp: (_plot, _value, least) => least };
+    const tens: uPlot.Axis.Filter = (_, ticks) => ticks.map((tick) => (Number.isInteger(Math.log10(tick)) ? tick : null));
+    const axis = (label: string, size: number): uPlot.Axis =>
+      plotAxis({ label, size, labelSize: NAME, labelGap: 0, grid: { filter: tens }, values: (_, ticks) => ticks.map(roundValue) });
+    this.plot = plotIn(
+      this.element,
+      {
+        padding: [8, 8, 0, 0],
+        scales: { x: { ...scale }, y: { ...scale } },
+        axes: [axis(names.across, UNDER), axis(names.up, LEFT)],
+        series: [{}],
+      },
+      [[]],
+      (pen, pixel) => this.draw(pen, pixel),
+    );
     this.listen();
   }
 
   /** One dot for each. */
   take(sizes: Sizes[]): void {
     this.sizes = sizes;
-    this.resize();
+    this.plot.batch(() => {
+      this.plot.setScale("x", spanOf(sizes.map(({ contrast }) => contrast)));
+      this.plot.setScale("y", spanOf(sizes.map(({ size }) => size)));
+    });
   }
 
   show(marks: Marks, label: string): void {
     this.marks = marks;
     this.element.setAttribute("aria-label", label);
-    this.draw();
+    this.plot.redraw(false);
   }
 
-  private resize(): void {
-    const { clientWidth, clientHeight } = this.element;
-    if (clientWidth === 0 || clientHeight === 0) return;
-    this.element.width = clientWidth * devicePixelRatio;
-    this.element.height = clientHeight * devicePixelRatio;
-    this.frame = { left: 46, right: clientWidth - 8, top: 8, bottom: clientHeight - 36 };
-    const { left, right, top, bottom } = this.frame;
-    this.across = new Logarithmic(...spanOf(this.sizes.map(({ contrast }) => contrast)), left, right);
-    this.up = new Logarithmic(...spanOf(this.sizes.map(({ size }) => size)), bottom, top);
-    this.draw();
-  }
-
-  private draw(): void {
-    const context = this.element.getContext("2d");
-    if (!context || this.frame.right === 0) return;
-    const ink = inkOf(this.element);
-    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-    context.clearRect(0, 0, this.element.clientWidth, this.element.clientHeight);
-    this.drawAxes(context, ink);
-    this.drawDots(context, ink);
-    this.drawBox(context, ink);
-  }
-
-  private drawAxes(context: CanvasRenderingContext2D, ink: Ink): void {
-    const { left, right, top, bottom } = this.frame;
-    context.font = "11px system-ui, sans-serif";
-    context.fillStyle = ink.soft;
-    context.strokeStyle = ink.line;
-    context.lineWidth = 1;
-    context.beginPath();
-    context.textAlign = "center";
-    for (const ten of this.across.tens(44)) {
-      const x = this.across.pixel(ten);
-      context.moveTo(x, top);
-      context.lineTo(x, bottom);
-      context.fillText(value(ten), x, bottom + 14);
-    }
-    context.textAlign = "right";
-    for (const ten of this.up.tens(24)) {
-      const y = this.up.pixel(ten);
-      context.moveTo(left, y);
-      context.lineTo(right, y);
-      context.fillText(value(ten), left - 5, y + 4);
-    }
-    context.stroke();
-    context.fillText(this.names.across, right, bottom + 30);
-    context.textAlign = "left";
-    context.fillText(this.names.up, left + 5, top + 10);
-  }
-
-  private drawDots(context: CanvasRenderingContext2D, ink: Ink): void {
+  private draw(pen: CanvasRenderingContext2D, pixel: number): void {
+    if (this.sizes.length === 0) return;
     const { chosen, shown, selected } = this.marks;
-    const dot = (sizes: Sizes, radius: number): void => {
-      context.beginPath();
-      context.arc(this.across.pixel(sizes.contrast), this.up.pixel(sizes.size), radius, 0, TURN);
+    const x = ({ contrast }: Sizes): number => this.plot.valToPos(contrast, "x", true);
+    const y = ({ size }: Sizes): number => this.plot.valToPos(size, "y", true);
+    const dots = (radius: number, isMeant: (sizes: Sizes) => boolean): void => {
+      pen.beginPath();
+      for (const sizes of this.sizes.filter(isMeant)) {
+        pen.moveTo(x(sizes) + radius * pixel, y(sizes));
+        pen.arc(x(sizes), y(sizes), radius * pixel, 0, TURN);
+      }
     };
-    context.fillStyle = ink.soft;
-    context.globalAlpha = 0.4;
-    for (const sizes of this.sizes) if (!chosen.has(sizes.rank)) dot(sizes, 1.6), context.fill();
-    context.globalAlpha = 1;
-    context.fillStyle = ink.mark;
-    for (const sizes of this.sizes) if (chosen.has(sizes.rank)) dot(sizes, 2.6), context.fill();
-    context.strokeStyle = ink.ink;
-    context.lineWidth = 1.2;
-    for (const sizes of this.sizes) if (sizes.standsOut) dot(sizes, 4.5), context.stroke();
-    context.fillStyle = ink.chosen;
-    for (const sizes of this.sizes) if (shown.has(sizes.rank)) dot(sizes, 5), context.fill(), context.stroke();
-    context.lineWidth = 2.5;
-    context.strokeStyle = ink.chosen;
-    const own = this.sizes[selected];
-    if (own) dot(own, 9), context.stroke();
+    const filled = (colour: string): void => void ((pen.fillStyle = colour), pen.fill());
+    const drawn = (colour: string, width: number): void => void (([pen.strokeStyle, pen.lineWidth] = [colour, width * pixel]), pen.stroke());
+    pen.globalAlpha = 0.4;
+    dots(1.6, ({ rank }) => !chosen.has(rank));
+    filled(ink("soft"));
+    pen.globalAlpha = 1;
+    dots(2.6, ({ rank }) => chosen.has(rank));
+    filled(ink("mark"));
+    dots(4.5, ({ standsOut }) => standsOut);
+    drawn(ink("ink"), 1.2);
+    dots(5, ({ rank }) => shown.has(rank));
+    filled(ink("chosen"));
+    drawn(ink("ink"), 1.2);
+    dots(9, ({ rank }) => rank === selected);
+    drawn(ink("chosen"), 2.5);
+    this.drawBox(pen, pixel);
   }
 
-  private drawBox(context: CanvasRenderingContext2D, ink: Ink): void {
+  private drawBox(pen: CanvasRenderingContext2D, pixel: number): void {
     const { choice } = this.marks;
     if (!choice || [...choice.contrast, ...choice.size].every((limit) => limit === null)) return;
-    const { left, right, top, bottom } = this.frame;
-    const at = (scale: Logarithmic, limit: number | null, none: number): number => (limit === null ? none : scale.pixel(limit));
-    const [x0, x1] = [at(this.across, choice.contrast[0], left), at(this.across, choice.contrast[1], right)];
-    const [y0, y1] = [at(this.up, choice.size[0], bottom), at(this.up, choice.size[1], top)];
-    context.globalAlpha = 0.12;
-    context.fillStyle = ink.mark;
-    context.fillRect(x0, y1, x1 - x0, y0 - y1);
-    context.globalAlpha = 1;
-    context.strokeStyle = ink.mark;
-    context.lineWidth = 2;
-    context.strokeRect(x0, y1, x1 - x0, y0 - y1);
+    const { left, top, width, height } = this.plot.bbox;
+    const at = (axis: "x" | "y", limit: number | null, none: number): number => (limit === null ? none : this.plot.valToPos(limit, axis, true));
+    const [x0, x1] = [at("x", choice.contrast[0], left), at("x", choice.contrast[1], left + width)];
+    const [y0, y1] = [at("y", choice.size[0], top + height), at("y", choice.size[1], top)];
+    pen.globalAlpha = 0.12;
+    pen.fillStyle = ink("mark");
+    pen.fillRect(x0, y1, x1 - x0, y0 - y1);
+    pen.globalAlpha = 1;
+    [pen.strokeStyle, pen.lineWidth] = [ink("mark"), 2 * pixel];
+    pen.strokeRect(x0, y1, x1 - x0, y0 - y1);
   }
 
   private listen(): void {
     const { element } = this;
     element.addEventListener("pointerdown", (event) => {
       if (this.sizes.length === 0) return;
-      this.held = element.getBoundingClientRect();
+      this.held = this.plot.over.getBoundingClientRect();
       this.pressed = this.placeOf(event);
       element.setPointerCapture(event.pointerId);
     });
@@ -169,9 +144,17 @@ export class ScatterPlot {
     element.addEventListener("pointercancel", () => (this.pressed = this.held = null));
   }
 
+  /** In pixels from the left and the top of what lies between the axes. */
   private placeOf(event: PointerEvent): { x: number; y: number } {
-    const box = this.held ?? this.element.getBoundingClientRect();
+    const box = this.held ?? this.plot.over.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  /** null: beyond the end, where there is no limit. Three digits. */
+  private limit(axis: "x" | "y", pixel: number): number | null {
+    const { clientWidth, clientHeight } = this.plot.over;
+    if (pixel <= 0 || pixel >= (axis === "x" ? clientWidth : clientHeight)) return null;
+    return Number(this.plot.posToVal(pixel, axis).toPrecision(3));
   }
 
   private isDrag(event: PointerEvent): boolean {
@@ -183,7 +166,7 @@ export class ScatterPlot {
     const [from, to] = [this.pressed ?? { x: 0, y: 0 }, this.placeOf(event)];
     const [left, right] = [from.x, to.x].sort((p, q) => p - q) as [number, number];
     const [top, bottom] = [from.y, to.y].sort((p, q) => p - q) as [number, number];
-    this.hand.box([this.across.value(left), this.across.value(right)], [this.up.value(bottom), this.up.value(top)], transient);
+    this.hand.box([this.limit("x", left), this.limit("x", right)], [this.limit("y", bottom), this.limit("y", top)], transient);
   }
 
   private click(event: PointerEvent): void {
@@ -202,24 +185,23 @@ export class ScatterPlot {
     const { x, y } = this.placeOf(event);
     let [best, distance]: [number | null, number] = [null, NEAR];
     for (const { rank, contrast, size } of this.sizes) {
-      const d = Math.hypot(this.across.pixel(contrast) - x, this.up.pixel(size) - y);
+      const d = Math.hypot(this.plot.valToPos(contrast, "x") - x, this.plot.valToPos(size, "y") - y);
       if (d < distance) [best, distance] = [rank, d];
     }
     return best;
   }
 }
 
-interface Ink {
-  ink: string;
-  soft: string;
-  line: string;
-  mark: string;
-  chosen: string;
+/** From the least that is positive to the most, with a little room on a logarithmic axis. */
+export function spanOf(numbers: readonly number[]): { min: number; max: number } {
+  const positive = numbers.filter((number) => number > 0);
+  if (positive.length === 0) return { min: 0.5, max: 2 };
+  const [least, most] = [positive.reduce((a, b) => Math.min(a, b)), positive.reduce((a, b) => Math.max(a, b))];
+  const room = Math.max(10, most / least) ** 0.04;
+  return { min: least / room, max: most * room };
 }
 
-/** Colours that differ by theme, as the borders that choose.css gives the canvas: a canvas knows no variables. */
-function inkOf(element: HTMLElement): Ink {
-  const style = getComputedStyle(element);
-  const { color, borderTopColor, borderRightColor, borderBottomColor, borderLeftColor } = style;
-  return { ink: color, soft: borderTopColor, line: borderRightColor, mark: borderBottomColor, chosen: borderLeftColor };
+/** Nothing where an axis ends between two ticks. */
+function roundValue(tick: number | null): string {
+  return tick !== null && Number(tick.toPrecision(1)) === tick ? value(tick) : "";
 }

@@ -30,7 +30,7 @@ export class ScatterTab {
     const { unit, valueUnit } = page.volume;
     const sizeUnit = unit === null ? "voxels" : `${unit}³`;
     this.plot = new ScatterPlot(
-      { across: `contrast${valueUnit ? `, ${valueUnit}` : ""} →`, up: `↑ size, ${sizeUnit}` },
+      { across: `contrast${valueUnit ? `, ${valueUnit}` : ""} →`, up: `size, ${sizeUnit} →` },
       {
         box: (contrast, size, transient) => this.choose({ ...(this.choice ?? ANY), contrast, size }, transient),
         click: (rank, add) => catalogue.numbersOfRank(rank).slice(0, 1).forEach((i) => (add ? chooser.toggle(i) : chooser.isolate(i))),

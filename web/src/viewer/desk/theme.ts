@@ -11,6 +11,11 @@ export function isDarkPage(): boolean {
   return colorScheme === "dark" || (colorScheme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
 }
 
+/** A colour of viewer.css as it is now, for what knows no variables. */
+export function ink(name: "ink" | "soft" | "line" | "mark" | "chosen"): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
+}
+
 /** Calls when the page may look different. */
 export function onTheme(listener: () => void): void {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", listener);

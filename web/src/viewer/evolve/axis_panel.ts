@@ -1,36 +1,29 @@
 // The isovalue of what is selected: dragged, typed, stepped, played; where something happens; what its surface will be before it is made.
-import { Axis, drawTicks, histogramPath } from "../../axis";
-import { html, svg } from "../../dom";
+import { Axis } from "../../axis";
+import { html } from "../../dom";
 import { value } from "../../format";
 import { badgeOf } from "./badge";
 import type { Desk } from "../desk/desk";
 import { eventNear, eventsOf, type Event } from "../state/events";
+import { HistogramPlot } from "./histogram_plot";
 import { Latest } from "../ask/latest";
 import { Player, SPEEDS } from "./play";
-import { colourOfShown, ownRange, within } from "../ask/shown";
+import { within } from "../ask/shown";
 import type { Shown, State } from "../state/state";
 import { DELTA, deltaOf } from "./stepping";
 
-/** pixels */
-const HEIGHT = 66;
-const LINE = 42;
-const MARGIN = 12;
 /** of the slider */
 const STEPS = 10_000;
 /** pixels to either side of a tick */
 const REACH = 6;
-/** pixels for a number under the axis */
-const ROOM = 90;
 
 export class AxisPanel {
   readonly element: HTMLElement;
   readonly player: Player;
-  private axis: Axis;
+  /** along the slider */
+  private readonly axis: Axis;
   private readonly events: Event[];
-  private readonly drawing = svg("svg", { "aria-hidden": "true" });
-  private readonly others = svg("g", { class: "others" });
-  private readonly mark = svg("line", { class: "mark", y1: 0, y2: LINE });
-  private readonly range = svg("rect", { class: "range", y: 24, height: 8 });
+  private readonly plot: HistogramPlot;
   private readonly box = html("input", { type: "text", inputmode: "decimal", "aria-label": "isovalue" });
   private readonly step = html("input", {
     type: "text",
@@ -48,8 +41,9 @@ export class AxisPanel {
 
   constructor(private readonly desk: Desk) {
     const { page, editor } = desk;
-    this.axis = Axis.of(page, 800, MARGIN);
+    this.axis = Axis.of(page, STEPS, 0);
     this.events = eventsOf(page);
+    this.plot = new HistogramPlot(page, this.events);
     this.player = new Player(desk, () => this.sayWay());
     this.foresight = new Latest((shown) => this.foresee(shown));
     this.slider.addEventListener("input", () => editor.move(this.tauOf(Number(this.slider.value)), true));
@@ -65,8 +59,7 @@ export class AxisPanel {
       this.controls(),
       this.badge,
     );
-    const drawn = html("div", { class: "drawn" }, this.drawing, this.slider, this.tip);
-    new ResizeObserver(() => this.draw(drawn.clientWidth)).observe(drawn);
+    const drawn = html("div", { class: "drawn" }, this.plot.element, this.slider, this.tip);
     drawn.addEventListener("pointermove", (event) => this.point(event, drawn));
     drawn.addEventListener("pointerleave", () => (this.tip.hidden = true));
     this.element = html("section", { class: "axis", "aria-label": "isovalue" }, line, drawn);
@@ -75,46 +68,15 @@ export class AxisPanel {
   }
 
   show(state: State): void {
-    const { page } = this.desk;
     const shown = state.shown[state.selected];
     this.element.classList.toggle("idle", !shown);
-    this.step.value = String(deltaOf(page, state));
-    this.others.replaceChildren(...state.shown.filter((other) => other !== shown).map((other) => this.needle(other)));
+    this.step.value = String(deltaOf(this.desk.page, state));
+    this.plot.show(state);
     if (!shown) return;
-    const [low, high] = ownRange(page, shown.entry);
-    const x = String(this.axis.x(shown.tau));
-    this.mark.setAttribute("x1", x);
-    this.mark.setAttribute("x2", x);
-    this.range.setAttribute("x", String(this.axis.x(low)));
-    this.range.setAttribute("width", String(Math.max(1, this.axis.x(high) - this.axis.x(low))));
     this.box.value = String(Number(shown.tau.toPrecision(7)));
-    this.slider.value = String(Math.round(((this.axis.x(shown.tau) - MARGIN) / (this.axis.width - 2 * MARGIN)) * STEPS));
+    this.slider.value = String(Math.round(this.axis.x(shown.tau)));
     this.slider.setAttribute("aria-valuetext", value(shown.tau));
     this.foresight.want(shown, `${shown.entry} ${shown.tau}`);
-  }
-
-  /** As wide as it is, so that letters keep their shape. */
-  private draw(width: number): void {
-    if (width < 4 * MARGIN) return;
-    const { page, history } = this.desk;
-    this.axis = Axis.of(page, width, MARGIN);
-    const ticks = this.events.map(({ tau }) => svg("line", { x1: this.axis.x(tau), x2: this.axis.x(tau), y1: LINE - 6, y2: LINE }));
-    const histogram = svg("path", { class: "histogram", d: histogramPath(page.histogram, this.axis, 2, LINE) });
-    this.drawing.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
-    this.drawing.replaceChildren(
-      histogram,
-      this.range,
-      svg("g", { class: "events" }, ...ticks),
-      drawTicks(this.axis, LINE, Math.min(8, width / ROOM)),
-      this.others,
-      this.mark,
-    );
-    this.show(history.now);
-  }
-
-  private needle(shown: Shown): SVGLineElement {
-    const x = this.axis.x(shown.tau);
-    return svg("line", { x1: x, x2: x, y1: LINE - 16, y2: LINE, stroke: colourOfShown(this.desk.page, shown) });
   }
 
   private controls(): HTMLElement {
@@ -157,17 +119,17 @@ export class AxisPanel {
 
   /** What happens at the tick under the pointer. */
   private point(event: PointerEvent, drawn: HTMLElement): void {
-    const near = eventNear(this.events, (tau) => this.axis.x(tau), event.clientX - drawn.getBoundingClientRect().left, REACH);
+    const near = eventNear(this.events, (tau) => this.plot.x(tau), event.clientX - drawn.getBoundingClientRect().left, REACH);
     this.tip.hidden = !near;
     if (!near) return;
-    const at = this.axis.x(near.tau) / this.axis.width;
+    const at = this.plot.x(near.tau) / drawn.clientWidth;
     this.tip.textContent = near.text;
     this.tip.style.left = `${100 * at}%`;
     this.tip.style.transform = `translateX(${-100 * at}%)`;
   }
 
   private tauOf(step: number): number {
-    return Number(this.axis.tau(MARGIN + (step / STEPS) * (this.axis.width - 2 * MARGIN)).toPrecision(7));
+    return Number(this.axis.tau(step).toPrecision(7));
   }
 
   private commit(): void {

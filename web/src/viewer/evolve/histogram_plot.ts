@@ -1,0 +1,77 @@
+// The histogram over the isovalue, and on it: what is selected and its own range, the others, and where something happens.
+import uPlot from "uplot";
+import { Axis } from "../../axis";
+import { html } from "../../dom";
+import type { Page } from "../../page";
+import { plotAxis, plotIn } from "../desk/plot";
+import { ink } from "../desk/theme";
+import { colourOfShown, ownRange } from "../ask/shown";
+import type { Event } from "../state/events";
+import { NOTHING, type State } from "../state/state";
+
+/** pixels: half of the knob of a slider, so that it is where the line is */
+const MARGIN = 8;
+const UNDER = 24;
+/** for a number under the axis */
+const ROOM = 90;
+
+const STAIRS = uPlot.paths.stepped?.({ align: 1 });
+
+export class HistogramPlot {
+  readonly element = html("div", { class: "plot", "aria-hidden": "true" });
+  private readonly plot: uPlot;
+  private state = NOTHING;
+
+  constructor(
+    private readonly page: Page,
+    private readonly events: readonly Event[],
+  ) {
+    const { axis, histogram } = page;
+    const whole = new Axis(axis.low, axis.high, 1, 0, axis.bend);
+    const most = Math.max(1, ...histogram.counts);
+    const ticks = (plot: uPlot): number[] => whole.ticks(Math.min(8, plot.width / ROOM));
+    this.plot = plotIn(
+      this.element,
+      {
+        padding: [2, MARGIN, 0, MARGIN],
+        scales: {
+          x: { time: false, range: [axis.low, axis.high], distr: 100, fwd: (tau) => whole.x(tau), bwd: (at) => whole.tau(at) },
+          y: { range: [0, most], distr: 4 }, // the background outweighs all else
+        },
+        axes: [plotAxis({ size: UNDER, grid: { show: false }, splits: ticks, filter: (_, all) => all }), { show: false }],
+        series: [{}, { paths: STAIRS, fill: () => ink("line"), width: 0, points: { show: false } }],
+      },
+      [histogram.edges, [...histogram.counts, histogram.counts.at(-1) ?? 0]],
+      (pen, pixel) => this.draw(pen, pixel),
+    );
+  }
+
+  show(state: State): void {
+    this.state = state;
+    this.plot.redraw(false);
+  }
+
+  /** Pixels from the left of the element. */
+  x(tau: number): number {
+    return MARGIN + this.plot.valToPos(tau, "x");
+  }
+
+  private draw(pen: CanvasRenderingContext2D, pixel: number): void {
+    const { top, height } = this.plot.bbox;
+    const bottom = top + height;
+    const x = (tau: number): number => this.plot.valToPos(tau, "x", true);
+    const line = (tau: number, high: number, wide: number, colour: string): void => {
+      pen.fillStyle = colour;
+      pen.fillRect(x(tau) - (wide / 2) * pixel, bottom - high * pixel, wide * pixel, high * pixel);
+    };
+    const { shown, selected } = this.state;
+    for (const { tau } of this.events) line(tau, 6, 1, ink("mark"));
+    for (const one of shown) line(one.tau, 16, 1, colourOfShown(this.page, one));
+    const own = shown[selected];
+    if (!own) return;
+    line(own.tau, height / pixel, 3, ink("mark"));
+    const [left, right] = ownRange(this.page, own.entry).map(x) as [number, number];
+    pen.globalAlpha = 0.35;
+    pen.fillRect(left, bottom - 18 * pixel, Math.max(pixel, right - left), 8 * pixel);
+  }
+}
