@@ -74,9 +74,11 @@ private:
         if (info.geometry.coordinates[0].empty()) {
             json_.value(info.geometry.spacing);
         } else {
-            json_.null();  // steps are uneven
+            json_.null();
+            write_coordinates(info.geometry);
         }
-        json_.key("space").value(info.geometry.space).key("origin").value(info.geometry.origin).key("direction").begin_array();
+        json_.key("space").value(info.geometry.space).key("origin").value(to_physical(info.geometry, {0, 0, 0}));
+        json_.key("direction").begin_array();
         for (const Vec3& row : info.geometry.direction) json_.value(row);
         json_.end_array();
         put_text(json_.key("unit"), unit_of(info.geometry));
@@ -84,6 +86,17 @@ private:
         put_value("low", contents_.scale.low);
         put_value("high", contents_.scale.high);
         json_.key("noise").value(scale_.reported_difference(contents_.noise)).end_object().line();
+    }
+
+    /// Where the samples of every axis lie along it, from the first one on.
+    void write_coordinates(const Geometry& geometry) {
+        json_.key("coordinates").begin_array();
+        for (const std::vector<double>& axis : geometry.coordinates) {
+            json_.begin_array();
+            for (const double place : axis) json_.value(place - axis.front());
+            json_.end_array();
+        }
+        json_.end_array();
     }
 
     void write_counts() {

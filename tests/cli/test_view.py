@@ -194,5 +194,37 @@ class View(harness.CliTest):
         self.assertIn("--port", done.stderr)
 
 
+class Uneven(harness.CliTest):
+    """A grid with a coordinate for each sample."""
+
+    AXES = [[0, 1, 2.5, 7, 8], [-1, 0, 5, 6, 6.5], [2, 4, 5, 5.5, 9]]
+
+    def setUp(self):
+        extent = "0 4 0 4 0 4"
+        array = '<DataArray type="{}" Name="{}" format="ascii">{}</DataArray>'
+        values = [100 if abs(x - 2) + abs(y - 2) + abs(z - 2) < 2 else 0 for z in range(5) for y in range(5) for x in range(5)]
+        lists = [array.format("Float64", name, " ".join(map(str, axis))) for name, axis in zip("xyz", self.AXES)]
+        (self.folder / "u.vtr").write_text(
+            f'<VTKFile type="RectilinearGrid"><RectilinearGrid WholeExtent="{extent}"><Piece Extent="{extent}"><Coordinates>'
+            + "".join(lists) + "</Coordinates><PointData>" + array.format("UInt8", "v", " ".join(map(str, values)))
+            + "</PointData></Piece></RectilinearGrid></VTKFile>")
+        self.viewer = served.Viewer(self.folder, "u.vtr")
+        self.viewer.until("open")
+
+    def tearDown(self):
+        code, errors = self.viewer.stop()
+        self.assertEqual(code, 0, errors)
+
+    def test_coordinates(self):
+        page = json.loads(self.viewer.ask("/api/atlas")[2])
+        self.assert_schema(page, "page")
+        volume = page["volume"]
+        self.assertIsNone(volume["spacing"])
+        self.assertEqual(volume["origin"], [axis[0] for axis in self.AXES])
+        self.assertEqual(volume["coordinates"], [[place - axis[0] for place in axis] for axis in self.AXES])
+        at = json.loads(self.viewer.ask("/api/at?voxel=3,2,4")[2])
+        self.assertEqual(at["position"], [7, 5, 9])
+
+
 if __name__ == "__main__":
     harness.main()

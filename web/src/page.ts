@@ -111,6 +111,8 @@ export interface Page {
     type: string;
     /** null: the steps between samples are uneven */
     spacing: number[] | null;
+    /** where they are uneven: per axis, where its samples lie along it, from the first one on */
+    coordinates?: number[][];
     /** what the axes of space mean: "LPS", "RAS", ..., "unknown" */
     space: string;
     /** of the first sample, physical */

@@ -3,7 +3,7 @@ import { facesOf } from "../src/viewer/look/axis_names";
 import { besideWords } from "../src/viewer/state/beside";
 import { march } from "../src/viewer/draw/compositing";
 import { CUT, moved, outlineOf, planeOf, turned } from "../src/viewer/state/cut_plane";
-import { AXES, distance, dot, Grid, type Triple } from "../src/viewer/state/grid";
+import { acrossAndDown, AXES, distance, dot, Grid, type AxisNumber, type Triple } from "../src/viewer/state/grid";
 import { innermostFirst } from "../src/viewer/ask/holders";
 import { colouredAs } from "../src/viewer/look/matter";
 import { MATTER } from "../src/viewer/state/matter_state";
@@ -12,6 +12,7 @@ import { SlicedMesh } from "../src/viewer/draw/plane_cut";
 import { clipped, firstHit } from "../src/viewer/draw/ray";
 import { CROSSHAIR, greyRange, PLANES } from "../src/viewer/state/slice_state";
 import { EVERYTHING } from "../src/viewer/ask/shown";
+import { Ruler } from "../src/viewer/state/ruler";
 import { NOTHING } from "../src/viewer/state/state";
 import { linearOf, meanBetween, PLACES, transferTable, type Bump } from "../src/viewer/ask/transfer";
 import type { Mesh } from "../src/viewer/ask/wire";
@@ -22,6 +23,12 @@ import { scene } from "./sample";
 const [cosine, sine] = [Math.cos(Math.PI / 6), Math.sin(Math.PI / 6)];
 const tilted = new Grid({ ...scene, volume: { ...scene.volume, size: [40, 40, 20], origin: [5, -3, 7], direction: [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]] } });
 const straight = new Grid({ ...scene, volume: { ...scene.volume, size: [40, 40, 40], spacing: [1, 1, 1] } });
+/** Steps that grow along x and z. */
+const growing = Array.from({ length: 40 }, (_, i) => i * (0.5 + i / 40));
+const uneven = new Grid({
+  ...scene,
+  volume: { ...scene.volume, size: [40, 40, 40], spacing: null, origin: [3, 0, -5], coordinates: [growing, growing.map((_, i) => i), growing] },
+});
 
 /** A closed ball of rings of points. */
 function ball(middle: Triple, radius: number, pieces = 96): Mesh {
@@ -49,38 +56,55 @@ describe("the grid", () => {
   it("goes from samples to space and back", () => {
     expect(tilted.place([0, 0, 0])).toEqual([5, -3, 7]);
     expect(distance(tilted.place([3, 4, 0]), tilted.place([0, 0, 0]))).toBeCloseTo(5);
-    expect(AXES.map((axis) => tilted.spacing(axis))).toEqual([1, 1, 2].map((n) => expect.closeTo(n)));
+    expect(tilted.rulers.map(({ finest }) => finest)).toEqual([1, 1, 2]);
     for (const sample of [[1, 2, 3], [-4, 0.5, 19]]) expect(tilted.sample(tilted.place(sample))).toEqual(sample.map((n) => expect.closeTo(n)));
     expect(tilted.nearest(tilted.place([3.4, 99, -1]))).toEqual([3, 39, 0]);
     expect(tilted.corners()[5]).toEqual(tilted.place([39, 0, 19]));
+  });
+  it("has steps as uneven as the file says, which go on beyond its ends", () => {
+    expect(uneven.place([0, 2, 20])).toEqual([3, 2, 15]);
+    expect(uneven.place([39.5, 0, 0])[0]).toBeCloseTo(3 + growing[39]! + (growing[39]! - growing[38]!) / 2);
+    for (const sample of [[1, 2, 3], [0.5, 38.25, 20.75], [-1, 41, 39]])
+      expect(uneven.sample(uneven.place(sample))).toEqual(sample.map((n) => expect.closeTo(n)));
+    expect(uneven.nearest([3 + 0.49 * growing[1]!, 99, -6])).toEqual([0, 39, 0]);
+  });
+  it("is seen in even texels, each of the nearest sample", () => {
+    const ruler = new Ruler(4, 9, [0, 1, 3, 4]);
+    expect(ruler.texels(1)).toEqual({ samples: Uint32Array.of(0, 1, 2, 2, 3), low: -0.5, high: 4.5 });
+    expect(ruler.texels(2)).toEqual({ samples: Uint32Array.of(0, 0, 1, 1, 1), low: -1, high: 4 });
+    expect(new Ruler(5, 2, null).texels(2)).toEqual({ samples: Uint32Array.of(0, 1, 2), low: -2, high: 10 });
+    expect(new Ruler(1, 2, [0]).texels(1)).toEqual({ samples: Uint32Array.of(0), low: -1, high: 1 });
+    expect(new Ruler(3, 1, [0, 1, 1e6]).texels(1).samples.length).toBe(2048);
   });
 });
 
 describe("a contour on a slice", () => {
   it("is closed, lies on the slice, and encloses what a ball has there", () => {
-    for (const grid of [straight, tilted]) {
+    for (const grid of [straight, tilted, uneven]) {
       const middle = grid.place([20, 20, 10]);
       const mesh = ball(middle, 8);
       for (const axis of AXES) {
         const index = [20, 20, 10][axis]! + 2;
         const pieces = new SlicedMesh(mesh, grid).cut(axis, index);
-        const [u, v] = axis === 0 ? [1, 2] as const : axis === 1 ? [0, 2] as const : [0, 1] as const;
-        const apart = 2 * grid.spacing(axis);
+        const [u, v] = acrossAndDown(axis);
+        const { rulers } = grid;
+        const middleOf = (axis: AxisNumber): number => rulers[axis].length([20, 20, 10][axis]!);
+        const apart = rulers[axis].length(index) - middleOf(axis);
         const seen = new Map<string, number>();
         let area = 0;
         for (let i = 0; i < pieces.length; i += 4) {
           const ends = [pieces.subarray(i, i + 2), pieces.subarray(i + 2, i + 4)].map(([a, b]) => {
             const sample: Triple = [index, index, index];
-            [sample[u], sample[v]] = [a!, b!];
+            [sample[u], sample[v]] = [rulers[u].sample(a!), rulers[v].sample(b!)];
             expect(Math.abs(distance(grid.place(sample), middle) - 8)).toBeLessThan(0.02);
             const key = `${a!.toFixed(3)} ${b!.toFixed(3)}`;
             seen.set(key, (seen.get(key) ?? 0) + 1);
-            return [a! - [20, 20, 10][u]!, b! - [20, 20, 10][v]!] as const;
+            return [a! - middleOf(u), b! - middleOf(v)] as const;
           });
           area += Math.abs(ends[0]![0] * ends[1]![1] - ends[0]![1] * ends[1]![0]) / 2;
         }
         expect([...seen.values()].every((count) => count % 2 === 0)).toBe(true);
-        expect(area * grid.spacing(u) * grid.spacing(v)).toBeCloseTo(Math.PI * (64 - apart * apart), -0.5);
+        expect(area).toBeCloseTo(Math.PI * (64 - apart * apart), -0.5);
       }
       expect(new SlicedMesh(mesh, grid).cut(0, 0).length).toBe(0);
     }
@@ -163,7 +187,9 @@ describe("samples", () => {
     expect(valueAt(slice, [1, 7, 4])).toBeNull();
     expect(valueAt(slice, [2, 6, 4])).toBeNull();
     expect(valueAt(slice, [4, 7, 0])).toBeNull();
-    expect([...greyOf(slice, -1, 24)].filter((_, i) => i % 4 === 0)).toEqual([0, 51, 102, 153, 204, 255]);
+    expect([...greyOf(slice, Uint32Array.of(0, 1), Uint32Array.of(0, 1, 2), -1, 24)].filter((_, i) => i % 4 === 0)).toEqual([0, 51, 102, 153, 204, 255]);
+    const twice = greyOf(slice, Uint32Array.of(1, 1), Uint32Array.of(2), -1, 24);
+    expect([...twice]).toEqual([255, 255, 255, 255, 255, 255, 255, 255]);
     expect(() => decodeSlice(bytesOf("ias1", header, [0]), 1, 7)).toThrow("part");
     expect(() => decodeSlice(bytesOf("iav1", header, [0, 1, 2, 3, 4, 5]), 1, 7)).toThrow("no slice");
   });

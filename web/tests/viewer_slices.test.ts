@@ -2,6 +2,7 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Api } from "../src/viewer/ask/api";
 import { acrossAndDown, AXES, Grid, type AxisNumber } from "../src/viewer/state/grid";
+import type { Ruler } from "../src/viewer/state/ruler";
 import { SlicedMesh } from "../src/viewer/draw/plane_cut";
 import { decodeSlice } from "../src/viewer/ask/wire_samples";
 import { canServe, Served } from "./viewer_harness";
@@ -25,7 +26,9 @@ describe.skipIf(!canServe)("slices", () => {
   async function farthest(axis: AxisNumber, index: number, tau: number): Promise<{ crossings: number; distance: number }> {
     const page = await api.page();
     const mesh = await api.surface("all", tau, null, 10_000_000);
-    const pieces = new SlicedMesh(mesh, new Grid(page)).cut(axis, index);
+    const grid = new Grid(page);
+    const [wide, high] = acrossAndDown(axis).map((other) => grid.rulers[other]) as [Ruler, Ruler];
+    const pieces = new SlicedMesh(mesh, grid).cut(axis, index).map((length, i) => (i % 2 === 0 ? wide : high).sample(length));
     const slice = decodeSlice(await (await api.ask(`/api/slice?axis=${axis}&index=${index}`, "slice")).arrayBuffer(), axis, index);
     const { columns, rows, samples } = slice;
     const near = (u: number, v: number): number => {

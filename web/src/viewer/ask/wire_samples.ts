@@ -58,14 +58,17 @@ export function valueAt(slice: Slice, voxel: readonly number[]): number | null {
   return slice.slope * (slice.samples[column + slice.columns * row] ?? 0) + slice.intercept;
 }
 
-/** Red, green, blue, opacity of every sample: black and white are values in units of the file. */
-export function greyOf(slice: Slice, black: number, white: number): Uint8ClampedArray<ArrayBuffer> {
-  const pixels = new Uint8ClampedArray(4 * slice.samples.length).fill(255);
+/** Red, green, blue, opacity, row by row, of a picture with these columns and rows of the samples. black, white: values in units of the file. */
+export function greyOf(slice: Slice, columns: Uint32Array, rows: Uint32Array, black: number, white: number): Uint8ClampedArray<ArrayBuffer> {
+  const pixels = new Uint8ClampedArray(4 * columns.length * rows.length).fill(255);
   const factor = (255 / (white - black || 1)) * slice.slope;
   const first = (255 / (white - black || 1)) * (slice.intercept - black);
-  for (let i = 0; i < slice.samples.length; ++i) {
-    const grey = factor * (slice.samples[i] as number) + first;
-    pixels[4 * i] = pixels[4 * i + 1] = pixels[4 * i + 2] = grey;
+  let at = 0;
+  for (const row of rows) {
+    for (const column of columns) {
+      pixels[at] = pixels[at + 1] = pixels[at + 2] = factor * slice.samples[column + slice.columns * row]! + first;
+      at += 4;
+    }
   }
   return pixels;
 }

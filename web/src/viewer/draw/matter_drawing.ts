@@ -43,7 +43,7 @@ export class MatterDrawing {
     this.opaque.depthTexture.format = three.DepthStencilFormat;
     this.values = new three.Data3DTexture(volume.bytes, ...volume.size);
     Object.assign(this.values, { format: three.RedFormat, minFilter: three.LinearFilter, magFilter: three.LinearFilter, unpackAlignment: 1, needsUpdate: true });
-    this.finest = volume.step * Math.min(...AXES.map((axis) => grid.spacing(axis)));
+    this.finest = volume.step * Math.min(...grid.rulers.map(({ finest }) => finest));
     const uniforms = { ...placedIn(grid, volume), values: this.values, transfer: null, depths: this.opaque.depthTexture, toWorld: new three.Matrix4(), cut: new three.Vector4(), step_: 1, density: 1, lamp: new three.Vector3(), seed: 0 };
     this.rays = shader(FRAGMENT, uniforms);
     const triangle = new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
@@ -141,8 +141,8 @@ function shader(fragmentShader: string, values: Record<string, unknown>): three.
 function placedIn(grid: Grid, { size, step }: CoarseVolume): { toTexture: three.Matrix4; low: three.Vector3; high: three.Vector3 } {
   const texture = (sample: number, axis: number): number => ((sample - (step - 1) / 2) / step + 0.5) / size[axis]!;
   const rows = grid.fromSteps([0, 0, 0], 1).map((row, axis) => {
-    const scale = 1 / (step * size[axis]!);
-    return [row[0]! * scale, row[1]! * scale, row[2]! * scale, texture(row[3]!, axis)];
+    const scale = 1 / (step * size[axis]! * grid.rulers[axis]!.finest);
+    return [row[0]! * scale, row[1]! * scale, row[2]! * scale, texture(row[3]! / grid.rulers[axis]!.finest, axis)];
   });
   const toTexture = new three.Matrix4().set(...(rows.flat() as [number, number, number, number, number, number, number, number, number, number, number, number]), 0, 0, 0, 1);
   const ends = (end: 0 | 1): three.Vector3 => new three.Vector3(...(AXES.map((axis) => texture(end * (grid.size[axis] - 1), axis)) as [number, number, number]));

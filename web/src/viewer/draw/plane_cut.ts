@@ -5,7 +5,7 @@ import type { Mesh } from "../ask/wire";
 /** triangles that are looked at together; in the order of the mesh they lie close to each other */
 const BLOCK = 256;
 
-/** How points of a mesh lie along an axis, in samples, and between what those of each block of triangles lie. */
+/** How long points of a mesh lie along an axis, and between what those of each block of triangles lie. */
 interface Heights {
   points: Float32Array;
   low: Float32Array;
@@ -18,36 +18,39 @@ export class SlicedMesh {
 
   constructor(
     private readonly mesh: Mesh,
-    grid: Grid,
+    private readonly grid: Grid,
   ) {
     this.rows = grid.fromSteps(mesh.origin, mesh.step);
   }
 
   /**
-   * Pieces of the contour, four numbers each: column and row of both ends, in samples. A point on the plane counts as in front of it, so
+   * Pieces of the contour, four numbers each: how long both ends lie along columns and rows. A point on the plane counts as in front of it, so
    * that the curves of a closed surface are closed. Cost: a pass over points and triangles for the first slice of an axis; then over
    * the blocks, and the triangles of those that the plane passes.
    */
   cut(axis: AxisNumber, index: number): Float32Array {
     const { points, low, high } = (this.heights[axis] ??= heightsOf(this.mesh, this.rows[axis]));
+    const level = this.grid.rulers[axis].length(index);
     const pieces: number[] = [];
-    for (let block = 0; block < low.length; ++block) if (low[block]! < index && high[block]! >= index) this.cutBlock(block, axis, index, points, pieces);
+    for (let block = 0; block < low.length; ++block) {
+      if (low[block]! < level && high[block]! >= level) this.cutBlock(block, axis, level, points, pieces);
+    }
     return Float32Array.from(pieces);
   }
 
-  private cutBlock(block: number, axis: AxisNumber, index: number, heights: Float32Array, pieces: number[]): void {
+  private cutBlock(block: number, axis: AxisNumber, level: number, heights: Float32Array, pieces: number[]): void {
     const { corners, positions } = this.mesh;
     const [u, v] = acrossAndDown(axis);
     const put = (a: number, b: number): void => {
-      const t = (index - heights[a]!) / (heights[b]! - heights[a]!);
+      const t = (level - heights[a]!) / (heights[b]! - heights[a]!);
       for (const row of [this.rows[u], this.rows[v]]) pieces.push((1 - t) * along(row, positions, a) + t * along(row, positions, b));
     };
     const end = Math.min(corners.length, 3 * BLOCK * (block + 1));
     for (let i = 3 * BLOCK * block; i < end; i += 3) {
       const [a, b, c] = [corners[i]!, corners[i + 1]!, corners[i + 2]!];
-      const isFrontA = heights[a]! >= index;
-      const isFrontB = heights[b]! >= index;
-      const isFrontC = heights[c]! >= index;
+      const isFrontA = heights[a]! >= level;
+      const isFrontB = heights[b]! >= level;
+      const isFrontC = heights[c]! >= level;
       if (isFrontA === isFrontB && isFrontB === isFrontC) continue;
       const [alone, next, last] = isFrontB === isFrontC ? [a, b, c] : isFrontA === isFrontC ? [b, c, a] : [c, a, b];
       put(alone, next);

@@ -1,6 +1,7 @@
 // Slices in the picture: where they are in space, with the grey values of their views.
 import * as three from "three";
 import { acrossAndDown, type AxisNumber, type Grid } from "../state/grid";
+import type { Picture } from "./slice_view";
 import type { Stage } from "./stage";
 
 export class SlicePlanes {
@@ -12,16 +13,16 @@ export class SlicePlanes {
   ) {}
 
   /** fresh: the picture is another one than the last time. */
-  show(axis: AxisNumber, picture: HTMLCanvasElement, index: number, fresh: boolean): void {
-    const plane = this.planes.get(axis) ?? this.made(axis, picture);
+  show(axis: AxisNumber, { canvas, across: columns, down: rows }: Picture, index: number, fresh: boolean): void {
+    const plane = this.planes.get(axis) ?? this.made(axis, canvas);
     const { map } = plane.material;
     if (fresh && map) map.needsUpdate = true;
     const [across, down] = acrossAndDown(axis);
     const position = plane.geometry.getAttribute("position") as three.BufferAttribute;
     for (let corner = 0; corner < 4; ++corner) {
       const sample = [index, index, index];
-      sample[across] = corner & 1 ? this.grid.size[across] - 0.5 : -0.5;
-      sample[down] = corner & 2 ? this.grid.size[down] - 0.5 : -0.5;
+      sample[across] = this.grid.rulers[across].sample(corner & 1 ? columns.high : columns.low);
+      sample[down] = this.grid.rulers[down].sample(corner & 2 ? rows.high : rows.low);
       position.setXYZ(corner, ...this.grid.place(sample));
     }
     position.needsUpdate = true;

@@ -3,6 +3,7 @@
 import { html } from "../../dom";
 import type { Contour } from "./contours";
 import { acrossAndDown, AXIS_NAMES, type AxisNumber, type Grid, type Triple } from "../state/grid";
+import type { Ruler, Texels } from "../state/ruler";
 import { greyOf, type Slice } from "../ask/wire_samples";
 
 /** a press that moves less is a click */
@@ -17,7 +18,7 @@ export interface Wishes {
   choose(voxel: Triple): void;
 }
 
-/** In pixels of the canvas: where sample 0, 0 is, and how long steps along columns and rows are. */
+/** In pixels of the canvas: where sample 0, 0 is, and how many a unit of length takes along columns and rows; row: negative: upwards. */
 interface Frame {
   left: number;
   top: number;
@@ -25,15 +26,29 @@ interface Frame {
   row: number;
 }
 
+/** Grey values of a slice, and what they reach over along columns and rows. */
+export interface Picture {
+  canvas: HTMLCanvasElement;
+  across: Texels;
+  down: Texels;
+}
+
+/** From the outer side of the first sample to that of the last one. */
+function endsOf(ruler: Ruler): { low: number; high: number } {
+  return { low: ruler.length(-0.5), high: ruler.length(ruler.size - 0.5) };
+}
+
 export class SliceView {
   readonly element: HTMLElement;
   private readonly canvas = html("canvas", { tabindex: 0, role: "application" });
   private readonly caption = html("figcaption", {});
   private readonly grey = document.createElement("canvas");
-  private painted: { slice: Slice; black: number; white: number } | null = null;
+  private painted: { slice: Slice; black: number; white: number; picture: Picture } | null = null;
   private cross: Triple = [0, 0, 0];
   private readonly across: AxisNumber;
   private readonly down: AxisNumber;
+  private readonly columns: Ruler;
+  private readonly rows: Ruler;
 
   constructor(
     readonly axis: AxisNumber,
@@ -41,13 +56,14 @@ export class SliceView {
     private readonly wishes: Wishes,
   ) {
     [this.across, this.down] = acrossAndDown(axis);
+    [this.columns, this.rows] = [grid.rulers[this.across], grid.rulers[this.down]];
     this.element = html("figure", {}, this.canvas, this.caption);
     this.listen();
   }
 
-  /** Grey values of the slice that is painted, for others to show. */
-  get picture(): HTMLCanvasElement {
-    return this.grey;
+  /** What is painted, for others to show; null: nothing yet. */
+  get picture(): Picture | null {
+    return this.painted?.picture ?? null;
   }
 
   /** slice: null: it has still to come, the one before stays. Returns whether the grey picture is another one. */
@@ -68,21 +84,22 @@ export class SliceView {
   }
 
   private paint(slice: Slice, black: number, white: number): void {
-    if (this.grey.width !== slice.columns || this.grey.height !== slice.rows) [this.grey.width, this.grey.height] = [slice.columns, slice.rows];
-    this.grey.getContext("2d")?.putImageData(new ImageData(greyOf(slice, black, white), slice.columns, slice.rows), 0, 0);
-    this.painted = { slice, black, white };
+    const [across, down] = [this.columns.texels(slice.step), this.rows.texels(slice.step)];
+    const [width, height] = [across.samples.length, down.samples.length];
+    if (this.grey.width !== width || this.grey.height !== height) [this.grey.width, this.grey.height] = [width, height];
+    const pixels = greyOf(slice, across.samples, down.samples, black, white);
+    this.grey.getContext("2d")?.putImageData(new ImageData(pixels, width, height), 0, 0);
+    this.painted = { slice, black, white, picture: { canvas: this.grey, across, down } };
   }
 
   /** The slice in the middle of the canvas, in its true proportions. */
   private get frame(): Frame {
     const { width, height } = this.canvas;
-    const [columns, rows] = [this.grid.size[this.across], this.grid.size[this.down]];
-    const [wide, high] = [this.grid.spacing(this.across), this.grid.spacing(this.down)];
-    const scale = Math.min(width / (columns * wide), height / (rows * high));
-    const [column, row] = [scale * wide, scale * high];
-    const left = (width - columns * column) / 2 + column / 2;
-    if (this.axis === 2) return { left, top: (height - rows * row) / 2 + row / 2, column, row };
-    return { left, top: (height + rows * row) / 2 - row / 2, column, row: -row };
+    const [across, down] = [endsOf(this.columns), endsOf(this.rows)];
+    const scale = Math.min(width / (across.high - across.low), height / (down.high - down.low));
+    const left = (width - scale * (across.low + across.high)) / 2;
+    const row = this.axis === 2 ? scale : -scale;
+    return { left, top: (height - row * (down.low + down.high)) / 2, column: scale, row };
   }
 
   private compose(contours: Contour[]): void {
@@ -94,15 +111,17 @@ export class SliceView {
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, width, height);
     const frame = this.frame;
-    if (this.painted) this.drawGrey(pen, frame, this.painted.slice);
+    if (this.painted) this.drawGrey(pen, frame, this.painted.picture);
     for (const { colour, pieces } of contours) this.drawContour(pen, frame, pieces, colour, ratio);
     this.drawCrosshair(pen, frame, ratio);
   }
 
-  private drawGrey(pen: CanvasRenderingContext2D, { left, top, column, row }: Frame, { step, columns, rows }: Slice): void {
-    pen.imageSmoothingEnabled = Math.abs(column) < 3; // large samples are seen as what they are
-    pen.setTransform(column * step, 0, 0, row * step, left - (column * step) / 2, top - (row * step) / 2);
-    pen.drawImage(this.grey, 0, 0, columns, rows);
+  private drawGrey(pen: CanvasRenderingContext2D, { left, top, column, row }: Frame, { canvas, across, down }: Picture): void {
+    const wide = (column * (across.high - across.low)) / canvas.width;
+    const high = (row * (down.high - down.low)) / canvas.height;
+    pen.imageSmoothingEnabled = wide < 3; // large samples are seen as what they are
+    pen.setTransform(wide, 0, 0, high, left + column * across.low, top + row * down.low);
+    pen.drawImage(canvas, 0, 0);
     pen.setTransform(1, 0, 0, 1, 0, 0);
   }
 
@@ -121,11 +140,11 @@ export class SliceView {
   }
 
   private drawCrosshair(pen: CanvasRenderingContext2D, { left, top, column, row }: Frame, ratio: number): void {
-    const x = left + column * this.cross[this.across];
-    const y = top + row * this.cross[this.down];
+    const x = left + column * this.columns.length(this.cross[this.across]);
+    const y = top + row * this.rows.length(this.cross[this.down]);
     const gap = 6 * ratio;
-    const right = left + column * (this.grid.size[this.across] - 1);
-    const [high, low] = [top, top + row * (this.grid.size[this.down] - 1)].sort((p, q) => p - q) as [number, number];
+    const right = left + column * this.columns.length(this.columns.size - 1);
+    const [high, low] = [top, top + row * this.rows.length(this.rows.size - 1)].sort((p, q) => p - q) as [number, number];
     const path = new Path2D();
     for (const [x0, y0, x1, y1] of [[left, y, x - gap, y], [x + gap, y, right, y], [x, high, x, y - gap], [x, y + gap, x, low]] as const) {
       path.moveTo(x0, y0);
@@ -142,8 +161,8 @@ export class SliceView {
     const ratio = this.canvas.width / box.width;
     const { left, top, column, row } = this.frame;
     const voxel: Triple = [...this.cross];
-    voxel[this.across] = ((event.clientX - box.left) * ratio - left) / column;
-    voxel[this.down] = ((event.clientY - box.top) * ratio - top) / row;
+    voxel[this.across] = this.columns.sample(((event.clientX - box.left) * ratio - left) / column);
+    voxel[this.down] = this.rows.sample(((event.clientY - box.top) * ratio - top) / row);
     return this.grid.inside(voxel);
   }
 

@@ -23,10 +23,7 @@ export function cutting(desk: Desk, tools: HTMLElement): void {
     if (cut) go(by(cut));
   };
   const fromHere = (): number[] => [...stage.eye.camera.getWorldDirection(new three.Vector3()).toArray(), 0.5];
-  const along = (axis: 0 | 1 | 2) => (): void => {
-    const step = new three.Vector3(...grid.steps[axis]).normalize();
-    go([...step.toArray(), 0.5]);
-  };
+  const along = (axis: 0 | 1 | 2) => (): void => go([...grid.directions[axis], 0.5]);
 
   const outline = new Outline(desk, corners);
   const slider = html("input", { type: "range", min: 0, max: 1, step: 0.005, "aria-label": "where it is cut open: how much stays" });

@@ -16,7 +16,6 @@ export function looking(desk: Desk): void {
   look(desk);
   cube(desk);
   cutting(desk, tools);
-  if (!desk.page.volume.spacing) return; // uneven steps between samples
   const grid = new Grid(desk.page);
   const measuring = new Measuring(desk, tools, () => grid.place(crosshairOf(desk)));
   new Slices(desk, (place) => measuring.take(place));

@@ -6,7 +6,7 @@ import type { Desk } from "../desk/desk";
 import { follow } from "../desk/follow";
 import { Grid } from "../state/grid";
 import { MatterDrawing } from "../draw/matter_drawing";
-import { MATTER } from "../state/matter_state";
+import { isEven, MATTER } from "../state/matter_state";
 import { transferTable, type Bump } from "../ask/transfer";
 import { decodeVolume, type CoarseVolume } from "../ask/wire_samples";
 
@@ -33,15 +33,18 @@ export class MatterPanel {
     this.element.append(html("span", {}, "Volume"), this.slider, this.legend, this.about, close);
     tools.append(this.element);
     follow(history, MATTER, (factor) => void this.show(factor));
-    actions.add({ group: "Look", name: "the volume as glowing matter", keys: ["v"], run: () => this.toggle(), isOn: () => MATTER.of(history.now) !== null });
+    const isOn = (): boolean => MATTER.of(history.now) !== null;
+    actions.add({ group: "Look", name: "the volume as glowing matter", keys: ["v"], run: () => this.toggle(), isOn });
   }
 
   private toggle(): void {
-    const { history } = this.desk;
+    const { history, page } = this.desk;
+    if (!isEven(page)) return this.desk.say("The steps between its samples are uneven: such a volume is not drawn as matter. Its slices are: k.");
     history.go(MATTER.in(history.now, MATTER.of(history.now) === null ? 1 : null));
   }
 
   private async show(factor: number | null): Promise<void> {
+    if (!isEven(this.desk.page)) return;
     this.element.hidden = factor === null;
     if (factor !== null) this.slider.value = String(Math.log2(factor));
     if (factor === null && !this.drawing) return;

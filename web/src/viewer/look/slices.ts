@@ -125,7 +125,7 @@ export class Slices {
     this.views.forEach((view, axis) => {
       const contours = open ? this.contours.on(view.axis, cross[view.axis]) : [];
       const fresh = view.draw(slices[axis] ?? null, contours, cross, grey);
-      if (inPicture) this.planes.show(view.axis, view.picture, cross[view.axis], fresh);
+      if (inPicture && view.picture) this.planes.show(view.axis, view.picture, cross[view.axis], fresh);
     });
     if (!inPicture) this.planes.hide();
     this.tell(cross, slices.map((slice) => slice && valueAt(slice, cross)).find((found) => found !== null) ?? null);

@@ -1,5 +1,6 @@
-// Where samples lie in space: a sample's place is origin + direction x (spacing x its numbers).
+// Where samples lie in space: a sample's place is origin + direction x its lengths along the axes (ruler.ts).
 import type { Page } from "../../page";
+import { Ruler } from "./ruler";
 
 export type Triple = [number, number, number];
 export type AxisNumber = 0 | 1 | 2;
@@ -29,16 +30,19 @@ export function distance(a: readonly number[], b: readonly number[]): number {
 export class Grid {
   readonly size: Triple;
   readonly origin: Triple;
-  /** per axis: what one sample further is in space */
-  readonly steps: [Triple, Triple, Triple];
-  /** per axis: where a place lies along it, in samples from the origin */
+  /** per axis: a unit vector along it */
+  readonly directions: [Triple, Triple, Triple];
+  readonly rulers: [Ruler, Ruler, Ruler];
+  /** per axis: how long a place lies along it, from the origin */
   private readonly inverse: [Triple, Triple, Triple];
 
   constructor({ volume }: Page) {
     this.size = AXES.map((axis) => volume.size[axis] ?? 1) as Triple;
     this.origin = volume.origin;
-    const step = (axis: AxisNumber): Triple => volume.direction.map((row) => (row[axis] ?? 0) * (volume.spacing?.[axis] ?? 1)) as Triple;
-    const [a, b, c] = (this.steps = [step(0), step(1), step(2)]);
+    const ruler = (axis: AxisNumber): Ruler => new Ruler(this.size[axis], volume.spacing?.[axis] ?? 1, volume.coordinates?.[axis] ?? null);
+    this.rulers = [ruler(0), ruler(1), ruler(2)];
+    const direction = (axis: AxisNumber): Triple => volume.direction.map((row) => row[axis] ?? 0) as Triple;
+    const [a, b, c] = (this.directions = [direction(0), direction(1), direction(2)]);
     const volumeOfCell = dot(a, cross(b, c));
     const over = (normal: Triple): Triple => normal.map((n) => n / volumeOfCell) as Triple;
     this.inverse = [over(cross(b, c)), over(cross(c, a)), over(cross(a, b))];
@@ -46,12 +50,13 @@ export class Grid {
 
   /** Of a sample, physical; numbers between samples are places between them. */
   place(sample: readonly number[]): Triple {
-    return AXES.map((row) => this.origin[row] + this.steps.reduce((sum, step, axis) => sum + step[row] * (sample[axis] ?? 0), 0)) as Triple;
+    const lengths = this.rulers.map((ruler, axis) => ruler.length(sample[axis] ?? 0));
+    return AXES.map((row) => this.origin[row] + this.directions.reduce((sum, unit, axis) => sum + unit[row] * lengths[axis]!, 0)) as Triple;
   }
 
   sample(place: readonly number[]): Triple {
     const from = AXES.map((row) => (place[row] ?? 0) - this.origin[row]);
-    return this.inverse.map((row) => dot(row, from)) as Triple;
+    return this.rulers.map((ruler, axis) => ruler.sample(dot(this.inverse[axis]!, from))) as Triple;
   }
 
   /** The nearest sample inside of the volume. */
@@ -63,15 +68,10 @@ export class Grid {
     return AXES.map((axis) => Math.min(Math.max(Math.round(sample[axis] ?? 0), 0), this.size[axis] - 1)) as Triple;
   }
 
-  /** From steps of a mesh (origin + step x numbers) to samples. */
+  /** From steps of a mesh (origin + step x numbers) to lengths along the axes. */
   fromSteps(origin: readonly number[], step: number): Affine {
-    const first = this.sample(origin);
-    return this.inverse.map((row, axis) => [...row.map((n) => n * step), first[axis]]) as Affine;
-  }
-
-  /** Physical length of a step along an axis. */
-  spacing(axis: AxisNumber): number {
-    return Math.hypot(...this.steps[axis]);
+    const from = AXES.map((row) => (origin[row] ?? 0) - this.origin[row]);
+    return this.inverse.map((row) => [...row.map((n) => n * step), dot(row, from)]) as Affine;
   }
 
   /** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */

@@ -1,7 +1,13 @@
 // What the volume as matter keeps in a state.
+import type { Page } from "../../page";
 import { number } from "./part";
 
 const MOST = 16;
 
 /** factor of the densities that the tree proposes; null: the volume is not drawn */
 export const MATTER = number("matter", "the volume as matter", (factor) => factor > 0 && factor <= MOST);
+
+/** Rays take steps of one length through samples: neither the picture here nor `isoatlas render --volume` is of a grid with uneven steps. */
+export function isEven({ volume }: Pick<Page, "volume">): boolean {
+  return volume.spacing !== null;
+}
