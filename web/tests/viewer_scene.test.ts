@@ -46,6 +46,31 @@ describe.skipIf(!canServe)("the scene", () => {
       .map(({ best_tau }, i) => `${i},${best_tau},1,1`)
       .join(";")}&selected=0${more}`;
 
+  it("moves the eye once for several objects that come one after the other, and not again for finer ones", async () => {
+    const tab = await served.browser.newPage({ viewport: { width: 1000, height: 700 } });
+    await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
+    const held: (() => Promise<void>)[] = [];
+    await tab.route("**/api/surface*", (route) => void held.push(() => route.continue()));
+    await tab.goto(served.address + scene(3));
+    await expect.poll(() => held.length).toBe(3);
+    await tab.waitForTimeout(500);
+    await tab.evaluate(() => {
+      const bar = document.querySelector<HTMLElement>(".scale .bar")!; // as long as the eye is far away
+      const seen = ((window as unknown as { seen: string[] }).seen = [bar.style.width]);
+      const look = (): void => void (bar.style.width !== seen.at(-1) && seen.push(bar.style.width));
+      new MutationObserver(look).observe(bar, { attributes: true });
+    });
+    for (let i = 0; i < held.length; ++i) {
+      await held[i]!();
+      await tab.waitForTimeout(400);
+    }
+    await settled(tab);
+    expect(held.length).toBeGreaterThan(3); // finer ones came too
+    expect(new URL(tab.url()).hash).toContain("&view=");
+    expect(await tab.evaluate(() => (window as unknown as { seen: string[] }).seen.length)).toBe(2);
+    await tab.close();
+  });
+
   it("hides without forgetting, paints, fades, and undoes each by its name", async () => {
     const { tab, problems } = await served.open(scene(2));
     await settled(tab);

@@ -4,7 +4,7 @@ import { flag } from "../state/part";
 import { colourOfShown, whichOf } from "../ask/shown";
 import type { Dress } from "../draw/stage";
 import type { Shown, State } from "../state/state";
-import { Surfaces, type Arrival } from "../ask/surfaces";
+import { keyOf, Surfaces, type Arrival } from "../ask/surfaces";
 import type { Mesh } from "../ask/wire";
 
 /** Those that are not selected are pale, and a click goes through them. */
@@ -13,7 +13,6 @@ const PALE = 0.12;
 
 export class Scene {
   private readonly surfaces: Surfaces;
-  private fitting = false;
   private readonly listeners: ((entry: number) => void)[] = [];
 
   constructor(private readonly desk: Desk) {
@@ -45,7 +44,7 @@ export class Scene {
       this.desk.stage.dress(shown.entry, this.dressOf(state, i));
       if (shown.visible) this.want(shown, dragging);
     });
-    if (state.view === null && state.shown.length > 0) void this.fit();
+    this.fit();
   }
 
   private want({ entry, tau, walls }: Shown, dragging: boolean): void {
@@ -78,23 +77,16 @@ export class Scene {
     const i = history.now.shown.findIndex((shown) => shown.entry === entry);
     if (!mesh || mesh.triangles === 0 || i < 0) stage.remove(entry);
     else stage.put(entry, mesh, this.dressOf(history.now, i), tau);
-    if (this.fitting) this.middle();
+    this.fit();
   }
 
-  /** Until all is there, whatever comes is brought into the middle; then the state says where one looks from. */
-  private async fit(): Promise<void> {
-    if (this.fitting) return;
-    this.fitting = true;
-    this.middle();
-    await this.settled();
-    this.fitting = false;
+  /** Brings all that is asked for into the middle, once: when each has come, be it coarse. Then the state says where one looks from. */
+  private fit(): void {
     const { history, stage } = this.desk;
-    if (history.now.view !== null) return;
+    const { shown, view } = history.now;
+    const isThere = (one: Shown): boolean => !one.visible || this.arrivalOf(one.entry).of === keyOf(one);
+    if (view !== null || shown.length === 0 || !shown.every(isThere)) return;
     stage.fit();
     history.amend({ ...history.now, view: stage.eye.view });
-  }
-
-  private middle(): void {
-    if (this.desk.history.now.view === null) this.desk.stage.fit();
   }
 }

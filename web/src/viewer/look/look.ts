@@ -1,5 +1,6 @@
 // Where one looks from, with or without perspective, the edges of the volume and how long things are.
 import * as three from "three";
+import type { Page } from "../../page";
 import type { Desk } from "../desk/desk";
 import { VIEWS } from "../draw/eye";
 import { follow, quickly, switching } from "../desk/follow";
@@ -13,6 +14,7 @@ const FLAT = flag("flat", "without perspective");
 
 export function look(desk: Desk): void {
   const { page, stage, actions, overlay, history } = desk;
+  stage.eye.fit(new three.Box3().setFromPoints(cornersOf(page)).getBoundingSphere(new three.Sphere())); // until there is something to see
   const bar = new ScaleBar(page.volume.unit);
   stage.onDraw(() => bar.show(stage.eye.height, stage.canvas.clientHeight));
   overlay.append(bar.element);
@@ -42,15 +44,19 @@ export function look(desk: Desk): void {
 }
 
 function showEdges({ page, stage, history }: Desk): void {
-  const corners = new Grid(page).corners();
+  const corners = cornersOf(page);
   let edges: three.LineSegments | null = null;
   follow(history, EDGES, (on) => {
     if (edges) stage.drop(edges);
     edges = null;
     if (!on) return;
     const ends = AXES.flatMap((axis) => corners.flatMap((corner, i) => (i & (1 << axis) ? [] : [corner, corners[i | (1 << axis)] ?? corner])));
-    const geometry = new three.BufferGeometry().setFromPoints(ends.map((end) => new three.Vector3(...end)));
+    const geometry = new three.BufferGeometry().setFromPoints(ends);
     edges = new three.LineSegments(geometry, new three.LineBasicMaterial({ color: 0x888888 }));
     stage.add(edges);
   });
+}
+
+function cornersOf(page: Page): three.Vector3[] {
+  return new Grid(page).corners().map((corner) => new three.Vector3(...corner));
 }
