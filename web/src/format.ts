@@ -29,9 +29,9 @@ export function volume(measure: number, unit: string | null): string {
   return unit === null ? plural(measure, "voxel") : powerOf(measure, unit, 3);
 }
 
-/** The same for an area in unit^2; null: the sides of voxels are the unit. */
+/** The same for an area in unit^2; null: the faces of voxels are the unit, as voxels are that of a volume. */
 export function area(measure: number, unit: string | null): string {
-  return unit === null ? `${count(measure)} faces of a voxel` : powerOf(measure, unit, 2);
+  return unit === null ? plural(Math.round(measure), "voxel face") : powerOf(measure, unit, 2);
 }
 
 function powerOf(measure: number, unit: string, power: 2 | 3): string {

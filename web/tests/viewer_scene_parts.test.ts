@@ -170,8 +170,14 @@ describe("what is measured", () => {
       ["shape", "1 tunnel, no cavities"],
     ]);
     expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: about 1,230 voxels");
-    expect(factsOf({ ...there, voxels: [11, 11] }, 4, 50, null)[0]?.[1]).toBe("11 voxels");
-    expect(factsOf(there, 4, 50, null)[1]?.[1]).toBe("250 faces of a voxel");
+  });
+  it("is told in voxels and their faces where the file has no unit, and only as far as it is known", () => {
+    const there = { id: 4, tunnels: 1, cavities: 0, voxels: [11, 11] as [number, number], area: 1234.4, volume: 11.2 };
+    expect(factsOf(there, 4, 50, null).map(([, text]) => text)).toEqual(["11 voxels", "1,234 voxel faces", "1 tunnel, no cavities"]);
+    expect(factsOf({ ...there, area: 1 }, 4, 50, null)[1]?.[1]).toBe("1 voxel face");
+    const vague = { ...there, voxels: [0, 64_000] as [number, number] };
+    expect(factsOf(vague, 4, 50, null)[0]?.[1]).toBe("about 11 voxels");
+    expect(factsOf(vague, 4, 50, "mm")[0]?.[1]).toBe("11.2 mm³");
   });
 });
 

@@ -26,14 +26,19 @@ export async function measuredFacts({ api, page }: Desk, shown: Shown): Promise<
 
 /** id: of the object that was asked for. Without a unit, and with bounds alone, its size is what its surface encloses. */
 export function factsOf(there: Measures, id: number, tau: number, unit: string | null): [name: string, text: string][] {
-  const [least, most] = there.voxels;
-  const isKnown = least === most;
-  const voxels = isKnown ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
-  const alone = isKnown ? voxels : `about ${plural(Number(there.volume.toPrecision(3)), "voxel")}`;
-  const size = unit === null ? alone : `${volume(there.volume, unit)}, ${voxels}`;
   return [
-    [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${size}`],
+    [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit)}`],
     ["area", area(there.area, unit)],
     ["shape", `${plural(there.tunnels, "tunnel")}, ${plural(there.cavities, "cavity", "cavities")}`],
   ];
+}
+
+/** of the most: then the least says something, too */
+const KNOWN = 0.8;
+
+/** Voxels are counted between the isovalues of events only: bounds that say little are left out. */
+function sizeOf({ voxels: [least, most], volume: enclosed }: Measures, unit: string | null): string {
+  const voxels = least === most ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
+  if (unit === null) return least === most ? voxels : `about ${plural(Number(enclosed.toPrecision(3)), "voxel")}`;
+  return least >= KNOWN * most ? `${volume(enclosed, unit)}, ${voxels}` : volume(enclosed, unit);
 }
