@@ -99,13 +99,13 @@ describe.skipIf(!canServe)("a ball", () => {
     await tab.close();
   });
 
-  it("swallows as much light as the integral through it says", async () => {
+  /** The matter along a line through the middle, by the transfer function of the server. */
+  async function matterAlongX(factor: number): Promise<{ opacityTo: (end: number) => number; least: number }> {
     const { origin, searchParams } = new URL(served.address);
     const api = new Api(searchParams.get("token") ?? "", origin);
     const volume = decodeVolume(await (await api.ask("/api/volume", "volume")).arrayBuffer());
     const { bumps } = (await (await api.ask("/api/transfer", "transfer")).json()) as { bumps: Bump[] };
     expect(volume.size).toEqual([SIDE, SIDE, SIDE]);
-    const factor = 0.0625;
     const table = transferTable(bumps.map((bump) => ({ ...bump, density: factor * bump.density })), volume.low, volume.high);
     const placeAt = (t: number): number => {
       const sample = t / SPACING;
@@ -113,11 +113,17 @@ describe.skipIf(!canServe)("a ball", () => {
       const byte = (k: number): number => volume.bytes[k + SIDE * (MIDDLE + SIDE * MIDDLE)] ?? 0;
       return (PLACES / 255) * ((1 - u) * byte(i) + u * byte(i + 1));
     };
-    const expected = march(table, placeAt, 0, (SIDE - 1) * SPACING, 0.01)[3];
+    return { opacityTo: (end) => march(table, placeAt, 0, end, 0.01)[3], least: Math.min(...bumps.map(({ low }) => low)) };
+  }
+  const middle = [MIDDLE, MIDDLE, MIDDLE].map((n) => n * SPACING);
+  const alongX = `&flat=1&view=${middle[0]! - 40},${middle[1]},${middle[2]},${middle.join()}`;
+
+  it("swallows as much light as the integral through it says", async () => {
+    const factor = 0.0625;
+    const expected = (await matterAlongX(factor)).opacityTo((SIDE - 1) * SPACING);
     expect(expected).toBeGreaterThan(0.2);
     expect(expected).toBeLessThan(0.95);
-    const middle = [MIDDLE, MIDDLE, MIDDLE].map((n) => n * SPACING);
-    const { tab, problems } = await served.open(`#scene=&selected=-1&flat=1&matter=${factor}&view=${middle[0]! - 40},${middle[1]},${middle[2]},${middle.join()}`);
+    const { tab, problems } = await served.open(`#scene=&selected=-1&matter=${factor}${alongX}`);
     const opacity = async (): Promise<number> => ((await middlePixel(tab))[3] ?? 0) / 255;
     await expect.poll(opacity).toBeGreaterThan(0);
     await tab.waitForTimeout(600);
@@ -127,19 +133,41 @@ describe.skipIf(!canServe)("a ball", () => {
     await tab.close();
   });
 
-  it("hides matter behind it, and none in front", async () => {
-    const { tab, problems } = await served.open(`${scene}&matter=16`);
-    await tab.waitForTimeout(1500);
-    const covered = await middlePixel(tab);
-    await tab.getByRole("slider", { name: "density" }).fill("-4");
-    await tab.waitForTimeout(800);
-    const thin = await middlePixel(tab);
-    expect(thin[3]).toBe(255);
-    expect(covered).toHaveLength(4);
-    await tab.locator(".objects h1").click();
-    await tab.keyboard.press("v");
-    await expect.poll(() => tab.locator(".matter-bar").isHidden()).toBe(true);
+  /** The middle of the picture of a surface, when it no longer changes. */
+  async function pixelOf(tau: number, colour: string, factor: number | null): Promise<number[]> {
+    const { tab, problems } = await served.open(`#scene=-1,${tau},1,1,${colour}&selected=0${alongX}${factor === null ? "" : `&matter=${factor}`}`);
+    await expect.poll(() => tab.locator(".scene .state").textContent()).toMatch(/triangles$/);
+    if (factor !== null) await expect.poll(() => tab.locator(".matter-bar").textContent()).toContain("every sample");
+    let before: number[];
+    let now: number[] = [];
+    do {
+      before = now;
+      await tab.waitForTimeout(700); // longer than it takes until a picture is made finer
+      now = await middlePixel(tab);
+    } while (String(now) !== String(before));
     expect(problems).toEqual([]);
     await tab.close();
+    return now;
+  }
+
+  it("hides matter behind its surface, and none in front: as much of a black and a white one is seen as matter lets through", async () => {
+    const factor = 0.125;
+    const { opacityTo, least } = await matterAlongX(factor);
+    const before = (radius: number): number => opacityTo(Math.max(0, middle[0]! - radius));
+    const [small, large] = [3, (100 - least) / 10];
+    expect(before(small)).toBeGreaterThan(0.1); // something is in front of the small ball,
+    expect(opacityTo(2 * middle[0]!)).toBeGreaterThan(before(small) + 0.1); // something behind its surface,
+    expect(before(large)).toBeLessThan(0.001); // and all of it behind that of the large one
+    for (const radius of [small, large]) {
+      const tau = 100 - 10 * radius;
+      const contrast = async (matter: number | null): Promise<number> => {
+        const [white, black] = [await pixelOf(tau, "ffffff", matter), await pixelOf(tau, "000000", matter)];
+        expect([white[3], black[3]]).toEqual([255, 255]);
+        return white[1]! - black[1]!;
+      };
+      const bare = await contrast(null);
+      expect(bare).toBeGreaterThan(100);
+      expect(Math.abs(1 - (await contrast(factor)) / bare - before(radius)), `radius ${radius}`).toBeLessThan(0.03);
+    }
   });
 });
