@@ -37,5 +37,11 @@ export default defineConfig({
   plugins: [intoOneFile()],
   server: { host: "127.0.0.1" }, // of the tests: no name need be known
   // Limits are for what hangs: a busy machine draws slowly. One file after the other: each has a browser that takes all processors.
-  test: { include: ["tests/**/*.test.ts"], testTimeout: 240_000, hookTimeout: 240_000, fileParallelism: false, expect: { poll: { timeout: 60_000 } } },
+  test: {
+    include: ["tests/**/*.test.ts"],
+    testTimeout: 240_000,
+    hookTimeout: 240_000,
+    fileParallelism: false,
+    expect: { poll: { timeout: 60_000 } },
+  },
 } as Parameters<typeof defineConfig>[0]);

@@ -31,7 +31,10 @@ export function controls(page: Page, changed: (choice: Choice) => void): Control
   said.textContent = count(first.keep);
   const both = new Set(page.branches.map((branch) => branch.side)).size > 1;
   return {
-    keep: page.branches.length > 1 ? html("div", { class: "keep" }, html("label", {}, html("span", {}, "Keep the ", said, " most important"), keep), reset) : null,
+    keep:
+      page.branches.length > 1
+        ? html("div", { class: "keep" }, html("label", {}, html("span", {}, "Keep the ", said, " most important"), keep), reset)
+        : null,
     filter: html(
       "form",
       { class: "controls", submit: (event) => event.preventDefault() },

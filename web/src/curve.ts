@@ -13,12 +13,17 @@ export function hiddenWords(page: Page): string[] {
     const shown = new Set(page.entries.filter((e) => page.branches[e.branch]?.side === side).map((e) => e.branch)).size;
     const name = side === "bright" ? "object" : "dark object";
     if (all === 0) continue;
-    const later = standingOut > shown ? ` ${count(standingOut - shown)} more stand out but come later by rank${side === "bright" ? `: --top ${standingOut + 4} draws them too` : ""}.` : "";
+    const how = side === "bright" ? `: --top ${standingOut + 4} draws them too` : "";
+    const later = standingOut > shown ? ` ${count(standingOut - shown)} more stand out but come later by rank${how}.` : "";
     const rest = all - Math.max(standingOut, shown);
-    const why = rest > 0 ? ` ${count(rest)} ${rest === 1 ? "is" : "are"} hidden: noise alone explains ${rest === 1 ? "it" : "them"}, or ${rest === 1 ? "it is" : "they are"} tiny beside the largest.` : "";
-    words.push(`${plural(all, name)} in all, ${count(shown)} shown.${later}${why}`);
+    words.push(`${plural(all, name)} in all, ${count(shown)} shown.${later}${rest > 0 ? whyHidden(rest) : ""}`);
   }
   return words;
+}
+
+function whyHidden(rest: number): string {
+  const [are, them, theyAre] = rest === 1 ? ["is", "it", "it is"] : ["are", "them", "they are"];
+  return ` ${count(rest)} ${are} hidden: noise alone explains ${them}, or ${theyAre} tiny beside the largest.`;
 }
 
 export interface CurvePanel {
@@ -33,17 +38,26 @@ export function curve(page: Page): CurvePanel | null {
   const [width, height, left, right, top, bottom] = [drawingWidth(), 220, 60, 14, 16, 180];
   const positive = data.threshold.filter((t) => t > 0);
   const [least, most] = [Math.log10(Math.min(...positive)), Math.log10(Math.max(...positive))];
-  const x = (t: number): number => left + ((Math.max(Math.log10(Math.max(t, 1e-300)), least) - least) / (most - least || 1)) * (width - left - right);
+  const x = (t: number): number =>
+    left + ((Math.max(Math.log10(Math.max(t, 1e-300)), least) - least) / (most - least || 1)) * (width - left - right);
   const tallest = Math.log10(Math.max(10, data.kept.at(-1) ?? 1));
   const y = (n: number): number => bottom - (Math.log10(Math.max(1, n)) / tallest) * (bottom - top);
-  const label = `${count(data.kept.at(-1) ?? 0)} objects without a threshold, ${count(data.automaticKept)} chosen automatically, the least of them ${value(data.automaticThreshold)}`;
+  const chosen = `${count(data.automaticKept)} chosen automatically, the least of them ${value(data.automaticThreshold)}`;
+  const label = `${count(data.kept.at(-1) ?? 0)} objects without a threshold, ${chosen}`;
   const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "curve", role: "img", "aria-label": label });
   for (let ten = 1; Math.log10(ten) <= tallest; ten *= 10)
-    drawing.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: y(ten), y2: y(ten) }), svg("text", { x: left - 6, y: y(ten) + 4, "text-anchor": "end" }, count(ten)));
+    drawing.append(
+      svg("line", { class: "grid", x1: left, x2: width - right, y1: y(ten), y2: y(ten) }),
+      svg("text", { x: left - 6, y: y(ten) + 4, "text-anchor": "end" }, count(ten)),
+    );
   const step = Math.max(1, Math.ceil((most - least) / (width / 110)));
   for (let power = Math.ceil(least); power <= most; power += step)
-    drawing.append(svg("text", { x: x(10 ** power), y: bottom + 16, "text-anchor": x(10 ** power) > width - 40 ? "end" : "middle" }, value(10 ** power)));
-  const path = data.kept.map((n, i) => `${i === 0 ? `M${x(data.threshold[0] ?? 1)} ${bottom}` : ""}H${x(data.threshold[i] ?? 1).toFixed(1)}V${y(n).toFixed(1)}`);
+    drawing.append(
+      svg("text", { x: x(10 ** power), y: bottom + 16, "text-anchor": x(10 ** power) > width - 40 ? "end" : "middle" }, value(10 ** power)),
+    );
+  const path = data.kept.map(
+    (n, i) => `${i === 0 ? `M${x(data.threshold[0] ?? 1)} ${bottom}` : ""}H${x(data.threshold[i] ?? 1).toFixed(1)}V${y(n).toFixed(1)}`,
+  );
   drawing.append(svg("path", { class: "count objects", d: path.join("") }));
   const at = x(data.automaticThreshold);
   const anchor = at > width / 2 ? "end" : "start";
@@ -51,7 +65,11 @@ export function curve(page: Page): CurvePanel | null {
   drawing.append(
     svg("line", { class: "automatic", x1: at, x2: at, y1: top, y2: bottom }),
     svg("circle", { class: "automatic", cx: at, cy: y(data.automaticKept), r: 6 }),
-    svg("text", { class: "strong", x: at + (anchor === "end" ? -10 : 10), y: top + 10, "text-anchor": anchor }, `automatic choice: ${count(data.automaticKept)}`),
+    svg(
+      "text",
+      { class: "strong", x: at + (anchor === "end" ? -10 : 10), y: top + 10, "text-anchor": anchor },
+      `automatic choice: ${count(data.automaticKept)}`,
+    ),
     current,
     svg("text", { class: "caption", x: width - right, y: height - 4, "text-anchor": "end" }, "contrast × size, at least"),
   );
@@ -61,5 +79,18 @@ export function curve(page: Page): CurvePanel | null {
     current.replaceChildren(svg("circle", { cx: there, cy: y(kept), r: 5 }), svg("title", {}, `${kept} kept`));
   };
   mark(pictured(page));
-  return { mark, panel: html("section", { class: "panel" }, html("h2", {}, "How many objects for which threshold"), html("p", { class: "note" }, `${label}. The automatic choice also leaves out what noise alone explains. The ring is what is kept here.`), drawing) };
+  return {
+    mark,
+    panel: html(
+      "section",
+      { class: "panel" },
+      html("h2", {}, "How many objects for which threshold"),
+      html(
+        "p",
+        { class: "note" },
+        `${label}. The automatic choice also leaves out what noise alone explains. The ring is what is kept here.`,
+      ),
+      drawing,
+    ),
+  };
 }

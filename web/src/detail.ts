@@ -1,4 +1,4 @@
-// Everything about one object, in a dialog: what it lies in, what lies in it, what merges where, its shape over its range, and the commands.
+// Everything about one object, in a dialog: what it lies in, what lies in it, what merges where, its shape over its range, the commands.
 import { Axis, drawTicks } from "./axis";
 import { drawCounts, Scale, type Line } from "./columns";
 import { commandList } from "./commands";
@@ -57,15 +57,18 @@ export class Detail {
       return button;
     };
     return [
-      html("header", {}, step(-1, "Previous object"), html("h2", { id: "detail-title", tabindex: -1 }, nameOf(page, i)), step(1, "Next object"), close),
+      html(
+        "header",
+        {},
+        step(-1, "Previous object"),
+        html("h2", { id: "detail-title", tabindex: -1 }, nameOf(page, i)),
+        step(1, "Next object"),
+        close,
+      ),
       entry.picture ? turntable(entry.picture, `Picture of ${describe(page, i)}`) : html("p", {}, "no picture"),
       html("p", {}, this.sentence(i)),
       rangeBar(page, i),
-      html(
-        "dl",
-        { class: "facts" },
-        ...this.facts(i).flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)]),
-      ),
+      html("dl", { class: "facts" }, ...this.facts(i).flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)])),
       this.shape(i) ?? "",
       this.merges(i) ?? "",
       html("h3", {}, "Get it"),
@@ -77,13 +80,23 @@ export class Detail {
     const { page } = this;
     const entry = entryOf(page, i);
     const branch = branchOf(page, entry.branch);
-    const into = branch.parent >= 0 ? branchName(page, branch.parent) : branch.side === "dark" ? "the outside or another dark object" : "a larger object";
+    const into =
+      branch.parent >= 0
+        ? branchName(page, branch.parent)
+        : branch.side === "dark"
+          ? "the outside or another dark object"
+          : "a larger object";
     const [low, high] = [value(entry.low), value(entry.high)];
-    const steady = low === high ? `At ${value(entry.tau)} it has ${shapeOf(page, i)}.` : `Between ${low} and ${high} its shape stays the same: ${shapeOf(page, i)}.`;
+    const steady =
+      low === high
+        ? `At ${value(entry.tau)} it has ${shapeOf(page, i)}.`
+        : `Between ${low} and ${high} its shape stays the same: ${shapeOf(page, i)}.`;
+    const appears = `It appears at ${value(branch.appears)}`;
+    const grows = branch.side === "dark" ? " and grows with the isovalue" : "";
     const end =
       branch.merges === null
-        ? `It appears at ${value(branch.appears)} and is there at every lower isovalue.`
-        : `It appears at ${value(branch.appears)}${branch.side === "dark" ? " and grows with the isovalue" : ""}. At ${value(branch.merges)} it merges into ${into}.`;
+        ? `${appears} and is there at every lower isovalue.`
+        : `${appears}${grows}. At ${value(branch.merges)} it merges into ${into}.`;
     return `${end} ${steady}`;
   }
 
@@ -110,7 +123,9 @@ export class Detail {
     const branch = branchOf(page, entry.branch);
     const inside = contentsOf(page, i);
     const same = entriesOf(page, entry.branch).filter((k) => k !== i);
-    const siblings = page.branches.flatMap((other, b) => (branch.parent >= 0 && other.parent === branch.parent && b !== entry.branch ? entriesOf(page, b).slice(0, 1) : []));
+    const siblings = page.branches.flatMap((other, b) =>
+      branch.parent >= 0 && other.parent === branch.parent && b !== entry.branch ? entriesOf(page, b).slice(0, 1) : [],
+    );
     const facts: [string, (Node | string)[]][] = [["shown at", [value(entry.tau), entry.why ? `: ${entry.why}` : ""]]];
     if (same.length > 0) facts.push(["the same object", this.links(same, (k) => ` at ${value(entryOf(page, k).tau)}`)]);
     const more = branch.isovalues ?? [];
@@ -143,9 +158,15 @@ export class Detail {
     if (most === 0) return html("p", { class: "note" }, "It has no tunnels and no cavities at any of its isovalues.");
     const [width, height, bottom] = [640, 140, 112];
     const axis = new Axis(shape.edges[0] ?? 0, shape.edges.at(-1) ?? 1, width, 10, page.axis.bend);
-    const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "spectrum", role: "img", "aria-label": `At most ${plural(Math.max(...shape.tunnels.most), "tunnel")} and ${plural(Math.max(...shape.cavities.most), "cavity", "cavities")}` });
+    const [tunnels, cavities] = [Math.max(...shape.tunnels.most), Math.max(...shape.cavities.most)];
+    const label = `At most ${plural(tunnels, "tunnel")} and ${plural(cavities, "cavity", "cavities")}`;
+    const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "spectrum", role: "img", "aria-label": label });
     const x = axis.x(entry.tau);
-    drawing.append(drawTicks(axis, bottom, 7), drawCounts(shape.edges, lines, axis, new Scale(lines, 14, bottom)), svg("line", { class: "needle", x1: x, x2: x, y1: 4, y2: bottom }));
+    drawing.append(
+      drawTicks(axis, bottom, 7),
+      drawCounts(shape.edges, lines, axis, new Scale(lines, 14, bottom)),
+      svg("line", { class: "needle", x1: x, x2: x, y1: 4, y2: bottom }),
+    );
     return html("section", {}, html("h3", {}, "Its tunnels and cavities over its isovalues"), drawing, legend(lines));
   }
 
@@ -154,7 +175,9 @@ export class Detail {
     const { page } = this;
     const own = entryOf(page, i).branch;
     const arriving = page.branches.map((_, b) => b).filter((b) => branchOf(page, b).parent === own);
-    const shown = arriving.filter((b) => entriesOf(page, b).length > 0).sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
+    const shown = arriving
+      .filter((b) => entriesOf(page, b).length > 0)
+      .sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
     const joined = Math.max(branchOf(page, own).joined, shown.length);
     if (joined === 0) return null;
     const items = shown.slice(0, mostMerges).map((b) => html("li", {}, `at ${value(branchOf(page, b).merges ?? 0)}: `, this.branchLink(b)));
@@ -165,7 +188,13 @@ export class Detail {
       {},
       html("h3", {}, "What merges into it"),
       html("ul", { class: "merges" }, ...items),
-      rest > 0 ? html("p", { class: "note" }, `${items.length > 0 ? "and " : ""}${plural(rest, items.length > 0 ? `more ${words}` : words)} without a picture`) : null,
+      rest > 0
+        ? html(
+            "p",
+            { class: "note" },
+            `${items.length > 0 ? "and " : ""}${plural(rest, items.length > 0 ? `more ${words}` : words)} without a picture`,
+          )
+        : null,
     );
   }
 }

@@ -19,7 +19,8 @@ function about(page: Page): HTMLElement {
   const { volume } = page;
   const spacing = volume.spacing && volume.unit ? `, voxels of ${volume.spacing.map(value).join(" × ")} ${volume.unit}` : "";
   const unit = volume.valueUnit ? ` ${volume.valueUnit}` : "";
-  const range = volume.low === volume.high ? `all of them ${value(volume.low)}${unit}` : `values ${value(volume.low)} to ${value(volume.high)}${unit}`;
+  const range =
+    volume.low === volume.high ? `all of them ${value(volume.low)}${unit}` : `values ${value(volume.low)} to ${value(volume.high)}${unit}`;
   const noise = volume.noise > 0 ? `, noise about ${value(Number(volume.noise.toPrecision(2)))}` : "";
   return html(
     "header",
@@ -34,9 +35,16 @@ function verdict(page: Page): string[] {
   if (page.volume.low === page.volume.high) return ["All samples have one value: there is nothing to tell apart, at no isovalue."];
   if (page.entries.length === 0) return ["There is nothing to show: noise explains all there is."];
   const others = page.branches.some((branch) => branch.standsOut && branch.merges !== null);
-  const noisy = 1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
-  if (!others && noisy) return [...hiddenWords(page), "The noise is as strong as all contrast there is: this may be nothing but noise, whatever the picture seems to show."];
-  return others ? hiddenWords(page) : [...hiddenWords(page), "No object stands out beside the largest one: the pictures show what lies above some of its isovalues."];
+  const noisy =
+    1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
+  if (!others && noisy)
+    return [
+      ...hiddenWords(page),
+      "The noise is as strong as all contrast there is: this may be nothing but noise, whatever the picture seems to show.",
+    ];
+  return others
+    ? hiddenWords(page)
+    : [...hiddenWords(page), "No object stands out beside the largest one: the pictures show what lies above some of its isovalues."];
 }
 
 function start(page: Page, main: HTMLElement): void {
@@ -46,7 +54,17 @@ function start(page: Page, main: HTMLElement): void {
   const items = page.entries.map((_, i) => card(page, i, open));
   const bright = html("ol", { class: "cards" });
   const dark = html("ol", { class: "cards" });
-  const darkPart = html("section", { class: "dark-part" }, html("h2", {}, "Dark objects"), html("p", { class: "note" }, "What is darker than all around it: cavities and pores inside an object. Each is shown as the wall around it."), dark);
+  const darkPart = html(
+    "section",
+    { class: "dark-part" },
+    html("h2", {}, "Dark objects"),
+    html(
+      "p",
+      { class: "note" },
+      "What is darker than all around it: cavities and pores inside an object. Each is shown as the wall around it.",
+    ),
+    dark,
+  );
   const said = html("p", { class: "said", role: "status" });
   const lanes = html("div", {});
   const rest = html("div", {});

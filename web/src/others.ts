@@ -36,7 +36,11 @@ export function others(page: Page, branches: number[]): HTMLElement | null {
     "details",
     { class: "panel others" },
     html("summary", {}, `${plural(branches.length, "more object")} without a picture`),
-    html("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Objects without a picture" }, html("table", {}, html("thead", {}, html("tr", {}, ...heads)), html("tbody", {}, ...rows))),
+    html(
+      "div",
+      { class: "scroll", tabindex: 0, role: "region", "aria-label": "Objects without a picture" },
+      html("table", {}, html("thead", {}, html("tr", {}, ...heads)), html("tbody", {}, ...rows)),
+    ),
     branches.length > mostRows ? html("p", { class: "note" }, `and ${count(branches.length - mostRows)} more`) : null,
     commandList([{ name: "surface of one of them", line }]),
   );

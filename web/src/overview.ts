@@ -44,8 +44,16 @@ export function overview(page: Page, kept: Set<number>, open: (i: number) => voi
   const top = heights.reduce<number[]>((all, height) => [...all, (all.at(-1) ?? head) + height], [head]);
   const bottom = (top.at(-1) ?? head) + 10;
   const y = (b: number): number => ((top[lane[b] ?? 0] ?? 0) + (top[(lane[b] ?? 0) + 1] ?? 0)) / 2;
-  const drawing = svg("svg", { viewBox: `0 0 ${width} ${bottom + 36}`, class: "overview", role: "group", "aria-label": "Objects over the isovalue" });
-  drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }), drawTicks(axis, bottom, width / 110));
+  const drawing = svg("svg", {
+    viewBox: `0 0 ${width} ${bottom + 36}`,
+    class: "overview",
+    role: "group",
+    "aria-label": "Objects over the isovalue",
+  });
+  drawing.append(
+    svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 4, bottom) }),
+    drawTicks(axis, bottom, width / 110),
+  );
   for (const b of kept) drawing.append(...branchLines(page, kept, b, axis, y));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(steadyLine(page, i, axis, y(b)));
   for (const b of kept) for (const i of entriesOf(page, b)) drawing.append(mark(page, i, axis, y(b), open));
@@ -67,7 +75,9 @@ function branchLines(page: Page, kept: Set<number>, b: number, axis: Axis, y: (b
   const stroke = first === undefined ? neutral : entryOf(page, first).colour;
   const end = axis.x(branch.merges ?? page.axis.low);
   const kind = first === undefined ? "branch thin" : `branch ${branch.side}`;
-  const lines = [svg("line", { class: kind, "data-branch": b, x1: end, x2: axis.x(branch.appears), y1: y(b), y2: y(b), style: `--colour: ${stroke}` })];
+  const lines = [
+    svg("line", { class: kind, "data-branch": b, x1: end, x2: axis.x(branch.appears), y1: y(b), y2: y(b), style: `--colour: ${stroke}` }),
+  ];
   const parent = keptParent(page, kept, b);
   if (parent >= 0) lines.push(svg("line", { class: "merge", x1: end, x2: end, y1: y(b), y2: y(parent), style: `--colour: ${stroke}` }));
   return lines;
@@ -84,11 +94,21 @@ function mark(page: Page, i: number, axis: Axis, y: number, open: (i: number) =>
   const radius = 9;
   const entry = entryOf(page, i);
   const x = axis.x(entry.tau);
-  const group = svg("g", { class: `mark ${isDark(page, i) ? "dark" : "bright"}`, "data-entry": i, tabindex: 0, role: "button", "aria-label": describe(page, i) });
+  const group = svg("g", {
+    class: `mark ${isDark(page, i) ? "dark" : "bright"}`,
+    "data-entry": i,
+    tabindex: 0,
+    role: "button",
+    "aria-label": describe(page, i),
+  });
   const shape = isDark(page, i)
     ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
     : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });
-  group.append(svg("title", {}, describe(page, i)), shape, svg("text", { class: isDeep(entry.colour) ? "on-deep" : undefined, x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))));
+  group.append(
+    svg("title", {}, describe(page, i)),
+    shape,
+    svg("text", { class: isDeep(entry.colour) ? "on-deep" : undefined, x, y: y + 4, "text-anchor": "middle" }, String(numberOf(page, i))),
+  );
   group.addEventListener("click", () => open(i));
   group.addEventListener("keydown", (event) => {
     if (event.key !== "Enter" && event.key !== " ") return;
@@ -110,7 +130,12 @@ export function rangeBar(page: Page, i: number): SVGSVGElement {
   const branch = branchOf(page, entry.branch);
   const [width, height] = [280, 44];
   const axis = Axis.of(page, width, 6);
-  const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "range", "aria-hidden": "true", style: `--colour: ${entry.colour}` });
+  const drawing = svg("svg", {
+    viewBox: `0 0 ${width} ${height}`,
+    class: "range",
+    "aria-hidden": "true",
+    style: `--colour: ${entry.colour}`,
+  });
   drawing.append(svg("path", { class: "histogram", d: histogramPath(page.histogram, axis, 2, 32) }));
   const bar = (from: number, to: number, kind: string, y: number, thick: number): void => {
     const [a, b] = [axis.x(from), axis.x(to)].sort((p, q) => p - q) as [number, number];

@@ -24,10 +24,28 @@ export function spectrum(page: Page): HTMLElement | null {
   const [width, height, bottom] = [drawingWidth(), 250, 210];
   const axis = Axis.of(page, width, 14);
   const whole = new Scale(linesOf(data.all), 14, bottom);
-  const which = html("select", { name: "counted" }, html("option", { value: "all" }, "everything"), html("option", { value: "essential" }, "objects that stand out"));
-  const at = html("input", { type: "range", name: "isovalue", min: 0, max: data.edges.length - 2, step: 1, value: 0, "aria-label": "Isovalue of the counts" });
+  const which = html(
+    "select",
+    { name: "counted" },
+    html("option", { value: "all" }, "everything"),
+    html("option", { value: "essential" }, "objects that stand out"),
+  );
+  const at = html("input", {
+    type: "range",
+    name: "isovalue",
+    min: 0,
+    max: data.edges.length - 2,
+    step: 1,
+    value: 0,
+    "aria-label": "Isovalue of the counts",
+  });
   const readout = html("output", { class: "readout", "aria-live": "polite" });
-  const drawing = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "spectrum", role: "img", "aria-label": "Counts over the isovalue, logarithmic" });
+  const drawing = svg("svg", {
+    viewBox: `0 0 ${width} ${height}`,
+    class: "spectrum",
+    role: "img",
+    "aria-label": "Counts over the isovalue, logarithmic",
+  });
   const needle = svg("line", { class: "needle", y1: 8, y2: bottom });
   const lines = (): Line[] => linesOf(which.value === "all" ? data.all : data.essential);
   const draw = (): void => {

@@ -1,10 +1,14 @@
-// The viewer's folders stand in the order in which data flows: a file uses its own folder and those before it. Types alone may come from anywhere.
+// The viewer's folders stand in the order in which data flows: a file uses its own folder and those before it. Types alone may come from
+// anywhere. And lines can be read.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join, normalize } from "node:path";
 import { describe, expect, it } from "vitest";
 
 const ORDER = ["state", "ask", "draw", "desk", "choose", "evolve", "inspect", "look", "save", "."];
-const ROOT = join(__dirname, "..", "src", "viewer");
+const WEB = join(__dirname, "..");
+const ROOT = join(WEB, "src", "viewer");
+/** characters of a line */
+const MOST = 140;
 
 describe("the folders of the viewer", () => {
   it("depend on those before them", () => {
@@ -18,5 +22,19 @@ describe("the folders of the viewer", () => {
       }
     }
     expect(against).toEqual([]);
+  });
+});
+
+describe("a line", () => {
+  it("has at most 140 characters", () => {
+    const long: string[] = [];
+    for (const folder of ["src", "tests"]) {
+      const names = readdirSync(join(WEB, folder), { recursive: true }).map(String);
+      for (const file of names.filter((name) => name.endsWith(".ts"))) {
+        const lines = readFileSync(join(WEB, folder, file), "utf8").split("\n");
+        lines.forEach((line, i) => line.length > MOST && long.push(`${folder}/${file}:${i + 1}`));
+      }
+    }
+    expect(long).toEqual([]);
   });
 });

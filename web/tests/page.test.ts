@@ -10,7 +10,8 @@ import { branch, entry, page, scene } from "./sample";
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
 const bundled = fileURLToPath(new URL("../dist/atlas.html", import.meta.url));
-const pixel = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAE0lEQVR42mNk+M9Qz4AEGBmRBQAvAgQBv9W0VAAAAABJRU5ErkJggg==";
+const pixel =
+  "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAQAAAABCAYAAAD5PA/NAAAAE0lEQVR42mNk+M9Qz4AEGBmRBQAvAgQBv9W0VAAAAABJRU5ErkJggg==";
 
 describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   let browser: Browser;
@@ -58,7 +59,9 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     expect(await keep.inputValue()).toBe("3");
     expect(await tab.locator(".others").count()).toBe(0);
     expect(await tab.locator(".about").textContent()).toContain("1,231 are hidden");
-    expect(await tab.getByRole("img", { name: "1,234 objects without a threshold, 3 chosen automatically, the least of them 800" }).count()).toBe(1);
+    expect(
+      await tab.getByRole("img", { name: "1,234 objects without a threshold, 3 chosen automatically, the least of them 800" }).count(),
+    ).toBe(1);
     expect(problems).toEqual([]);
     await tab.close();
   });

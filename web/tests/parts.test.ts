@@ -58,7 +58,9 @@ describe("counts over the isovalue", () => {
   });
   it("are drawn as a staircase, or a band", () => {
     const scale = new Scale([{ name: "x", one: "x", count: { most: [Math.expm1(1)] } }], 0, 10);
-    expect(countPath([0, 50, 100], { most: [0, Math.expm1(1)], least: [0, 0] }, new Axis(0, 100, 100), scale)).toBe("M0.0 10.0H50.0V0.0V10.0V0.0H100.0");
+    expect(countPath([0, 50, 100], { most: [0, Math.expm1(1)], least: [0, 0] }, new Axis(0, 100, 100), scale)).toBe(
+      "M0.0 10.0H50.0V0.0V10.0V0.0H100.0",
+    );
   });
 });
 
@@ -103,9 +105,10 @@ describe("objects", () => {
 
 describe("what is hidden", () => {
   it("is counted, with the reason", () => {
+    const why = "noise alone explains them, or they are tiny beside the largest.";
     expect(hiddenWords(scene)).toEqual([
-      "1,234 objects in all, 2 shown. 1 more stand out but come later by rank: --top 7 draws them too. 1,231 are hidden: noise alone explains them, or they are tiny beside the largest.",
-      "77 dark objects in all, 1 shown. 76 are hidden: noise alone explains them, or they are tiny beside the largest.",
+      `1,234 objects in all, 2 shown. 1 more stand out but come later by rank: --top 7 draws them too. 1,231 are hidden: ${why}`,
+      `77 dark objects in all, 1 shown. 76 are hidden: ${why}`,
     ]);
   });
   it("is nothing where everything is shown", () => {

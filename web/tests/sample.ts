@@ -3,28 +3,74 @@ import type { Branch, Counts, Entry, Page } from "../src/page";
 
 export function branch(changes: Partial<Branch>): Branch {
   return {
-    side: "bright", id: 1, rank: 0, appears: 90, merges: null, parent: -1, hypervolume: 5000, voxels: 1000, measure: 1000, joined: 0, standsOut: true,
+    side: "bright",
+    id: 1,
+    rank: 0,
+    appears: 90,
+    merges: null,
+    parent: -1,
+    hypervolume: 5000,
+    voxels: 1000,
+    measure: 1000,
+    joined: 0,
+    standsOut: true,
     ...changes,
   };
 }
 
 export function entry(changes: Partial<Entry>): Entry {
   return {
-    branch: 0, id: 1, tau: 50, low: 40, high: 60, voxels: 1000, measure: 1000, tunnels: 0, cavities: 0, inside: -1, around: -1, reason: "", why: "",
-    colour: "#56b4e9", picture: null, commands: [{ name: "surface", line: "isoatlas extract scan.atlas --object 1 --tau 50 -o object-1.ply" }],
+    branch: 0,
+    id: 1,
+    tau: 50,
+    low: 40,
+    high: 60,
+    voxels: 1000,
+    measure: 1000,
+    tunnels: 0,
+    cavities: 0,
+    inside: -1,
+    around: -1,
+    reason: "",
+    why: "",
+    colour: "#56b4e9",
+    picture: null,
+    commands: [{ name: "surface", line: "isoatlas extract scan.atlas --object 1 --tau 50 -o object-1.ply" }],
     ...changes,
   };
 }
 
 function counts(n: number): Counts {
-  return { objects: { most: [1, n, 3, 1] }, contours: { most: [1, 3, 4, 2] }, tunnels: { most: [0, 5, 1, 0], least: [0, 2, 1, 0] }, cavities: { most: [0, 1, 1, 0] } };
+  return {
+    objects: { most: [1, n, 3, 1] },
+    contours: { most: [1, 3, 4, 2] },
+    tunnels: { most: [0, 5, 1, 0], least: [0, 2, 1, 0] },
+    cavities: { most: [0, 1, 1, 0] },
+  };
 }
 
 export function page(branches: Branch[], entries: Entry[]): Page {
   return {
     schema: "isoatlas/page/2",
     version: "0.1.0",
-    volume: { name: "scan", size: [10, 20, 30], type: "uint8", spacing: [1, 1, 2], space: "LPS", origin: [0, 0, 0], direction: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], unit: "mm", valueUnit: null, low: 0, high: 100, noise: 1 },
+    volume: {
+      name: "scan",
+      size: [10, 20, 30],
+      type: "uint8",
+      spacing: [1, 1, 2],
+      space: "LPS",
+      origin: [0, 0, 0],
+      direction: [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+      ],
+      unit: "mm",
+      valueUnit: null,
+      low: 0,
+      high: 100,
+      noise: 1,
+    },
     interpolant: "trilinear",
     objects: { bright: { all: 1234, standingOut: 3 }, dark: { all: 77, standingOut: 1 } },
     axis: { low: 0, high: 100, bend: null },

@@ -28,7 +28,9 @@ describe.skipIf(!canServe)("the viewer", () => {
     const last = seen[seen.length - 1];
     const object = listed[1] as Listed;
     expect(Number(last?.asked.get("object"))).toBe(object.id);
-    const extracted = JSON.parse(isoatlas("extract", "demo.atlas", "--object", String(object.id), "--tau", String(object.best_tau), "-o", "x.ply", "--json")) as { triangles: number };
+    const extracted = JSON.parse(
+      isoatlas("extract", "demo.atlas", "--object", String(object.id), "--tau", String(object.best_tau), "-o", "x.ply", "--json"),
+    ) as { triangles: number };
     expect(last?.triangles).toBe(extracted.triangles);
     expect(problems).toEqual([]);
     await tab.close();

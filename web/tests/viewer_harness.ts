@@ -110,7 +110,11 @@ export function meshes(tab: Tab): AskedMesh[] {
   tab.on("response", (answer) => {
     const url = new URL(answer.url());
     if (url.pathname !== "/api/surface" || answer.status() !== 200) return;
-    list.push({ asked: url.searchParams, triangles: Number(answer.headers()["x-triangles"]), coarse: answer.headers()["x-coarse"] === "1" });
+    list.push({
+      asked: url.searchParams,
+      triangles: Number(answer.headers()["x-triangles"]),
+      coarse: answer.headers()["x-coarse"] === "1",
+    });
   });
   return list;
 }

@@ -21,13 +21,31 @@ import { scene } from "./sample";
 
 /** Turned around z by 30 degrees, with steps of 1, 1 and 2. */
 const [cosine, sine] = [Math.cos(Math.PI / 6), Math.sin(Math.PI / 6)];
-const tilted = new Grid({ ...scene, volume: { ...scene.volume, size: [40, 40, 20], origin: [5, -3, 7], direction: [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]] } });
+const tilted = new Grid({
+  ...scene,
+  volume: {
+    ...scene.volume,
+    size: [40, 40, 20],
+    origin: [5, -3, 7],
+    direction: [
+      [cosine, -sine, 0],
+      [sine, cosine, 0],
+      [0, 0, 1],
+    ],
+  },
+});
 const straight = new Grid({ ...scene, volume: { ...scene.volume, size: [40, 40, 40], spacing: [1, 1, 1] } });
 /** Steps that grow along x and z. */
 const growing = Array.from({ length: 40 }, (_, i) => i * (0.5 + i / 40));
 const uneven = new Grid({
   ...scene,
-  volume: { ...scene.volume, size: [40, 40, 40], spacing: null, origin: [3, 0, -5], coordinates: [growing, growing.map((_, i) => i), growing] },
+  volume: {
+    ...scene.volume,
+    size: [40, 40, 40],
+    spacing: null,
+    origin: [3, 0, -5],
+    coordinates: [growing, growing.map((_, i) => i), growing],
+  },
 });
 
 /** A closed ball of rings of points. */
@@ -36,7 +54,8 @@ function ball(middle: Triple, radius: number, pieces = 96): Mesh {
   const places: Triple[] = [[0, 0, 1]];
   for (let i = 1; i < pieces / 2; ++i) {
     const up = (2 * Math.PI * i) / pieces;
-    for (let j = 0; j < pieces; ++j) places.push([Math.sin(up) * Math.cos((2 * Math.PI * j) / pieces), Math.sin(up) * Math.sin((2 * Math.PI * j) / pieces), Math.cos(up)]);
+    for (let j = 0; j < pieces; ++j)
+      places.push([Math.sin(up) * Math.cos((2 * Math.PI * j) / pieces), Math.sin(up) * Math.sin((2 * Math.PI * j) / pieces), Math.cos(up)]);
   }
   places.push([0, 0, -1]);
   const corners: number[] = [];
@@ -49,7 +68,16 @@ function ball(middle: Triple, radius: number, pieces = 96): Mesh {
   for (let j = 0; j < pieces; ++j) corners.push(0, 1 + j, 1 + ((j + 1) % pieces), last, last - 1 - j, last - 1 - ((j + 1) % pieces));
   const positions = Uint16Array.from(places.flatMap((place) => place.map((n) => Math.round((n * radius + 1.2 * radius) / step))));
   const origin = middle.map((n) => n - 1.2 * radius) as Triple;
-  return { origin, step, positions, normals: new Int8Array(positions.length), corners: Uint32Array.from(corners), triangles: corners.length / 3, coarse: false, bytes: 0 };
+  return {
+    origin,
+    step,
+    positions,
+    normals: new Int8Array(positions.length),
+    corners: Uint32Array.from(corners),
+    triangles: corners.length / 3,
+    coarse: false,
+    bytes: 0,
+  };
 }
 
 describe("the grid", () => {
@@ -57,7 +85,11 @@ describe("the grid", () => {
     expect(tilted.place([0, 0, 0])).toEqual([5, -3, 7]);
     expect(distance(tilted.place([3, 4, 0]), tilted.place([0, 0, 0]))).toBeCloseTo(5);
     expect(tilted.rulers.map(({ finest }) => finest)).toEqual([1, 1, 2]);
-    for (const sample of [[1, 2, 3], [-4, 0.5, 19]]) expect(tilted.sample(tilted.place(sample))).toEqual(sample.map((n) => expect.closeTo(n)));
+    for (const sample of [
+      [1, 2, 3],
+      [-4, 0.5, 19],
+    ])
+      expect(tilted.sample(tilted.place(sample))).toEqual(sample.map((n) => expect.closeTo(n)));
     expect(tilted.nearest(tilted.place([3.4, 99, -1]))).toEqual([3, 39, 0]);
     expect(tilted.corners()[5]).toEqual(tilted.place([39, 0, 19]));
   });
@@ -164,7 +196,8 @@ describe("measures", () => {
   it("are kept in an address", () => {
     const measures = [[[1, 2, 3], [4, 5, 6]], [[0.5, 0, 0], [0, -7, 0], [0, 0, 9]]] as Triple[][];
     expect(MEASURES.of(MEASURES.in(NOTHING, measures))).toEqual(measures);
-    for (const bad of ["1,2,3", "1,2,3,4,5", "1,2,3,4,5,x", "1,2,3,4,5,6;", Array(101).fill("1,2,3,4,5,6").join(";")]) expect(MEASURES.takes(bad), bad).toBe(false);
+    for (const bad of ["1,2,3", "1,2,3,4,5", "1,2,3,4,5,x", "1,2,3,4,5,6;", Array(101).fill("1,2,3,4,5,6").join(";")])
+      expect(MEASURES.takes(bad), bad).toBe(false);
   });
 });
 
@@ -187,19 +220,24 @@ describe("samples", () => {
     expect(valueAt(slice, [1, 7, 4])).toBeNull();
     expect(valueAt(slice, [2, 6, 4])).toBeNull();
     expect(valueAt(slice, [4, 7, 0])).toBeNull();
-    expect([...greyOf(slice, Uint32Array.of(0, 1), Uint32Array.of(0, 1, 2), -1, 24)].filter((_, i) => i % 4 === 0)).toEqual([0, 51, 102, 153, 204, 255]);
+    expect([...greyOf(slice, Uint32Array.of(0, 1), Uint32Array.of(0, 1, 2), -1, 24)].filter((_, i) => i % 4 === 0)).toEqual([
+      0, 51, 102, 153, 204, 255,
+    ]);
     const twice = greyOf(slice, Uint32Array.of(1, 1), Uint32Array.of(2), -1, 24);
     expect([...twice]).toEqual([255, 255, 255, 255, 255, 255, 255, 255]);
     expect(() => decodeSlice(bytesOf("ias1", header, [0]), 1, 7)).toThrow("part");
     expect(() => decodeSlice(bytesOf("iav1", header, [0, 1, 2, 3, 4, 5]), 1, 7)).toThrow("no slice");
   });
   it("of a volume are a byte each", () => {
-    const volume = decodeVolume(bytesOf("iav1", (view) => [1, 2, 3, 4].forEach((n, i) => view.setUint32(4 + 4 * i, n, true)), [1, 2, 3, 4, 5, 6]));
+    const volume = decodeVolume(
+      bytesOf("iav1", (view) => [1, 2, 3, 4].forEach((n, i) => view.setUint32(4 + 4 * i, n, true)), [1, 2, 3, 4, 5, 6]),
+    );
     expect([volume.size, volume.step, volume.bytes[5]]).toEqual([[1, 2, 3], 4, 6]);
     expect(() => decodeVolume(new ArrayBuffer(10))).toThrow("no volume");
   });
   it("are grey between where all but a hundredth lie", () => {
-    const of = (edges: number[], counts: number[], low: number, high: number): number[] => greyRange({ histogram: { edges, counts }, axis: { low, high, bend: null } });
+    const of = (edges: number[], counts: number[], low: number, high: number): number[] =>
+      greyRange({ histogram: { edges, counts }, axis: { low, high, bend: null } });
     expect(of([0, 1, 2, 3], [1, 998, 1], 0, 3)).toEqual([expect.closeTo(1.004, 3), expect.closeTo(1.996, 3)]);
     expect(of([-0.5, 0.5, 100.5], [1000, 1000], 0, 100)).toEqual([0, 99.5]);
     expect(of([4, 4], [7], 4, 4)).toEqual([4, 4]);
@@ -236,7 +274,12 @@ describe("matter", () => {
   const table = transferTable([bump], 0, 102.4);
   it("is as dense as its bumps say", () => {
     const [red, green, blue, extinction] = meanBetween(table, 600, 601);
-    expect([red, green, blue, extinction]).toEqual([expect.closeTo(0.2, 3), expect.closeTo(0.2 * linearOf("#ff8000")[1], 3), 0, expect.closeTo(0.2, 3)]);
+    expect([red, green, blue, extinction]).toEqual([
+      expect.closeTo(0.2, 3),
+      expect.closeTo(0.2 * linearOf("#ff8000")[1], 3),
+      0,
+      expect.closeTo(0.2, 3),
+    ]);
     expect(meanBetween(table, 450, 450)[3]).toBeCloseTo(0.1, 3);
     expect(meanBetween(table, 400, 500)[3]).toBeCloseTo(0.1, 4);
     expect(meanBetween(table, 0, PLACES)[3]).toBeCloseTo((0.2 * 30) / 102.4, 4);

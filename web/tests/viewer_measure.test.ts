@@ -22,7 +22,17 @@ function ballFile(path: string): void {
     const [x, y, z] = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE / SIDE)];
     samples[i] = 100 - 10 * SPACING * Math.hypot(x - MIDDLE, y - MIDDLE, z - MIDDLE);
   }
-  const header = ["NRRD0004", "type: float", "dimension: 3", `sizes: ${SIDE} ${SIDE} ${SIDE}`, "encoding: raw", "endian: little", "space: left-posterior-superior", `space directions: (${SPACING},0,0) (0,${SPACING},0) (0,0,${SPACING})`, 'space units: "mm" "mm" "mm"'];
+  const header = [
+    "NRRD0004",
+    "type: float",
+    "dimension: 3",
+    `sizes: ${SIDE} ${SIDE} ${SIDE}`,
+    "encoding: raw",
+    "endian: little",
+    "space: left-posterior-superior",
+    `space directions: (${SPACING},0,0) (0,${SPACING},0) (0,0,${SPACING})`,
+    'space units: "mm" "mm" "mm"',
+  ];
   writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
 }
 
@@ -135,7 +145,9 @@ describe.skipIf(!canServe)("a ball", () => {
 
   /** The middle of the picture of a surface, when it no longer changes. */
   async function pixelOf(tau: number, colour: string, factor: number | null): Promise<number[]> {
-    const { tab, problems } = await served.open(`#scene=-1,${tau},1,1,${colour}&selected=0${alongX}${factor === null ? "" : `&matter=${factor}`}`);
+    const { tab, problems } = await served.open(
+      `#scene=-1,${tau},1,1,${colour}&selected=0${alongX}${factor === null ? "" : `&matter=${factor}`}`,
+    );
     await expect.poll(() => tab.locator(".scene .state").textContent()).toMatch(/triangles$/);
     if (factor !== null) await expect.poll(() => tab.locator(".matter-bar").textContent()).toContain("every sample");
     let before: number[];

@@ -23,12 +23,27 @@ describe("a scene", () => {
     expect(isolate(change(two, 1, { tau: 7 }), 1, 20.5).shown).toEqual([shownAt(1, 7)]);
   });
   it("is the same after a link", () => {
-    const seen = { ...change(two, 0, { opacity: 0.4, colour: "#12ab00", walls: "cavities" as const, visible: false }), view: [1, 2, 3, -4, 5.5, 6] };
+    const seen = {
+      ...change(two, 0, { opacity: 0.4, colour: "#12ab00", walls: "cavities" as const, visible: false }),
+      view: [1, 2, 3, -4, 5.5, 6],
+    };
     expect(fromHash(toHash(seen), 4)).toEqual(seen);
     expect(fromHash(toHash(NOTHING), 0)).toEqual(NOTHING);
   });
   it("is not made of what is none", () => {
-    for (const hash of ["", "#", "#scene=1", "#scene=9,1,1,1", "#scene=-2,1,1,1", "#scene=1,x,1,1", "#scene=1,1,2,1", "#scene=1.5,1,1,1", "#scene=1,1,1,1,1", "#scene=1,1,1,1;1,2,1,1", "#scene=1,1,1,1,,half"])
+    for (const hash of [
+      "",
+      "#",
+      "#scene=1",
+      "#scene=9,1,1,1",
+      "#scene=-2,1,1,1",
+      "#scene=1,x,1,1",
+      "#scene=1,1,2,1",
+      "#scene=1.5,1,1,1",
+      "#scene=1,1,1,1,1",
+      "#scene=1,1,1,1;1,2,1,1",
+      "#scene=1,1,1,1,,half",
+    ])
       expect(fromHash(hash, 4), hash).toBeNull();
     expect(fromHash("#scene=1,1,1,1&selected=7&view=1,2,x,4,5,6", 4)).toEqual({ ...NOTHING, shown: [shownAt(1, 1)], selected: 0 });
   });
@@ -101,7 +116,8 @@ describe("normals", () => {
     expect(unfolded(127, 0)).toEqual([127, 0, 0]);
     expect(unfolded(0, -127)).toEqual([0, -127, 0]);
     expect(unfolded(127, 127).map(Math.abs)).toEqual([0, 0, 127]);
-    for (let a = -127; a <= 127; a += 5) for (let b = -127; b <= 127; b += 5) expect(Math.abs(Math.hypot(...unfolded(a, b)) - 127)).toBeLessThan(1.1);
+    for (let a = -127; a <= 127; a += 5)
+      for (let b = -127; b <= 127; b += 5) expect(Math.abs(Math.hypot(...unfolded(a, b)) - 127)).toBeLessThan(1.1);
   });
 });
 

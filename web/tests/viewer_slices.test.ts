@@ -105,7 +105,9 @@ describe.skipIf(!canServe)("slices", () => {
     const inner = page.entries.findIndex(({ inside }, i) => inside >= 0 && page.branches[page.entries[i]!.branch]?.side === "bright");
     const { id, inside } = page.entries[inner]!;
     const voxel = [id % size[0], Math.floor(id / size[0]) % size[1], Math.floor(id / size[0] / size[1])];
-    const { tab, problems } = await served.open(`#scene=${inside},${page.entries[inside]!.tau},1,1&selected=-1&slices=1&cross=${voxel.join()}`);
+    const { tab, problems } = await served.open(
+      `#scene=${inside},${page.entries[inside]!.tau},1,1&selected=-1&slices=1&cross=${voxel.join()}`,
+    );
     await expect.poll(() => tab.locator(".slices .chip").count()).toBeGreaterThan(0);
     await tab.locator(".objects h1").click();
     await tab.keyboard.press("a");
@@ -191,8 +193,11 @@ describe.skipIf(!canServe)("slices", () => {
   });
 
   it("take no more memory of the graphics after many steps", async () => {
-    const { tab, problems } = await served.open("#scene=0,120,1,1;1,130,0.5,1&selected=0&slices=1&planes=1&cut=1,0,0,0.5&edges=1&measure=0,0,0,9,9,9");
-    const held = (): Promise<string | undefined> => tab.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage > canvas")?.dataset.held);
+    const { tab, problems } = await served.open(
+      "#scene=0,120,1,1;1,130,0.5,1&selected=0&slices=1&planes=1&cut=1,0,0,0.5&edges=1&measure=0,0,0,9,9,9",
+    );
+    const held = (): Promise<string | undefined> =>
+      tab.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage > canvas")?.dataset.held);
     const steps = async (count: number): Promise<void> => {
       for (let i = 0; i < count; ++i) await tab.keyboard.press(["]", "6", "K", "[", "8", "<", "K", "0", "ArrowLeft", ">"][i % 10]!);
       await expect.poll(() => tab.locator(".at-crosshair .value").textContent()).toMatch(/\d/); // the slices are there

@@ -4,7 +4,8 @@ import { canServe, Served } from "./viewer_harness";
 
 describe.skipIf(!canServe)("the viewer before its store", () => {
   it("shows how far the build is, then the atlas, without a reload", async () => {
-    const served = await Served.building(["noise", "--size", "144", "--quantise", "8"], ["--threads", "1", "--memory", "90M"]); // slow enough to be seen
+    const slow = ["--threads", "1", "--memory", "90M"]; // enough to be seen
+    const served = await Served.building(["noise", "--size", "144", "--quantise", "8"], slow);
     const tab = await served.browser.newPage();
     const titles: string[] = [];
     await tab.exposeFunction("heard", (text: string) => titles.push(text));

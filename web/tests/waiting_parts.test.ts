@@ -16,7 +16,15 @@ async function heard(...pieces: string[]): Promise<ServerState[]> {
   return all;
 }
 
-const building: Build = { phase: "trees", phase_index: 3, phase_count: 8, fraction: 0.4399, seconds_left: 12.3, voxels_per_second: null, peak_memory: 1.2e9 };
+const building: Build = {
+  phase: "trees",
+  phase_index: 3,
+  phase_count: 8,
+  fraction: 0.4399,
+  seconds_left: 12.3,
+  voxels_per_second: null,
+  peak_memory: 1.2e9,
+};
 
 describe("messages of the server", () => {
   it("are whole, however they come", async () => {
@@ -33,14 +41,20 @@ describe("a build in words", () => {
     expect(progressOf(building)).toBe("building 43 %");
     expect(progressOf({ ...building, phase: "" })).toBe("building");
     expect(detailsOf(building)).toBe("growing the trees, 12 s left, 1.2 GB of memory");
-    expect(detailsOf({ ...building, phase: "pack", seconds_left: 600, voxels_per_second: 25e6, peak_memory: 0 })).toBe("writing the store, 10 min left, 25 million voxels a second");
+    expect(detailsOf({ ...building, phase: "pack", seconds_left: 600, voxels_per_second: 25e6, peak_memory: 0 })).toBe(
+      "writing the store, 10 min left, 25 million voxels a second",
+    );
     expect(detailsOf({ ...building, phase: "new", seconds_left: null, peak_memory: 0 })).toBe("new");
   });
 });
 
 describe("what one waits for", () => {
   it("is what is being made, or the first place in the queue", () => {
-    const at = (place: number, fraction = 0): { client: string; place: number; fraction: number } => ({ client: "me/surface", place, fraction });
+    const at = (place: number, fraction = 0): { client: string; place: number; fraction: number } => ({
+      client: "me/surface",
+      place,
+      fraction,
+    });
     expect(waitingFor([])).toBe("");
     expect(waitingFor([at(0, 0.5)])).toBe("making a surface: 50 %");
     expect(waitingFor([at(0, 0.5), at(0, 0.25), at(1)])).toBe("making 2 surfaces: 25 %");

@@ -14,22 +14,30 @@ const STEPS: Step[] = [
   {
     selector: ".side",
     title: "Objects, not thresholds",
-    text: "These objects stand out of the volume, the most important first, each at the isovalue that shows it best. Click one to see it alone; with shift it is added.",
+    text:
+      "These objects stand out of the volume, the most important first, each at the isovalue that shows it best." +
+      " Click one to see it alone; with shift it is added.",
   },
   {
     selector: ".axis",
     title: "Each object has its own isovalue",
-    text: "Drag along the histogram and the selected object grows or shrinks, the others stay. Ticks are where objects begin or join: { and } go there, [ and ] go in steps.",
+    text:
+      "Drag along the histogram and the selected object grows or shrinks, the others stay." +
+      " Ticks are where objects begin or join: { and } go there, [ and ] go in steps.",
   },
   {
     selector: ".inspector",
     title: "What is shown, and what it is",
-    text: "Hide an object, give it another colour, make it transparent, or make the others ghosts. Below: what it contains and what it joins, as links.",
+    text:
+      "Hide an object, give it another colour, make it transparent, or make the others ghosts." +
+      " Below: what it contains and what it joins, as links.",
   },
   {
     selector: ".menus",
     title: "Take it away",
-    text: "Save has surfaces, labels, pictures, animations, tables, and the command line that draws this. The address holds the whole view: copy it. Press ? for all keys.",
+    text:
+      "Save has surfaces, labels, pictures, animations, tables, and the command line that draws this." +
+      " The address holds the whole view: copy it. Press ? for all keys.",
   },
 ];
 

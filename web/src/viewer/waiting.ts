@@ -9,8 +9,10 @@ const AGAIN = 2000;
 const SOON = 400;
 
 function lossOf(error: unknown): string {
-  if (!(error instanceof Refusal))
-    return "The viewer has ended: nothing new can be shown. Start isoatlas view again and open its address; the part behind # shows the same there.";
+  if (!(error instanceof Refusal)) {
+    const again = "Start isoatlas view again and open its address; the part behind # shows the same there.";
+    return `The viewer has ended: nothing new can be shown. ${again}`;
+  }
   if (error.status !== 403) return error.message;
   return "The token is wrong: this page belongs to a viewer that has ended. Open the address that isoatlas view has printed last.";
 }
@@ -79,7 +81,10 @@ class Waiting {
   }
 }
 
-/** What there is to show, as soon as there is a store; shows until then how far it is. Listens on, so that the server knows that somebody is here. */
+/**
+ * What there is to show, as soon as there is a store; shows until then how far it is. Listens on, so that the server knows that somebody is
+ * here.
+ */
 export async function pageWhenThere(api: Api, main: HTMLElement): Promise<Page> {
   let waiting: Waiting | undefined;
   await new Promise<void>((resolve) => {

@@ -93,7 +93,9 @@ export class Api {
 
   /** Of the objects that hold these voxels. */
   async measures(tau: number, objects: number[]): Promise<Measures[]> {
-    const answer = (await (await this.ask(`/api/measures?tau=${tau}&object=${objects.join(",")}`, "measures")).json()) as { objects: Measures[] };
+    const answer = (await (await this.ask(`/api/measures?tau=${tau}&object=${objects.join(",")}`, "measures")).json()) as {
+      objects: Measures[];
+    };
     return answer.objects;
   }
 

@@ -41,6 +41,10 @@ export async function holdersOf(api: Api, page: Page, state: State, voxel: Tripl
   const more = Object.entries(words).map(([name, items]) => (items.length > 0 ? `&${name}=${items.join(",")}` : ""));
   const answer = (await (await api.ask(`/api/at?voxel=${voxel.join(",")}${more.join("")}`, "at")).json()) as Answer;
   const everything = state.shown.filter(({ entry, tau, visible }) => entry === EVERYTHING && visible && answer.value >= tau);
-  const held = [...objects.filter((_, i) => answer.objects[i]), ...contours.filter((_, i) => answer.contours[i]), ...everything.map(({ entry }) => entry)];
+  const held = [
+    ...objects.filter((_, i) => answer.objects[i]),
+    ...contours.filter((_, i) => answer.contours[i]),
+    ...everything.map(({ entry }) => entry),
+  ];
   return { voxel, value: answer.value, shown: innermostFirst(page, held), entries: answer.entries };
 }

@@ -81,6 +81,9 @@ export function detailsOf(build: Build): string {
 export function waitingFor(questions: readonly Question[]): string {
   const waits = questions.filter(({ place }) => place > 0).map(({ place }) => place);
   const made = questions.filter(({ place }) => place === 0);
-  if (made.length > 0) return `making ${made.length === 1 ? "a surface" : `${made.length} surfaces`}: ${Math.floor(100 * Math.min(...made.map(({ fraction }) => fraction)))} %`;
+  if (made.length > 0) {
+    const share = Math.min(...made.map(({ fraction }) => fraction));
+    return `making ${made.length === 1 ? "a surface" : `${made.length} surfaces`}: ${Math.floor(100 * share)} %`;
+  }
   return waits.length > 0 ? `waiting for a turn: ${Math.min(...waits)} in the queue` : "";
 }

@@ -39,7 +39,12 @@ export async function decodeMesh(bytes: ArrayBuffer, coarse = false): Promise<Me
   await MeshoptDecoder.ready;
   const header = new DataView(bytes);
   if (bytes.byteLength < HEADER_BYTES || header.getUint32(0, false) !== 0x69616d31) throw new Error("the server sent no mesh");
-  const [points, triangles, pointBytes, triangleBytes] = [4, 8, 12, 16].map((at) => header.getUint32(at, true)) as [number, number, number, number];
+  const [points, triangles, pointBytes, triangleBytes] = [4, 8, 12, 16].map((at) => header.getUint32(at, true)) as [
+    number,
+    number,
+    number,
+    number,
+  ];
   const packed = new Uint8Array(bytes);
   const records = new Uint8Array(points * POINT_BYTES);
   const corners = new Uint32Array(triangles * 3);

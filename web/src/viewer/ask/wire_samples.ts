@@ -38,15 +38,31 @@ export function decodeSlice(bytes: ArrayBuffer, axis: AxisNumber, index: number)
   const header = headerOf(bytes, 0x69617331, "slice");
   const [columns, rows, step, type] = [4, 8, 12, 16].map((at) => header.getUint32(at, true)) as [number, number, number, number];
   const Samples = TYPES[type];
-  if (!Samples || bytes.byteLength !== HEADER_BYTES + columns * rows * Samples.BYTES_PER_ELEMENT) throw new Error("the server sent a part of a slice");
-  return { axis, index, columns, rows, step, samples: new Samples(bytes, HEADER_BYTES), slope: header.getFloat64(24, true), intercept: header.getFloat64(32, true) };
+  if (!Samples || bytes.byteLength !== HEADER_BYTES + columns * rows * Samples.BYTES_PER_ELEMENT)
+    throw new Error("the server sent a part of a slice");
+  return {
+    axis,
+    index,
+    columns,
+    rows,
+    step,
+    samples: new Samples(bytes, HEADER_BYTES),
+    slope: header.getFloat64(24, true),
+    intercept: header.getFloat64(32, true),
+  };
 }
 
 export function decodeVolume(bytes: ArrayBuffer): CoarseVolume {
   const header = headerOf(bytes, 0x69617631, "volume");
   const size = AXES.map((axis) => header.getUint32(4 + 4 * axis, true)) as Triple;
   if (bytes.byteLength !== HEADER_BYTES + size[0] * size[1] * size[2]) throw new Error("the server sent a part of a volume");
-  return { size, step: header.getUint32(16, true), low: header.getFloat64(24, true), high: header.getFloat64(32, true), bytes: new Uint8Array(bytes, HEADER_BYTES) };
+  return {
+    size,
+    step: header.getUint32(16, true),
+    low: header.getFloat64(24, true),
+    high: header.getFloat64(32, true),
+    bytes: new Uint8Array(bytes, HEADER_BYTES),
+  };
 }
 
 /** In units of the file, at a sample of the volume; null: it lies between those that are there, or outside. */
@@ -54,12 +70,25 @@ export function valueAt(slice: Slice, voxel: readonly number[]): number | null {
   const [across, down] = acrossAndDown(slice.axis);
   const column = (voxel[across] ?? 0) / slice.step;
   const row = (voxel[down] ?? 0) / slice.step;
-  if (voxel[slice.axis] !== slice.index || !Number.isInteger(column) || !Number.isInteger(row) || column >= slice.columns || row >= slice.rows) return null;
+  if (
+    voxel[slice.axis] !== slice.index ||
+    !Number.isInteger(column) ||
+    !Number.isInteger(row) ||
+    column >= slice.columns ||
+    row >= slice.rows
+  )
+    return null;
   return slice.slope * (slice.samples[column + slice.columns * row] ?? 0) + slice.intercept;
 }
 
-/** Red, green, blue, opacity, row by row, of a picture with these columns and rows of the samples. black, white: values in units of the file. */
-export function greyOf(slice: Slice, columns: Uint32Array, rows: Uint32Array, black: number, white: number): Uint8ClampedArray<ArrayBuffer> {
+/** Red, green, blue, opacity, row by row, of a picture with these columns and rows. black, white: values in units of the file. */
+export function greyOf(
+  slice: Slice,
+  columns: Uint32Array,
+  rows: Uint32Array,
+  black: number,
+  white: number,
+): Uint8ClampedArray<ArrayBuffer> {
   const pixels = new Uint8ClampedArray(4 * columns.length * rows.length).fill(255);
   const factor = (255 / (white - black || 1)) * slice.slope;
   const first = (255 / (white - black || 1)) * (slice.intercept - black);

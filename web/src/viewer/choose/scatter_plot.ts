@@ -92,7 +92,8 @@ export class ScatterPlot {
       }
     };
     const filled = (colour: string): void => void ((pen.fillStyle = colour), pen.fill());
-    const drawn = (colour: string, width: number): void => void (([pen.strokeStyle, pen.lineWidth] = [colour, width * pixel]), pen.stroke());
+    const drawn = (colour: string, width: number): void =>
+      void (([pen.strokeStyle, pen.lineWidth] = [colour, width * pixel]), pen.stroke());
     pen.globalAlpha = 0.4;
     dots(1.6, ({ rank }) => !chosen.has(rank));
     filled(ink("soft"));
@@ -113,7 +114,8 @@ export class ScatterPlot {
     const { choice } = this.marks;
     if (!choice || [...choice.contrast, ...choice.size].every((limit) => limit === null)) return;
     const { left, top, width, height } = this.plot.bbox;
-    const at = (axis: "x" | "y", limit: number | null, none: number): number => (limit === null ? none : this.plot.valToPos(limit, axis, true));
+    const at = (axis: "x" | "y", limit: number | null, none: number): number =>
+      limit === null ? none : this.plot.valToPos(limit, axis, true);
     const [x0, x1] = [at("x", choice.contrast[0], left), at("x", choice.contrast[1], left + width)];
     const [y0, y1] = [at("y", choice.size[0], top + height), at("y", choice.size[1], top)];
     pen.globalAlpha = 0.12;

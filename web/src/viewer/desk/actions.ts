@@ -24,7 +24,14 @@ export class Actions {
     target.addEventListener("keydown", (event) => {
       const key = keyOf(event);
       const action = this.all.find(({ keys }) => keys?.includes(key));
-      if (!action || event.defaultPrevented || event.altKey || (isTyping(event) && !key.startsWith("Ctrl+")) || target.querySelector("dialog[open]")) return;
+      if (
+        !action ||
+        event.defaultPrevented ||
+        event.altKey ||
+        (isTyping(event) && !key.startsWith("Ctrl+")) ||
+        target.querySelector("dialog[open]")
+      )
+        return;
       action.run();
       event.preventDefault();
     });

@@ -18,7 +18,11 @@ export function plotIn(element: HTMLElement, options: Options, data: uPlot.Align
     pen.restore();
   };
   const size = (): { width: number; height: number } => ({ width: element.clientWidth, height: element.clientHeight });
-  const plot = new uPlot({ ...options, ...size(), legend: { show: false }, cursor: { show: false }, hooks: { draw: [draw] } }, data, element);
+  const plot = new uPlot(
+    { ...options, ...size(), legend: { show: false }, cursor: { show: false }, hooks: { draw: [draw] } },
+    data,
+    element,
+  );
   new ResizeObserver(() => element.clientWidth > 0 && plot.setSize(size())).observe(element);
   onTheme(() => plot.redraw(false));
   return plot;

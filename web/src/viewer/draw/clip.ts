@@ -1,6 +1,7 @@
 // A plane that cuts everything open, and the cut faces: what is solid behind the plane shows as solid.
 //
-// Closed surfaces: where the back sides of a surface in front of the far half outnumber its front sides, the plane is inside it. The stencil counts.
+// Closed surfaces: where the back sides of a surface in front of the far half outnumber its front sides, the plane is inside it. The
+// stencil counts.
 import * as three from "three";
 
 const FACE = new three.PlaneGeometry(1, 1);

@@ -10,7 +10,12 @@ export const DARK: Light = [0, 0, 0, 0];
 export function behind(light: Light, [red, green, blue, extinction]: Matter, length: number): Light {
   if (extinction <= 0) return light;
   const more = (1 - light[3]) * (1 - Math.exp(-extinction * length));
-  return [light[0] + (more * red) / extinction, light[1] + (more * green) / extinction, light[2] + (more * blue) / extinction, light[3] + more];
+  return [
+    light[0] + (more * red) / extinction,
+    light[1] + (more * green) / extinction,
+    light[2] + (more * blue) / extinction,
+    light[3] + more,
+  ];
 }
 
 /** What a ray gathers from begin to end in steps; placeAt: the place of the value there in the table of transfer.ts. */

@@ -15,10 +15,17 @@ export class Mark {
     private readonly stage: Stage,
     private readonly grid: Grid,
   ) {
-    const room = (count: number): three.BufferGeometry => new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(new Float32Array(3 * count), 3));
-    this.lines = new three.LineSegments(room(6), new three.LineBasicMaterial({ color: COLOUR, transparent: true, opacity: 0.55, depthTest: false }));
+    const room = (count: number): three.BufferGeometry =>
+      new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(new Float32Array(3 * count), 3));
+    this.lines = new three.LineSegments(
+      room(6),
+      new three.LineBasicMaterial({ color: COLOUR, transparent: true, opacity: 0.55, depthTest: false }),
+    );
     const size = 9 * stage.renderer.getPixelRatio();
-    this.point = new three.Points(room(1), new three.PointsMaterial({ color: COLOUR, size, sizeAttenuation: false, depthTest: false, transparent: true }));
+    this.point = new three.Points(
+      room(1),
+      new three.PointsMaterial({ color: COLOUR, size, sizeAttenuation: false, depthTest: false, transparent: true }),
+    );
     this.lines.renderOrder = this.point.renderOrder = 1000;
     for (const thing of [this.lines, this.point]) thing.frustumCulled = false;
     this.group.add(this.lines, this.point);
@@ -33,7 +40,9 @@ export class Mark {
       this.group.removeFromParent();
       return this.stage.draw();
     }
-    const ends = AXES.flatMap((axis) => [0, this.grid.size[axis] - 1].map((end) => this.grid.place(voxel.map((n, other) => (other === axis ? end : n)))));
+    const ends = AXES.flatMap((axis) =>
+      [0, this.grid.size[axis] - 1].map((end) => this.grid.place(voxel.map((n, other) => (other === axis ? end : n)))),
+    );
     fill(this.lines, ends);
     fill(this.point, [this.grid.place(voxel)]);
     this.stage.add(this.group);

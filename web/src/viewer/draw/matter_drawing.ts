@@ -42,11 +42,31 @@ export class MatterDrawing {
     this.opaque.depthTexture = new three.DepthTexture(1, 1, three.UnsignedInt248Type);
     this.opaque.depthTexture.format = three.DepthStencilFormat;
     this.values = new three.Data3DTexture(volume.bytes, ...volume.size);
-    Object.assign(this.values, { format: three.RedFormat, minFilter: three.LinearFilter, magFilter: three.LinearFilter, unpackAlignment: 1, needsUpdate: true });
+    Object.assign(this.values, {
+      format: three.RedFormat,
+      minFilter: three.LinearFilter,
+      magFilter: three.LinearFilter,
+      unpackAlignment: 1,
+      needsUpdate: true,
+    });
     this.finest = volume.step * Math.min(...grid.rulers.map(({ finest }) => finest));
-    const uniforms = { ...placedIn(grid, volume), values: this.values, transfer: null, depths: this.opaque.depthTexture, toWorld: new three.Matrix4(), cut: new three.Vector4(), step_: 1, density: 1, lamp: new three.Vector3(), seed: 0 };
+    const uniforms = {
+      ...placedIn(grid, volume),
+      values: this.values,
+      transfer: null,
+      depths: this.opaque.depthTexture,
+      toWorld: new three.Matrix4(),
+      cut: new three.Vector4(),
+      step_: 1,
+      density: 1,
+      lamp: new three.Vector3(),
+      seed: 0,
+    };
     this.rays = shader(FRAGMENT, uniforms);
-    const triangle = new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const triangle = new three.BufferGeometry().setAttribute(
+      "position",
+      new three.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
+    );
     const everywhere = (material: three.ShaderMaterial): three.Mesh<three.BufferGeometry, three.ShaderMaterial> => {
       const mesh = new three.Mesh(triangle, material);
       mesh.frustumCulled = false;
@@ -54,7 +74,12 @@ export class MatterDrawing {
     };
     this.alone.add(everywhere(this.rays));
     this.overlay = everywhere(shader(OVERLAY, { matter: this.target.texture }));
-    Object.assign(this.overlay.material, { transparent: true, blending: three.CustomBlending, blendSrc: three.OneFactor, blendDst: three.OneMinusSrcAlphaFactor });
+    Object.assign(this.overlay.material, {
+      transparent: true,
+      blending: three.CustomBlending,
+      blendSrc: three.OneFactor,
+      blendDst: three.OneMinusSrcAlphaFactor,
+    });
     this.overlay.renderOrder = -1; // what is transparent comes over it
     this.overlay.visible = false;
     stage.onPass((scene, isStill) => this.draw(scene, isStill));
@@ -95,7 +120,13 @@ export class MatterDrawing {
   /** All that the picture depends on, but for surfaces. */
   private get look(): string {
     const { camera } = this.stage.eye;
-    return [...camera.matrixWorld.elements, ...camera.projectionMatrix.elements, this.stage.cutPlane?.constant, this.rays.uniforms.density!.value, ...this.stage.renderer.getDrawingBufferSize(new three.Vector2()).toArray()].join();
+    return [
+      ...camera.matrixWorld.elements,
+      ...camera.projectionMatrix.elements,
+      this.stage.cutPlane?.constant,
+      this.rays.uniforms.density!.value,
+      ...this.stage.renderer.getDrawingBufferSize(new three.Vector2()).toArray(),
+    ].join();
   }
 
   /** side: of the pixels of a side, 0 to 1. */
@@ -103,7 +134,8 @@ export class MatterDrawing {
     const { renderer, eye, cutPlane } = this.stage;
     const { camera } = eye;
     const size = renderer.getDrawingBufferSize(new three.Vector2()).multiplyScalar(side).ceil();
-    for (const target of [this.target, this.opaque]) if (target.width !== size.x || target.height !== size.y) target.setSize(size.x, size.y);
+    for (const target of [this.target, this.opaque])
+      if (target.width !== size.x || target.height !== size.y) target.setSize(size.x, size.y);
     camera.updateMatrixWorld();
     const { uniforms } = this.rays;
     (uniforms.toWorld!.value as three.Matrix4).multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
@@ -134,7 +166,14 @@ export class MatterDrawing {
 
 function shader(fragmentShader: string, values: Record<string, unknown>): three.ShaderMaterial {
   const uniforms = Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }]));
-  return new three.ShaderMaterial({ glslVersion: three.GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, depthTest: false, depthWrite: false });
+  return new three.ShaderMaterial({
+    glslVersion: three.GLSL3,
+    vertexShader: VERTEX,
+    fragmentShader,
+    uniforms,
+    depthTest: false,
+    depthWrite: false,
+  });
 }
 
 /** The texture has a texel for every cube of samples; the box ends at the outermost samples. */
@@ -144,7 +183,14 @@ function placedIn(grid: Grid, { size, step }: CoarseVolume): { toTexture: three.
     const scale = 1 / (step * size[axis]! * grid.rulers[axis]!.finest);
     return [row[0]! * scale, row[1]! * scale, row[2]! * scale, texture(row[3]! / grid.rulers[axis]!.finest, axis)];
   });
-  const toTexture = new three.Matrix4().set(...(rows.flat() as [number, number, number, number, number, number, number, number, number, number, number, number]), 0, 0, 0, 1);
-  const ends = (end: 0 | 1): three.Vector3 => new three.Vector3(...(AXES.map((axis) => texture(end * (grid.size[axis] - 1), axis)) as [number, number, number]));
+  const toTexture = new three.Matrix4().set(
+    ...(rows.flat() as [number, number, number, number, number, number, number, number, number, number, number, number]),
+    0,
+    0,
+    0,
+    1,
+  );
+  const ends = (end: 0 | 1): three.Vector3 =>
+    new three.Vector3(...(AXES.map((axis) => texture(end * (grid.size[axis] - 1), axis)) as [number, number, number]));
   return { toTexture, low: ends(0), high: ends(1) };
 }

@@ -12,7 +12,10 @@ const LABEL_PIXELS = 24;
 const FONT = "600 30px system-ui, sans-serif";
 
 function line(places: readonly Triple[], width: number): Line2 {
-  const drawn = new Line2(new LineGeometry().setPositions(places.flat()), new LineMaterial({ color: COLOUR, linewidth: width, depthTest: false, transparent: true }));
+  const drawn = new Line2(
+    new LineGeometry().setPositions(places.flat()),
+    new LineMaterial({ color: COLOUR, linewidth: width, depthTest: false, transparent: true }),
+  );
   drawn.renderOrder = 1001;
   return drawn;
 }
@@ -20,7 +23,10 @@ function line(places: readonly Triple[], width: number): Line2 {
 function ends(stage: Stage, places: readonly Triple[]): three.Points {
   const geometry = new three.BufferGeometry().setFromPoints(places.map((place) => new three.Vector3(...place)));
   const size = 8 * stage.renderer.getPixelRatio();
-  const drawn = new three.Points(geometry, new three.PointsMaterial({ color: COLOUR, size, sizeAttenuation: false, depthTest: false, transparent: true }));
+  const drawn = new three.Points(
+    geometry,
+    new three.PointsMaterial({ color: COLOUR, size, sizeAttenuation: false, depthTest: false, transparent: true }),
+  );
   drawn.renderOrder = 1002;
   return drawn;
 }

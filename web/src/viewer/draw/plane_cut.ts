@@ -24,7 +24,7 @@ export class SlicedMesh {
   }
 
   /**
-   * Pieces of the contour, four numbers each: how long both ends lie along columns and rows. A point on the plane counts as in front of it, so
+   * Pieces of the contour, four numbers each: how far both ends lie along columns and rows. A point on the plane counts as before it, so
    * that the curves of a closed surface are closed. Cost: a pass over points and triangles for the first slice of an axis; then over
    * the blocks, and the triangles of those that the plane passes.
    */

@@ -75,10 +75,8 @@ export class SliceView {
     const name = AXIS_NAMES[this.axis];
     const coarse = slice && slice.step > 1 ? `, every ${slice.step}th sample` : "";
     this.caption.textContent = `${name} ${cross[this.axis]} of ${size}${coarse}`;
-    this.canvas.setAttribute(
-      "aria-label",
-      `slice ${cross[this.axis]} of ${size} along ${name}; arrows move the crosshair, page up and page down step, Enter selects what is there`,
-    );
+    const keys = "arrows move the crosshair, page up and page down step, Enter selects what is there";
+    this.canvas.setAttribute("aria-label", `slice ${cross[this.axis]} of ${size} along ${name}; ${keys}`);
     this.compose(contours);
     return fresh;
   }
@@ -126,7 +124,13 @@ export class SliceView {
   }
 
   /** Light and dark around it, so that it is seen on any grey. */
-  private drawContour(pen: CanvasRenderingContext2D, { left, top, column, row }: Frame, pieces: Float32Array, colour: string, ratio: number): void {
+  private drawContour(
+    pen: CanvasRenderingContext2D,
+    { left, top, column, row }: Frame,
+    pieces: Float32Array,
+    colour: string,
+    ratio: number,
+  ): void {
     const path = new Path2D();
     for (let i = 0; i < pieces.length; i += 4) {
       path.moveTo(left + column * (pieces[i] as number), top + row * (pieces[i + 1] as number));
@@ -146,7 +150,12 @@ export class SliceView {
     const right = left + column * this.columns.length(this.columns.size - 1);
     const [high, low] = [top, top + row * this.rows.length(this.rows.size - 1)].sort((p, q) => p - q) as [number, number];
     const path = new Path2D();
-    for (const [x0, y0, x1, y1] of [[left, y, x - gap, y], [x + gap, y, right, y], [x, high, x, y - gap], [x, y + gap, x, low]] as const) {
+    for (const [x0, y0, x1, y1] of [
+      [left, y, x - gap, y],
+      [x + gap, y, right, y],
+      [x, high, x, y - gap],
+      [x, y + gap, x, low],
+    ] as const) {
       path.moveTo(x0, y0);
       path.lineTo(x1, y1);
     }
@@ -186,10 +195,14 @@ export class SliceView {
       if (!pressed.far) this.wishes.choose(voxel);
       pressed = null;
     });
-    this.canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.wishes.step(this.axis, event.deltaY < 0 ? 1 : -1);
-    }, { passive: false });
+    this.canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.wishes.step(this.axis, event.deltaY < 0 ? 1 : -1);
+      },
+      { passive: false },
+    );
     this.canvas.addEventListener("keydown", (event) => this.press(event));
   }
 

@@ -120,7 +120,12 @@ export class Stage {
   /** The surfaces that are seen. */
   get standing(): Standing[] {
     const seen = [...this.bodies].filter(([, body]) => body.visible);
-    return seen.map(([key, body]) => ({ key, mesh: this.meshes.get(key) as Mesh, colour: `#${body.material.color.getHexString()}`, tau: Number(body.userData.tau) }));
+    return seen.map(([key, body]) => ({
+      key,
+      mesh: this.meshes.get(key) as Mesh,
+      colour: `#${body.material.color.getHexString()}`,
+      tau: Number(body.userData.tau),
+    }));
   }
 
   /** All there is in the middle of the picture. */
@@ -158,7 +163,12 @@ export class Stage {
   /** The nearest place there: of a surface, or of something beside them that can be touched (its userData says so). */
   touch(left: number, top: number): three.Vector3 | null {
     const caster = this.casterAt(left, top);
-    const places = caster.intersectObjects(this.scene.children.filter(({ userData }) => userData.touchable === true), false).map(({ point }) => point);
+    const places = caster
+      .intersectObjects(
+        this.scene.children.filter(({ userData }) => userData.touchable === true),
+        false,
+      )
+      .map(({ point }) => point);
     const hit = this.hit(left, top);
     if (hit) places.push(hit.point);
     const { origin } = caster.ray;

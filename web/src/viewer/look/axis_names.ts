@@ -22,7 +22,10 @@ export function facesOf(space: string): Face[] {
     const other = OPPOSITE[letter ?? ""];
     if (letter && other) return [face(normal, letter), face(against, other)];
     const own = "xyz"[axis] ?? "";
-    return [{ normal, letter: `+${own}`, name: `the far end of ${own}` }, { normal: against, letter: `−${own}`, name: `the near end of ${own}` }];
+    return [
+      { normal, letter: `+${own}`, name: `the far end of ${own}` },
+      { normal: against, letter: `−${own}`, name: `the near end of ${own}` },
+    ];
   });
 }
 

@@ -65,5 +65,11 @@ function turning(desk: Desk): void {
   overlay.addEventListener("pointerdown", stop, { capture: true });
   overlay.addEventListener("wheel", stop, { capture: true, passive: true });
   document.addEventListener("keydown", (event) => event.key !== "T" && event.key !== "Shift" && stop(), { capture: true });
-  actions.add({ group: "Look", name: "turn slowly by itself", keys: ["T"], run: () => (last === null ? start() : stop()), isOn: () => last !== null });
+  actions.add({
+    group: "Look",
+    name: "turn slowly by itself",
+    keys: ["T"],
+    run: () => (last === null ? start() : stop()),
+    isOn: () => last !== null,
+  });
 }

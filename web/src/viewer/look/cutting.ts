@@ -33,7 +33,8 @@ export function cutting(desk: Desk, tools: HTMLElement): void {
   };
   slider.addEventListener("input", () => slide(true));
   slider.addEventListener("change", () => slide(false));
-  const button = (name: string, title: string, run: () => void): HTMLElement => html("button", { type: "button", title, "aria-label": title, click: run }, name);
+  const button = (name: string, title: string, run: () => void): HTMLElement =>
+    html("button", { type: "button", title, "aria-label": title, click: run }, name);
   const bar = html(
     "div",
     { class: "cut-bar", role: "group", "aria-label": "the cut", hidden: true },
@@ -56,7 +57,13 @@ export function cutting(desk: Desk, tools: HTMLElement): void {
     const cut = now();
     if (cut) go(moved(cut, by, corners), !done);
   });
-  actions.add({ group: "Look", name: "cut everything open, from where you look", keys: ["c"], run: () => go(now() ? null : fromHere()), isOn: () => now() !== null });
+  actions.add({
+    group: "Look",
+    name: "cut everything open, from where you look",
+    keys: ["c"],
+    run: () => go(now() ? null : fromHere()),
+    isOn: () => now() !== null,
+  });
   for (const axis of AXES) actions.add({ group: "Look", name: `cut along ${AXIS_NAMES[axis]}`, run: along(axis) });
   actions.add(
     { group: "Look", name: "cut deeper", keys: [">"], run: change(([x, y, z, share]) => [x!, y!, z!, Math.max(0, share! - STEP)]) },

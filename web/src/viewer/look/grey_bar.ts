@@ -34,6 +34,19 @@ export function greyBar({ page, history }: Desk): HTMLElement {
     input.addEventListener("change", () => put(false));
   }
   follow(history, GREY, show);
-  const reset = html("button", { type: "button", title: "brightness as the histogram says", click: () => history.go(GREY.in(history.now, null)) }, "reset");
-  return html("div", { class: "grey", role: "group", "aria-label": "brightness" }, html("span", { class: "soft" }, "black"), black, html("span", { class: "soft" }, "white"), white, text, reset);
+  const reset = html(
+    "button",
+    { type: "button", title: "brightness as the histogram says", click: () => history.go(GREY.in(history.now, null)) },
+    "reset",
+  );
+  return html(
+    "div",
+    { class: "grey", role: "group", "aria-label": "brightness" },
+    html("span", { class: "soft" }, "black"),
+    black,
+    html("span", { class: "soft" }, "white"),
+    white,
+    text,
+    reset,
+  );
 }

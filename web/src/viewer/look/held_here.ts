@@ -55,9 +55,18 @@ export class HeldHere {
       const title = titleOf(page, entry);
       const swatch = html("span", { class: "swatch", style: `background:${colourOf(page, entry)}` });
       const hint = shown.has(entry) ? `select ${title}` : `show ${title}`;
-      return html("button", { type: "button", class: shown.has(entry) ? "chip on" : "chip", title: hint, click: () => this.take(entry) }, swatch, title);
+      return html(
+        "button",
+        { type: "button", class: shown.has(entry) ? "chip on" : "chip", title: hint, click: () => this.take(entry) },
+        swatch,
+        title,
+      );
     });
     const more = entries.length - LISTED;
-    this.element.replaceChildren(entries.length > 0 ? "in " : "in none of the objects", ...chips, ...(more > 0 ? [`and ${more} more`] : []));
+    this.element.replaceChildren(
+      entries.length > 0 ? "in " : "in none of the objects",
+      ...chips,
+      ...(more > 0 ? [`and ${more} more`] : []),
+    );
   }
 }

@@ -50,7 +50,9 @@ function showEdges({ page, stage, history }: Desk): void {
     if (edges) stage.drop(edges);
     edges = null;
     if (!on) return;
-    const ends = AXES.flatMap((axis) => corners.flatMap((corner, i) => (i & (1 << axis) ? [] : [corner, corners[i | (1 << axis)] ?? corner])));
+    const ends = AXES.flatMap((axis) =>
+      corners.flatMap((corner, i) => (i & (1 << axis) ? [] : [corner, corners[i | (1 << axis)] ?? corner])),
+    );
     const geometry = new three.BufferGeometry().setFromPoints(ends);
     edges = new three.LineSegments(geometry, new three.LineBasicMaterial({ color: 0x888888 }));
     stage.add(edges);

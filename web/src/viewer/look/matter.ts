@@ -39,7 +39,8 @@ export class MatterPanel {
 
   private toggle(): void {
     const { history, page } = this.desk;
-    if (!isEven(page)) return this.desk.say("The steps between its samples are uneven: such a volume is not drawn as matter. Its slices are: k.");
+    if (!isEven(page))
+      return this.desk.say("The steps between its samples are uneven: such a volume is not drawn as matter. Its slices are: k.");
     history.go(MATTER.in(history.now, MATTER.of(history.now) === null ? 1 : null));
   }
 
@@ -75,7 +76,8 @@ export class MatterPanel {
 
   private tell({ size, step }: CoarseVolume, bumps: Bump[]): void {
     const skins = bumps.filter((bump, i) => bumps.findIndex(({ tau }) => tau === bump.tau) === i);
-    const item = ({ tau, colour }: Bump): HTMLElement => html("span", {}, html("span", { class: "swatch", style: `background:${colour}` }), ` above ${value(tau)}`);
+    const item = ({ tau, colour }: Bump): HTMLElement =>
+      html("span", {}, html("span", { class: "swatch", style: `background:${colour}` }), ` above ${value(tau)}`);
     this.legend.replaceChildren(...skins.map(item));
     const means = step === 1 ? "every sample" : `means of ${step} × ${step} × ${step} samples`;
     this.about.textContent = `${size.map(count).join(" × ")}: ${means}, 8 bits each`;
@@ -85,5 +87,8 @@ export class MatterPanel {
 /** In the colours of the objects that they show. */
 export function colouredAs(page: Page, bumps: readonly Bump[]): Bump[] {
   const near = 1e-6 * (page.axis.high - page.axis.low);
-  return bumps.map((bump) => ({ ...bump, colour: page.entries.find(({ tau }) => Math.abs(tau - bump.tau) <= near)?.colour ?? bump.colour }));
+  return bumps.map((bump) => ({
+    ...bump,
+    colour: page.entries.find(({ tau }) => Math.abs(tau - bump.tau) <= near)?.colour ?? bump.colour,
+  }));
 }

@@ -75,12 +75,20 @@ export class Measuring {
     this.drawing.show(measures, texts, this.pending);
     this.element.hidden = measures.length === 0 && this.places === 0;
     this.desk.overlay.classList.toggle("measuring", this.places > 0);
-    this.hint.textContent = this.places > 0 ? `${WHAT[this.places as 2 | 3]}: click the ${NUMBERS[this.pending.length]} place, or press e for the crosshair; Escape ends` : "";
+    this.hint.textContent =
+      this.places > 0
+        ? `${WHAT[this.places as 2 | 3]}: click the ${NUMBERS[this.pending.length]} place, or press e for the crosshair; Escape ends`
+        : "";
     this.list.replaceChildren(
       ...measures.map((measure, i) => {
         const what = measure.length === 3 ? "angle" : "distance";
         const remove = (): void => this.go(measures.filter((_, other) => other !== i));
-        return html("li", {}, html("span", {}, `${what} `, html("b", {}, texts[i])), html("button", { type: "button", "aria-label": `remove ${what} ${texts[i]}`, click: remove }, "✕"));
+        return html(
+          "li",
+          {},
+          html("span", {}, `${what} `, html("b", {}, texts[i])),
+          html("button", { type: "button", "aria-label": `remove ${what} ${texts[i]}`, click: remove }, "✕"),
+        );
       }),
     );
   }

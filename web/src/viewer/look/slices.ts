@@ -56,10 +56,20 @@ export class Slices {
     this.mark = new Mark(stage, this.grid);
     this.held = new HeldHere(desk);
     this.views = AXES.map(
-      (axis) => new SliceView(axis, this.grid, { move: (voxel, dragging) => this.move(voxel, dragging), step: (axis, by) => this.step(axis, by), choose: (voxel) => this.choose(voxel) }),
+      (axis) =>
+        new SliceView(axis, this.grid, {
+          move: (voxel, dragging) => this.move(voxel, dragging),
+          step: (axis, by) => this.step(axis, by),
+          choose: (voxel) => this.choose(voxel),
+        }),
     );
     const foot = html("div", { class: "foot" }, this.said, this.held.element, greyBar(desk));
-    this.element = html("section", { class: "slices", "aria-label": "slices", hidden: true }, html("div", { class: "views" }, ...this.views.map((view) => view.element)), foot);
+    this.element = html(
+      "section",
+      { class: "slices", "aria-label": "slices", hidden: true },
+      html("div", { class: "views" }, ...this.views.map((view) => view.element)),
+      foot,
+    );
     overlay.append(this.element);
     this.addActions();
     this.listen();
@@ -147,7 +157,12 @@ export class Slices {
     actions.add(
       { group: "Tools", name: "slices", keys: ["k"], ...switching(this.desk, SLICES) },
       { group: "Tools", name: "slices in the picture", keys: ["K"], ...switching(this.desk, PLANES) },
-      { group: "Tools", name: "select what holds the sample at the crosshair", keys: ["a"], run: () => void this.held.choose(crosshairOf(this.desk)) },
+      {
+        group: "Tools",
+        name: "select what holds the sample at the crosshair",
+        keys: ["a"],
+        run: () => void this.held.choose(crosshairOf(this.desk)),
+      },
     );
     for (const axis of AXES) {
       actions.add({ group: "Tools", name: `crosshair back along ${AXIS_NAMES[axis]}`, keys: [KEYS[2 * axis] ?? ""], run: step(axis, -1) });

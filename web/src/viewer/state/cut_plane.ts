@@ -3,7 +3,12 @@ import { cross, dot, type Triple } from "./grid";
 import { numbers } from "./part";
 
 /** A unit vector that points from what is cut away to what stays, and which share of the volume's extent along it stays. */
-export const CUT = numbers("cut", "the cut", 4, ([x, y, z, share]) => Math.abs(Math.hypot(x!, y!, z!) - 1) < 1e-3 && share! >= 0 && share! <= 1);
+export const CUT = numbers(
+  "cut",
+  "the cut",
+  4,
+  ([x, y, z, share]) => Math.abs(Math.hypot(x!, y!, z!) - 1) < 1e-3 && share! >= 0 && share! <= 1,
+);
 
 export interface Plane {
   normal: Triple;

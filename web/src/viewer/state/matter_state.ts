@@ -7,7 +7,7 @@ const MOST = 16;
 /** factor of the densities that the tree proposes; null: the volume is not drawn */
 export const MATTER = number("matter", "the volume as matter", (factor) => factor > 0 && factor <= MOST);
 
-/** Rays take steps of one length through samples: neither the picture here nor `isoatlas render --volume` is of a grid with uneven steps. */
+/** Matter is drawn of grids with even steps only: rays go from sample to sample, here and in `isoatlas render --volume`. */
 export function isEven({ volume }: Pick<Page, "volume">): boolean {
   return volume.spacing !== null;
 }

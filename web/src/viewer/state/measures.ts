@@ -18,7 +18,13 @@ function read(text: string): Measure[] | null {
   return measures.length <= MOST ? measures : null;
 }
 
-export const MEASURES = new Part<Measure[]>("measure", "measures", [], (measures) => measures.map((places) => textOf(places.flat())).join(";"), read);
+export const MEASURES = new Part<Measure[]>(
+  "measure",
+  "measures",
+  [],
+  (measures) => measures.map((places) => textOf(places.flat())).join(";"),
+  read,
+);
 
 export function lengthOf(measure: Measure): number {
   return distance(measure[0] as Triple, measure[1] as Triple);

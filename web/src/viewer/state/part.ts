@@ -1,4 +1,5 @@
-// What a part of the viewer keeps in a state: one word of the address, under a name of its own. It is undone, linked and saved like the rest.
+// What a part of the viewer keeps in a state: one word of the address, under a name of its own. It is undone, linked and saved as the
+// rest.
 export interface HasParts {
   readonly parts: Readonly<Record<string, string>>;
 }

@@ -23,7 +23,8 @@ export function greyRange({ histogram, axis }: Pick<Page, "histogram" | "axis">)
     let sum = 0;
     for (let i = 0; i < counts.length; ++i) {
       const count = counts[i] ?? 0;
-      if (count > 0 && sum + count >= share * all) return (edges[i] ?? low) + ((share * all - sum) / count) * ((edges[i + 1] ?? high) - (edges[i] ?? low));
+      if (count > 0 && sum + count >= share * all)
+        return (edges[i] ?? low) + ((share * all - sum) / count) * ((edges[i + 1] ?? high) - (edges[i] ?? low));
       sum += count;
     }
     return high;
