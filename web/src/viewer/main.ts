@@ -122,7 +122,8 @@ async function start(main: HTMLElement): Promise<void> {
   try {
     const page = await pageWhenThere(api, main);
     document.title = `${page.volume.name} – isoatlas`;
-    if (page.volume.size.length !== 3) throw new Error("An image has no surfaces to explore; isoatlas with the name of its file makes a page of it.");
+    if (page.volume.size.length !== 3)
+      throw new Error("An image has no surfaces to explore; isoatlas with the name of its file makes a page of it.");
     const asked = fromHash(location.hash, numbersOf(page));
     const catalogue = new Catalogue(page);
     if (asked && needsAll(page, asked)) catalogue.learn(await api.branches(MOST_LISTED));

@@ -24,7 +24,7 @@ export async function measuredFacts({ api, page }: Desk, shown: Shown): Promise<
   }
 }
 
-/** id: of the object that was asked for. Without a unit, and with bounds alone, its size is what its surface encloses. */
+/** id: of the object that was asked for. */
 export function factsOf(there: Measures, id: number, tau: number, unit: string | null): [name: string, text: string][] {
   return [
     [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit)}`],
@@ -36,7 +36,7 @@ export function factsOf(there: Measures, id: number, tau: number, unit: string |
 /** of the most: then the least says something, too */
 const KNOWN = 0.8;
 
-/** Voxels are counted between the isovalues of events only: bounds that say little are left out. */
+/** Of voxels there may be bounds alone: those that say little are left out; without a unit, what the surface encloses is told. */
 function sizeOf({ voxels: [least, most], volume: enclosed }: Measures, unit: string | null): string {
   const voxels = least === most ? plural(most, "voxel") : `${count(least)} to ${plural(most, "voxel")}`;
   if (unit === null) return least === most ? voxels : `about ${plural(Number(enclosed.toPrecision(3)), "voxel")}`;

@@ -44,7 +44,9 @@ export class ObjectPanel {
     this.title.textContent = titleOf(this.desk.page, i);
     fill(
       this.facts,
-      i === EVERYTHING ? [["what", ["everything at least as bright as its isovalue"]]] : [...this.known(i), ...(isMeasured ? [] : this.there(i)), ...this.relations(i)],
+      i === EVERYTHING
+        ? [["what", ["everything at least as bright as its isovalue"]]]
+        : [...this.known(i), ...(isMeasured ? [] : this.there(i)), ...this.relations(i)],
     );
   }
 
