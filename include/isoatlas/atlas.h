@@ -125,7 +125,7 @@ public:
 
     /// The branches of the criticality tree, for selections and simplified trees. Cost: reads the trees and no sample. Of volumes with more
     /// than one critical element for three voxels, of grids with uneven steps, and of stores of early versions, all samples are read and
-    /// analysed again.
+    /// their zones found again.
     [[nodiscard]] BranchHierarchy hierarchy(const Context& context = {}) const;
 
     /// The trees, without zones of voxels.

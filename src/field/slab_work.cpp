@@ -4,17 +4,10 @@
 #include <atomic>
 #include <thread>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
-#include "isoatlas/error.h"
 
 namespace isoatlas {
-namespace {
-
-void stop_if_cancelled(const Context& context) {
-    if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-}
-
-}  // namespace
 
 std::int64_t slab_height(const Context& context, const Slices& slices) {
     if (context.slab_slices > 0) return context.slab_slices;

@@ -137,7 +137,7 @@ Answer Service::atlas_answer() {
 }
 
 const page::PageContents& Service::contents() const {
-    return contents_.get([&atlas = atlas(), this] { return page::page_contents(atlas, {}, context_); });
+    return contents_.get([&atlas = atlas(), this] { return page::page_contents(atlas, overview_of(atlas, context_), {}, context_); });
 }
 
 Answer Service::preview_answer(const Question& question) {
