@@ -149,8 +149,8 @@ Surface Atlas::extract(double tau, const ExtractOptions& options, const Context&
     });
 }
 
-ActiveObjects Atlas::active(double tau, bool contours) const {
-    return active_index().at(tau, {.contours = contours, .integer_samples = !is_floating(info().type)});
+ActiveObjects Atlas::active(double tau, bool contours, const Context& context) const {
+    return active_index().at(tau, {.contours = contours, .integer_samples = !is_floating(info().type)}, context);
 }
 
 const ActiveIndex& Atlas::active_index() const { return data_->trees_now().active; }

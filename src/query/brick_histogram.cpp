@@ -39,7 +39,7 @@ private:
 }  // namespace
 
 template <class T>
-std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, std::span<const double> edges, int threads,
+std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, std::span<const double> edges, const Context& context,
                                           store::IoCounters& counters) {
     std::vector<std::int64_t> counts(edges.size() + 1), wanted;
     for (std::int64_t b = 0; b < bricks.grid().count(); ++b) {
@@ -51,7 +51,7 @@ std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, s
     }
     const PartOf<T> part(edges);
     std::mutex mutex;
-    counters += bricks.read(std::move(wanted), threads, [&](std::int64_t, std::span<const T> samples) {
+    counters += bricks.read(std::move(wanted), context, [&](std::int64_t, std::span<const T> samples) {
         std::vector<std::int64_t> own(counts.size());
         for (const T sample : samples) ++own[part(sample)];
         const std::lock_guard lock(mutex);
@@ -60,8 +60,9 @@ std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, s
     return {counts.begin() + 1, counts.end() - 1};
 }
 
-#define ISOATLAS_INSTANTIATE(T) \
-    template std::vector<std::int64_t> brick_histogram<T>(const store::BrickReader<T>&, std::span<const double>, int, store::IoCounters&)
+#define ISOATLAS_INSTANTIATE(T)                                                                                                  \
+    template std::vector<std::int64_t> brick_histogram<T>(const store::BrickReader<T>&, std::span<const double>, const Context&, \
+                                                          store::IoCounters&)
 ISOATLAS_INSTANTIATE(std::uint8_t);
 ISOATLAS_INSTANTIATE(std::int8_t);
 ISOATLAS_INSTANTIATE(std::uint16_t);

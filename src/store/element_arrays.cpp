@@ -70,12 +70,12 @@ BigVector<std::uint64_t> sorted_grid_keys(std::span<const std::uint64_t> codes, 
 }
 
 /// All samples of a store, which has more critical elements than half of them.
-BigVector<std::byte> all_samples(const Container& store, int threads) {
+BigVector<std::byte> all_samples(const Container& store, const Context& context) {
     const VolumeInfo& volume = store.contents().volume;
     BigVector<std::byte> samples(static_cast<std::size_t>(volume.extent.voxels()) * size_of(volume.type));
     visit_type(volume.type, [&]<class T>(T) {
         const BrickReader<T> bricks(store);
-        (void)bricks.read_all(std::span<T>(reinterpret_cast<T*>(samples.data()), samples.size() / sizeof(T)), threads);
+        (void)bricks.read_all(std::span<T>(reinterpret_cast<T*>(samples.data()), samples.size() / sizeof(T)), context);
     });
     return samples;
 }
@@ -160,7 +160,7 @@ void read_elements(const Container& store, const std::byte* samples, const Conte
     if (!dense && !has_values) contradiction(store, "values of critical elements are missing");
     if (!dense || (has_values && contents.volume.type == ValueType::f64)) return read_array(store, kValue, type_name<double>(), values);
     BigVector<std::byte> own;
-    if (samples == nullptr) own = all_samples(store, context.threads);
+    if (samples == nullptr) own = all_samples(store, context);
     const VolumeView volume{contents.volume, samples == nullptr ? own.data() : samples};
     const double height = tunnel_height_of(contents.parameters.interpolant, contents.parameters.tunnel_height);
     if (has_values) return restore_values(store, volume, height, context.threads, codes, values);
