@@ -64,6 +64,13 @@ Context context_of(const Arguments& arguments) {
     return context;
 }
 
+/// While the browser starts.
+void prepare(Server& server) {
+    Context context;
+    context.cancelled = interrupted;
+    server.prepare(context);
+}
+
 void wait_for_the_end() {
     while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
@@ -96,6 +103,7 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
             code = report(error, false, terminal);
         }
     }
+    if (atlas) prepare(server);
     wait_for_the_end();
     return code;
 }

@@ -72,9 +72,9 @@ public:
     ActiveIndex& operator=(ActiveIndex&&) noexcept;
     ~ActiveIndex();
 
-    /// The same objects and contours as cut(). Throws Error{usage} when tau is not finite.
+    /// The same objects and contours as cut(). Throws Error: usage (tau is not finite), cancelled.
     /// Cost: O((1 + objects + contours) log events). Source: theory.md sections 4 to 7 (T3, T6).
-    [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options = {}) const;
+    [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options = {}, const Context& context = {}) const;
 
     /// What happens between two isovalues, whichever is higher. all: list also objects that stay what they are.
     /// Cost: O((1 + objects at both) log events).

@@ -104,15 +104,15 @@ public:
                                   QueryCost* cost = nullptr) const;
 
     /// The objects and contours at an isovalue, as in cut(), from the trees alone: no brick is read. Throws Error: usage (tau is not
-    /// finite), input (damaged). Cost: the first call reads the trees; then O((1 + what is listed) log events).
-    [[nodiscard]] ActiveObjects active(double tau, bool contours = true) const;
+    /// finite), input (damaged), cancelled. Cost: the first call reads the trees; then O((1 + what is listed) log events).
+    [[nodiscard]] ActiveObjects active(double tau, bool contours = true, const Context& context = {}) const;
     /// Who answers that, and what lies between two isovalues; lives as long as the Atlas. Cost: the first call reads the trees.
     [[nodiscard]] const ActiveIndex& active_index() const;
 
     /// What extract() and cut() of the whole volume would find and cost. For 8-bit samples, and for 16-bit ones of up to voxels / 256
     /// different values, voxels, cells and points are exact; else bounded by the values around tau. Cost: the first call reads the trees;
     /// then O(bricks + objects log events).
-    [[nodiscard]] SurfacePreview preview(double tau) const;
+    [[nodiscard]] SurfacePreview preview(double tau, const Context& context = {}) const;
 
     /// The table of objects, as from rank_objects(). Cost: reads the table, which is stored; with a selection the trees too. Without the
     /// gate, with a selection that keeps more than what passes the gate, for more than 1024 entries where there are so many, and for
@@ -125,7 +125,7 @@ public:
 
     /// The branches of the criticality tree, for selections and simplified trees. Cost: reads the trees and no sample. Of volumes with more
     /// than one critical element for three voxels, of grids with uneven steps, and of stores of early versions, all samples are read and
-    /// analysed again.
+    /// their zones found again.
     [[nodiscard]] BranchHierarchy hierarchy(const Context& context = {}) const;
 
     /// The trees, without zones of voxels.

@@ -13,7 +13,7 @@ class Holders {
 public:
     /// The atlas must live as long as this. Throws Error: usage (no such voxel), input (damaged). Cost: reads the bricks on a path from the
     /// sample that ascends to a maximum, and on one that descends to a minimum; the first call of an atlas reads the trees.
-    Holders(const Atlas& atlas, std::int64_t voxel);
+    Holders(const Atlas& atlas, std::int64_t voxel, const Context& context = {});
 
     /// Stored value of the sample.
     [[nodiscard]] double value() const { return value_; }

@@ -37,6 +37,9 @@ public:
     // From any thread: what those who have the page open see.
     /// From now on questions are answered from this store, which must live as long as this.
     void open(const Atlas& atlas);
+    /// Finds what every page asks first, from the store that is open, so that nobody waits for it; returns when it is found, cannot be
+    /// found, or stop() was called. Those who ask meanwhile wait for the same. Cost: the trees are read.
+    void prepare(const Context& context = {});
     /// The store is being built.
     void tell(const BuildState& state);
     /// There will be no store. Another tell() or open() takes it back.

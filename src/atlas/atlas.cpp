@@ -18,6 +18,7 @@
 #include "store/checksum.h"
 #include "store/container.h"
 #include "store/tree_arrays.h"
+#include "zones/analysis_data.h"
 
 namespace isoatlas {
 namespace {
@@ -38,7 +39,7 @@ struct Trees {
     Analysis analysis;
     ActiveIndex active;
 
-    explicit Trees(const store::Container& store) : analysis(store::analysis_of(store, 0)), active(analysis) {}
+    explicit Trees(Analysis made) : analysis(std::move(made)), active(analysis) {}
 };
 
 }  // namespace
@@ -53,6 +54,10 @@ struct Atlas::Data {
     store::IoCounters reads;
 
     Data(const std::string& path, const AtlasOptions& options) : store(path), samples(stored_samples(store, options.cache_bytes)) {}
+
+    [[nodiscard]] const Trees& trees_now() const {
+        return *trees.get([this] { return std::make_unique<Trees>(store::analysis_of(store, {})); });
+    }
 
     void count(const store::IoCounters& counters) {
         const std::lock_guard lock(mutex);
@@ -144,46 +149,43 @@ Surface Atlas::extract(double tau, const ExtractOptions& options, const Context&
     });
 }
 
-ActiveObjects Atlas::active(double tau, bool contours) const {
-    return active_index().at(tau, {.contours = contours, .integer_samples = !is_floating(info().type)});
+ActiveObjects Atlas::active(double tau, bool contours, const Context& context) const {
+    return active_index().at(tau, {.contours = contours, .integer_samples = !is_floating(info().type)}, context);
 }
 
-const ActiveIndex& Atlas::active_index() const {
-    return data_->trees.get([this] { return std::make_unique<Trees>(data_->store); })->active;
-}
+const ActiveIndex& Atlas::active_index() const { return data_->trees_now().active; }
 
 ObjectTable Atlas::objects(const RankOptions& options, const Context& context) const {
     if (has_objects(data_->store) && (options.gate || options.selection)) {
         const ObjectTable& stored = data_->objects.get([this] { return objects_of(data_->store); });
-        const auto count = static_cast<std::int64_t>(stored.entries.size());
-        const bool is_whole = count < kStoredEntries;
-        if (!options.selection && (is_whole || (options.top > 0 && options.top <= count))) return first_entries(stored, options.top);
-        if (options.selection && is_whole) {
-            if (std::optional<ObjectTable> selected = selected_entries(*this, stored, *options.selection))
+        if (!options.selection && (is_whole(stored) || (options.top > 0 && options.top <= std::ssize(stored.entries))))
+            return first_entries(stored, options.top);
+        if (options.selection && is_whole(stored)) {
+            if (std::optional<ObjectTable> selected = selected_entries(*this, stored, *options.selection, context))
                 return first_entries(std::move(*selected), options.top);
         }
     }
     const Volume whole = volume(context);
-    return rank_objects(whole, analyse(whole, {.interpolant = interpolant(), .tunnel_height = tunnel_height()}, context), options, context);
+    return rank_objects(whole, store::zoned_analysis_of(data_->store, whole, context), options, context);
 }
 
 DarkTable Atlas::dark_objects(const RankOptions& options, const Context& context) const {
     if (has_dark(data_->store) && options.gate && !options.selection) {
         DarkTable stored = dark_of(data_->store);
-        const auto count = static_cast<std::int64_t>(stored.entries.size());
-        if (count < kStoredEntries || (options.top > 0 && options.top <= count)) return first_entries(std::move(stored), options.top);
+        if (is_whole(stored) || (options.top > 0 && options.top <= std::ssize(stored.entries)))
+            return first_entries(std::move(stored), options.top);
     }
     const Volume whole = volume(context);
-    return rank_dark_objects(whole, analysis(), options, context);
+    return rank_dark_objects(whole, data_->trees_now().analysis, options, context);
 }
 
 BranchHierarchy Atlas::hierarchy(const Context& context) const {
-    if (std::optional<BranchHierarchy> stored = stored_hierarchy(*this)) return std::move(*stored);
+    if (std::optional<BranchHierarchy> stored = stored_hierarchy(*this, context)) return std::move(*stored);
     const Volume whole = volume(context);
-    return {whole, analyse(whole, {.interpolant = interpolant(), .tunnel_height = tunnel_height()}, context), context};
+    return {whole, store::zoned_analysis_of(data_->store, whole, context), context};
 }
 
-Analysis Atlas::analysis() const { return store::analysis_of(data_->store, 0); }
+Analysis Atlas::analysis() const { return store::analysis_of(data_->store, {}); }
 
 Volume Atlas::volume(const Context& context) const {
     Volume volume = make_volume(info().extent, info().type, info().geometry);
@@ -247,13 +249,18 @@ QueryCost& QueryCost::operator+=(const QueryCost& other) {
     return *this;
 }
 
-const Analysis& AtlasAccess::analysis(const Atlas& atlas) {
-    return atlas.data_->trees.get([&] { return std::make_unique<Trees>(atlas.data_->store); })->analysis;
-}
+const Analysis& AtlasAccess::analysis(const Atlas& atlas) { return atlas.data_->trees_now().analysis; }
 
 const LevelCensus& AtlasAccess::census(const Atlas& atlas) {
     return atlas.data_->census.get([&] { return census_of(atlas.data_->store); });
 }
+void AtlasAccess::keep(const Atlas& atlas, Analysis analysis) {
+    (void)atlas.data_->trees.get([&] {
+        analysis.data().visit([](auto& held) { release(held.arrays.zone); });
+        return std::make_unique<Trees>(std::move(analysis));
+    });
+}
+
 const store::Container& AtlasAccess::store(const Atlas& atlas) { return atlas.data_->store; }
 StoredSamples& AtlasAccess::samples(const Atlas& atlas) { return *atlas.data_->samples; }
 void AtlasAccess::count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost) {

@@ -7,6 +7,7 @@
 #include "atlas/census_arrays.h"
 #include "atlas/object_arrays.h"
 #include "base/big_vector.h"
+#include "base/cancel.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "field/gaussian.h"
@@ -69,7 +70,7 @@ void report_packing(std::vector<store::PackedArray>& arrays, const Context& cont
         if (array.chunk > 0) continue;
         array.feed = [feed = std::move(array.feed), done, total, context](const store::Put& put) {
             feed([&](std::span<const std::byte> bytes) {
-                if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+                stop_if_cancelled(context);
                 put(bytes);
                 *done += static_cast<double>(bytes.size());
                 context.report("pack", 7, kPhases, total > 0 ? *done / total : 1);
@@ -121,7 +122,7 @@ public:
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = store::arcs_of(*trees, volume.bytes, context_.threads);
+            if (!analysis) analysis = store::arcs_of(*trees, volume.bytes, context_);
             const Context part = shifted(context_, 1, volume.info->extent);
             count_voxels(*analysis, volume, part);
             std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
@@ -136,8 +137,8 @@ public:
                 const auto add = [&arrays](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(arrays)); };
                 context_.report("objects", 6, kPhases, 0.9);
                 add(object_arrays(tables.bright));
+                add(dark_arrays(tables.dark));
                 if (store::stores_events(*analysis)) {
-                    add(dark_arrays(tables.dark));
                     add(store::event_arrays(*analysis));
                     sums = sum_zones(volume, *analysis);
                     arrays.push_back(store::event_sum_array(sums.height));

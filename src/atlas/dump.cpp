@@ -185,7 +185,7 @@ struct StoreDump::Data {
         return visit_type(store.contents().volume.type, [&]<class T>(T) {
             std::vector<T> samples;
             store::BrickReader<T>(store).read(
-                {brick}, 1, [&](std::int64_t, std::span<const T> all) { samples.assign(all.begin() + first, all.begin() + end); });
+                {brick}, {}, [&](std::int64_t, std::span<const T> all) { samples.assign(all.begin() + first, all.begin() + end); });
             return widened(samples);
         });
     }

@@ -3,6 +3,7 @@
 #include "isoatlas/holders.h"
 
 #include "atlas/access.h"
+#include "base/cancel.h"
 #include "query/level_bricks.h"
 
 namespace isoatlas {
@@ -10,12 +11,14 @@ namespace {
 
 class Paths {
 public:
-    explicit Paths(const Atlas& atlas) : samples_(AtlasAccess::samples(atlas)), extent_(atlas.info().extent) {}
+    Paths(const Atlas& atlas, const Context& context)
+        : samples_(AtlasAccess::samples(atlas)), extent_(atlas.info().extent), context_(context) {}
 
     [[nodiscard]] Extremum at(std::int64_t voxel) { return {voxel, samples_.sample(voxel, spent_)}; }
 
     /// The highest neighbour that is above (below: the lowest one below); itself: there is none.
     [[nodiscard]] Extremum next(const Extremum& from, bool up) {
+        stop_if_cancelled(context_);
         Extremum best = from;
         const std::array<std::int64_t, 3> at = extent_.voxel(from.voxel);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -41,19 +44,20 @@ public:
 private:
     StoredSamples& samples_;
     const Extent& extent_;
+    const Context& context_;
     LevelQuery spent_;
 };
 
 }  // namespace
 
-Holders::Holders(const Atlas& atlas, std::int64_t voxel) : atlas_(&atlas) {
+Holders::Holders(const Atlas& atlas, std::int64_t voxel, const Context& context) : atlas_(&atlas) {
     const Extent& extent = atlas.info().extent;
     if (voxel < 0 || voxel >= extent.voxels()) {
         throw Error(ErrorKind::usage, {.where = "voxel " + std::to_string(voxel),
                                        .what = "the volume has no such sample",
                                        .expected = "0 to " + std::to_string(extent.voxels() - 1)});
     }
-    Paths paths(atlas);
+    Paths paths(atlas, context);
     const Extremum start = paths.at(voxel);
     value_ = start.value;
     Extremum top = start;

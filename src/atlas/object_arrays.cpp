@@ -162,6 +162,10 @@ ObjectTable objects_of(const store::Container& store) {
     return table;
 }
 
+bool knows_branches(const ObjectTable& table) {
+    return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
+}
+
 std::vector<store::PackedArray> dark_arrays(const DarkTable& table) {
     std::vector<store::PackedArray> arrays;
     add_arrays([](const auto& visit) { for_dark_members(visit); }, table.entries, arrays);

@@ -29,8 +29,12 @@ inline constexpr std::int64_t kStoredEntries = 1024;
 [[nodiscard]] std::vector<store::PackedArray> object_arrays(const ObjectTable& table);
 
 [[nodiscard]] bool has_objects(const store::Container& store);
+/// Does a stored table (ObjectTable, DarkTable) list all that pass the gate?
+[[nodiscard]] bool is_whole(const auto& stored) { return std::ssize(stored.entries) < kStoredEntries; }
 /// Throws Error{input} when it contradicts itself.
 [[nodiscard]] ObjectTable objects_of(const store::Container& store);
+/// Does it say where the branches of its entries begin? Not in stores of before.
+[[nodiscard]] bool knows_branches(const ObjectTable& table);
 
 /// The table of dark objects, the same way: dark/id, ... as in DarkEntry, dark/branches, noise.
 [[nodiscard]] std::vector<store::PackedArray> dark_arrays(const DarkTable& table);

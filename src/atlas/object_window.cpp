@@ -68,7 +68,7 @@ std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_
     alone.threads = 1;
     alone.progress = nullptr;
     while (2 * bricks.count() <= grid.count()) {
-        StoredWindow window = samples.classify_window(tau, bricks, query);
+        StoredWindow window = samples.classify_window(tau, bricks, alone, query);
         const std::array<std::int64_t, 3>& origin = window.window.origin;
         const std::int64_t local = window.info.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
         const std::optional<Box> object = bounds_of(window, local, tau, tunnel_height, alone);

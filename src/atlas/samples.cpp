@@ -1,5 +1,6 @@
 // Samples of a store for those who look at them: boxes, and the whole in fewer values.
 #include "atlas/access.h"
+#include "base/cancel.h"
 #include "isoatlas/atlas.h"
 #include "query/brick_samples.h"
 
@@ -80,7 +81,7 @@ CoarseVolume Atlas::coarse(std::int64_t most, const Context& context) const {
     StoredSamples& samples = AtlasAccess::samples(*this);
     const std::int64_t layers = samples.grid().size[2];
     for (std::int64_t layer = 0; layer < layers; ++layer) {
-        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        stop_if_cancelled(context);
         context.report("read", 0, 1, static_cast<double>(layer) / static_cast<double>(layers));
         samples.read_means(result.step, layer, result.mean, context, spent);
     }

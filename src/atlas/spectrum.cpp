@@ -7,12 +7,15 @@
 #include <optional>
 
 #include "atlas/access.h"
+#include "atlas/object_arrays.h"
 #include "atlas/surface_size.h"
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "isoatlas/active.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "mesh/extract_level.h"
+#include "store/tree_arrays.h"
 #include "zones/count_intervals.h"
 
 namespace isoatlas {
@@ -48,9 +51,7 @@ Spectrum count(const Analysis& analysis, const ObjectTable& table) {
     Spectrum spectrum;
     spectrum.interpolant = analysis.interpolant();
     spectrum.tunnel_height = analysis.tunnel_height();
-    spectrum.intervals = analysis.data().visit([&](const auto& held) {
-        return count_intervals(held.arrays, analysis.extent().rank, events_of_entries(held.arrays, table.entries));
-    });
+    spectrum.intervals = count_intervals(analysis, table);
     spectrum.advice = advice_of(analysis, table);
     return spectrum;
 }
@@ -104,16 +105,11 @@ template <class Measure>
 std::vector<SpectrumSize> measure_all(const std::vector<double>& taus, const Context& context, const Measure& measure) {
     std::vector<SpectrumSize> sizes;
     for (const double tau : taus) {
-        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        stop_if_cancelled(context);
         context.report("surfaces", 1, 2, static_cast<double>(sizes.size()) / static_cast<double>(taus.size()));
         sizes.push_back(measure(tau));
     }
     return sizes;
-}
-
-/// The stored table holds no branches in stores of before.
-bool knows_branches(const ObjectTable& table) {
-    return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
 }
 
 }  // namespace
@@ -142,8 +138,7 @@ Spectrum spectrum(const Atlas& atlas, const SpectrumOptions& options, const Cont
     ObjectTable table = atlas.objects(ranking(options), context);
     if (!knows_branches(table)) {
         const Volume volume = atlas.volume(context);
-        table = rank_objects(volume, analyse(volume, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, context),
-                             ranking(options), context);
+        table = rank_objects(volume, store::zoned_analysis_of(AtlasAccess::store(atlas), volume, context), ranking(options), context);
     }
     Spectrum spectrum = count(AtlasAccess::analysis(atlas), table);
     spectrum.selected = options.selection.has_value();

@@ -7,6 +7,7 @@
 #include "atlas/access.h"
 #include "atlas/object_arrays.h"
 #include "store/event_arrays.h"
+#include "store/tree_arrays.h"
 #include "zones/hierarchy.h"
 #include "zones/keep_entries.h"
 
@@ -35,21 +36,28 @@ std::optional<ZoneSums> stored_sums(const Atlas& atlas, const Analysis& analysis
 
 }  // namespace
 
-std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas) {
-    if (!is_uniform(atlas.info().geometry) || !has_objects(AtlasAccess::store(atlas))) return std::nullopt;
-    const ObjectTable table = objects_of(AtlasAccess::store(atlas));
-    if (static_cast<std::int64_t>(table.entries.size()) >= kStoredEntries) return std::nullopt;  // essential objects may be missing
-    const Analysis& analysis = AtlasAccess::analysis(atlas);
-    const std::optional<ZoneSums> zones = stored_sums(atlas, analysis);
-    if (!zones) return std::nullopt;
+std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas, const Context& context) {
+    const store::Container& store = AtlasAccess::store(atlas);
+    if (!has_objects(store)) return std::nullopt;
+    const ObjectTable table = objects_of(store);
+    if (!is_whole(table) || !knows_branches(table)) return std::nullopt;  // essential ones may be missing
     std::vector<std::int64_t> tops;
     for (const ObjectEntry& entry : table.entries) tops.push_back(entry.branch_top);
     std::ranges::sort(tops);
-    return hierarchy_of(atlas.info(), analysis, *zones, tops);
+    if (is_uniform(atlas.info().geometry) && store::has_event_sums(store)) {
+        const Analysis& analysis = AtlasAccess::analysis(atlas);
+        if (const std::optional<ZoneSums> zones = stored_sums(atlas, analysis)) return hierarchy_of(atlas.info(), analysis, *zones, tops);
+    }
+    const Volume whole = atlas.volume(context);
+    Analysis zoned = store::zoned_analysis_of(store, whole, context);
+    BranchHierarchy hierarchy = hierarchy_of(atlas.info(), zoned, sum_zones(whole, zoned), tops);
+    AtlasAccess::keep(atlas, std::move(zoned));
+    return hierarchy;
 }
 
-std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTable& stored, const Selection& selection) {
-    const std::optional<BranchHierarchy> hierarchy = stored_hierarchy(atlas);
+std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTable& stored, const Selection& selection,
+                                            const Context& context) {
+    const std::optional<BranchHierarchy> hierarchy = stored_hierarchy(atlas, context);
     if (!hierarchy) return std::nullopt;
     std::set<std::int64_t> known, kept;
     for (const ObjectEntry& entry : stored.entries) known.insert(entry.branch_top);

@@ -1,4 +1,4 @@
-// Selections from what a store holds: no sample is read.
+// Selections from what a store holds.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,13 @@
 
 namespace isoatlas {
 
-/// Atlas::hierarchy(); nothing when the store does not hold enough for it.
-[[nodiscard]] std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas);
+/// Atlas::hierarchy(); nothing when the store does not say which branches are essential. Cost: reads the trees; all samples, too, where it
+/// has no sums of zones, or the grid has uneven steps.
+[[nodiscard]] std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas, const Context& context);
 
 /// The lines of the stored table, which is whole, of the objects that a selection keeps; nothing when it keeps others too, or is not known.
 /// The notes are those of before.
-[[nodiscard]] std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTable& stored, const Selection& selection);
+[[nodiscard]] std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTable& stored, const Selection& selection,
+                                                          const Context& context);
 
 }  // namespace isoatlas

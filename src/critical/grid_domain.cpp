@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
@@ -12,10 +13,6 @@ namespace isoatlas {
 namespace {
 
 constexpr int kPhases = 5;  // of analyse(): classify, basins, sort, trees, zones
-
-void stop_if_cancelled(const Context& context) {
-    if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-}
 
 /// Sorts the elements and takes them apart into arrays.
 template <class Id>

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "base/part_streams.h"
 #include "critical/leading_elements.h"
-#include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
@@ -16,10 +16,6 @@ namespace {
 constexpr std::int64_t kMostTiles = std::int64_t{1} << 16;
 constexpr std::int64_t kBytesAVoxel = 80;  // of noise, while a tile is reduced
 constexpr std::int64_t kUnlimitedTile = std::int64_t{1} << 20;
-
-void stop_if_cancelled(const Context& context) {
-    if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-}
 
 /// Numbers of extrema, tile after tile: those of a tile follow each other.
 template <class Id>

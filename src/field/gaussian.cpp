@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 
 namespace isoatlas {
@@ -154,7 +155,7 @@ void filter_in_place(VolumeInfo& info, std::byte* samples, double sigma, const C
     for (std::size_t axis = 0; axis < 3; ++axis) kernels[axis] = kernel_of(sigma / info.geometry.spacing[axis], radius[axis]);
     visit_type(info.type, [&]<class T>(T) {
         Filter<T>(info.extent, kernels, reinterpret_cast<T*>(samples), context.threads).run([&](std::int64_t) {
-            if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+            stop_if_cancelled(context);
         });
     });
     info.gaussian = std::hypot(info.gaussian, sigma);

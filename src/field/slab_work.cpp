@@ -2,19 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
-#include "isoatlas/error.h"
 
 namespace isoatlas {
-namespace {
-
-void stop_if_cancelled(const Context& context) {
-    if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-}
-
-}  // namespace
 
 std::int64_t slab_height(const Context& context, const Slices& slices) {
     if (context.slab_slices > 0) return context.slab_slices;
@@ -31,16 +23,16 @@ void for_each_slab(const Context& context, const Phase& phase, const Slices& sli
 void for_each_slab_of(std::int64_t height, const Context& context, const Phase& phase, std::int64_t slices,
                       const std::function<void(const Slab&)>& work) {
     const std::int64_t slabs = (slices + height - 1) / height;
-    const std::thread::id caller = std::this_thread::get_id();
+    const CallerLooks look(context);
     std::atomic<std::int64_t> done{0};
     context.report(phase.name, phase.index, phase.count, 0);
     stop_if_cancelled(context);
     for_each_block(context.threads, slabs, [&](std::int64_t i) {
-        const bool is_caller = std::this_thread::get_id() == caller;
-        if (is_caller) stop_if_cancelled(context);
+        look();
         work(slab_at(i, height, slices));
         const std::int64_t finished = ++done;
-        if (is_caller) context.report(phase.name, phase.index, phase.count, static_cast<double>(finished) / static_cast<double>(slabs));
+        if (look.is_caller())
+            context.report(phase.name, phase.index, phase.count, static_cast<double>(finished) / static_cast<double>(slabs));
     });
     stop_if_cancelled(context);
 }

@@ -6,7 +6,10 @@
 #include <optional>
 #include <unordered_map>
 
+#include "atlas/access.h"
+#include "base/cancel.h"
 #include "page/thin_curve.h"
+#include "zones/count_intervals.h"
 
 namespace isoatlas::page {
 namespace {
@@ -18,19 +21,22 @@ constexpr std::int64_t kCurvePoints = 160;
 
 class Gatherer {
 public:
-    Gatherer(const Atlas& atlas, const PageOptions& options, const Context& context)
+    Gatherer(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context)
         : atlas_(atlas),
           options_(options),
-          analysis_(atlas.analysis()),
-          hierarchy_(atlas.hierarchy(context)),
           context_(context),
+          found_(found),
+          analysis_(AtlasAccess::analysis(atlas)),
+          hierarchy_(found_.hierarchy),
           branch_of_event_(static_cast<std::size_t>(analysis_.event_count()), -1) {}
 
     PageContents gather() && {
-        const auto [low, high] = atlas_.range();
+        const double low = atlas_.range()[0];
         contents_.scale = axis_scale(atlas_, context_);
-        const ObjectTable table = atlas_.objects({.top = options_.top}, context_);
-        DarkTable dark = atlas_.dark_objects({.top = 0}, context_);
+        stop_if_cancelled(context_);
+        contents_.spectrum = count_columns(count_intervals(analysis_, found_.bright), low, contents_.scale, kColumns);
+        const ObjectTable table = first_entries(found_.bright, options_.top);
+        DarkTable dark = found_.dark;
         contents_.bright = table.branches, contents_.noise = table.noise;
         contents_.bright_standing_out = static_cast<std::int64_t>(hierarchy_.essential().size());
         contents_.dark = dark.branches, contents_.dark_standing_out = static_cast<std::int64_t>(dark.entries.size());
@@ -39,7 +45,7 @@ public:
         add_bright_branches(table);
         add_bright_entries(table);
         add_dark(dark);
-        contents_.spectrum = count_columns(spectrum(atlas_, {.samples = 0}, context_).intervals, low, contents_.scale, kColumns);
+        stop_if_cancelled(context_);
         contents_.histogram = make_histogram(atlas_, contents_.scale, context_);
         contents_.curve = thin_curve(hierarchy_.curves().front(), kCurvePoints);
         for (std::size_t i = 0; i < contents_.entries.size(); ++i) contents_.entries[i].colour = palette(static_cast<std::int64_t>(i));
@@ -166,9 +172,10 @@ private:
 
     const Atlas& atlas_;
     const PageOptions& options_;
-    Analysis analysis_;
-    BranchHierarchy hierarchy_;
     const Context& context_;
+    const Overview& found_;
+    const Analysis& analysis_;
+    const BranchHierarchy& hierarchy_;
     std::unordered_map<std::int64_t, std::int64_t> place_of_top_;
     std::vector<std::int64_t> branch_of_event_;  ///< -1: of no branch that has an entry
     PageContents contents_;
@@ -176,8 +183,8 @@ private:
 
 }  // namespace
 
-PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context) {
-    return Gatherer(atlas, options, context).gather();
+PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context) {
+    return Gatherer(atlas, found, options, context).gather();
 }
 
 Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context) {

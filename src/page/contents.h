@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "atlas/overview.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/dark_objects.h"
 #include "isoatlas/page.h"
@@ -58,8 +59,8 @@ struct PageContents {
     Histogram histogram;
 };
 
-/// Without pictures. Throws as write_page(). Cost: Atlas::hierarchy() and Atlas::histogram().
-[[nodiscard]] PageContents page_contents(const Atlas& atlas, const PageOptions& options, const Context& context);
+/// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).
+[[nodiscard]] PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context);
 /// What an entry shows of a 3D volume. dark: of its id, which is that of a contour. Cost: Atlas::extract().
 [[nodiscard]] Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context);
 /// Cost: options.frames pictures for every entry.

@@ -47,7 +47,7 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
         throw Error(ErrorKind::unsupported,
                     {.what = "this isoatlas was built without pages", .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
     }
-    page::PageContents contents = page::page_contents(atlas, options, context);
+    page::PageContents contents = page::page_contents(atlas, overview_of(atlas, context), options, context);
     page::draw_pictures(contents, atlas, options, context);
     std::string json;
     output::JsonStream stream([&json](std::string_view text) { json += text; });

@@ -58,11 +58,11 @@ float mean_of(std::span<const T> samples, const std::array<std::int64_t, 3>& siz
 }  // namespace
 
 template <class T>
-void read_samples(const store::BrickReader<T>& bricks, const Box& box, std::int64_t step, int threads, std::span<T> out,
+void read_samples(const store::BrickReader<T>& bricks, const Box& box, std::int64_t step, const Context& context, std::span<T> out,
                   IoCounters& counters) {
     const BrickGrid& grid = bricks.grid();
     const std::int64_t columns = steps_along(box.size(0), step), rows = steps_along(box.size(1), step);
-    counters += bricks.read(bricks_with_steps(grid, box, step), threads, [&](std::int64_t brick, std::span<const T> samples) {
+    counters += bricks.read(bricks_with_steps(grid, box, step), context, [&](std::int64_t brick, std::span<const T> samples) {
         const Box own = grid.box(brick), steps = steps_in(own, box, step);
         const auto inside = [&](int axis, std::int64_t s) { return box.begin[axis] + s * step - own.begin[axis]; };
         for (std::int64_t z = steps.begin[2]; z < steps.end[2]; ++z) {
@@ -75,7 +75,7 @@ void read_samples(const store::BrickReader<T>& bricks, const Box& box, std::int6
 }
 
 template <class T>
-void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, int threads, std::span<float> out,
+void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, const Context& context, std::span<float> out,
                 IoCounters& counters) {
     ISOATLAS_CHECK(step == 1 || step == 2 || step == 4 || step == 8);
     const BrickGrid& grid = bricks.grid();
@@ -83,7 +83,7 @@ void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int
     const std::int64_t columns = steps_along(grid.extent.size[0], step), rows = steps_along(grid.extent.size[1], step);
     std::vector<std::int64_t> wanted(static_cast<std::size_t>(grid.size[0] * grid.size[1]));
     std::iota(wanted.begin(), wanted.end(), grid.brick({0, 0, layer}));
-    counters += bricks.read(std::move(wanted), threads, [&](std::int64_t brick, std::span<const T> samples) {
+    counters += bricks.read(std::move(wanted), context, [&](std::int64_t brick, std::span<const T> samples) {
         const Box own = grid.box(brick), cubes = steps_in(own, whole, step);
         for (std::int64_t z = cubes.begin[2]; z < cubes.end[2]; ++z) {
             for (std::int64_t y = cubes.begin[1]; y < cubes.end[1]; ++y) {
@@ -100,9 +100,9 @@ void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int
     });
 }
 
-#define ISOATLAS_INSTANTIATE(T)                                                                                            \
-    template void read_samples<T>(const store::BrickReader<T>&, const Box&, std::int64_t, int, std::span<T>, IoCounters&); \
-    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, std::int64_t, int, std::span<float>, IoCounters&)
+#define ISOATLAS_INSTANTIATE(T)                                                                                                       \
+    template void read_samples<T>(const store::BrickReader<T>&, const Box&, std::int64_t, const Context&, std::span<T>, IoCounters&); \
+    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, std::int64_t, const Context&, std::span<float>, IoCounters&)
 ISOATLAS_INSTANTIATE(std::uint8_t);
 ISOATLAS_INSTANTIATE(std::int8_t);
 ISOATLAS_INSTANTIATE(std::uint16_t);

@@ -40,7 +40,7 @@ public:
         require_finite(tau);
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
-        return classify_part(BrickPart(grid_), threshold, context.threads, query).level;
+        return classify_part(BrickPart(grid_), threshold, context, query).level;
     }
 
     std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) override {
@@ -49,7 +49,7 @@ public:
         const Threshold<T> threshold = threshold_for<T>(tau);
         const std::optional<double> before = std::exchange(kept.tau, tau);
         if (!kept.level) {
-            Classified all = classify_part(BrickPart(grid_), threshold, context.threads, query);
+            Classified all = classify_part(BrickPart(grid_), threshold, context, query);
             kept.beside.assign(all.level.bricks.classes.size(), 0);
             for (const std::int64_t b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
             kept.level = std::move(all.level);
@@ -58,7 +58,7 @@ public:
         auto& [high, bricks] = *kept.level;
         bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
         high.set_busy(bricks);
-        hold(divided_bricks(BrickPart(grid_), bricks), context.threads, query);
+        hold(divided_bricks(BrickPart(grid_), bricks), context, query);
         const std::vector<std::uint8_t> changed = bricks_between(threshold_for<T>(*before), threshold);
         refill(high, changed, bricks.classes, threshold.least, context.threads);
         const std::vector<std::uint8_t> near = with_neighbours(grid_, changed);
@@ -66,7 +66,7 @@ public:
         for_bricks(grid_, context.threads, [&](std::int64_t b) {
             if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, grid_, b, bricks.classes[b]);
         });
-        hold(flagged(kept.beside), context.threads, query);
+        hold(flagged(kept.beside), context, query);
         return std::count(changed.begin(), changed.end(), std::uint8_t{1});
     }
 
@@ -76,12 +76,12 @@ public:
 
     [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
 
-    [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, LevelQuery& query) override {
+    [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) override {
         LevelQuery own;  // what is copied need not be held; ends after the lock
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const BrickPart part(grid_, bricks);
-        Classified classified = classify_part(part, threshold, 1, own);
+        Classified classified = classify_part(part, threshold, context, own);
         StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
         add_extremes(part, 1, result.level.bricks);
@@ -115,13 +115,15 @@ public:
         LevelQuery query;  // ends after the lock
         const std::lock_guard lock(mutex_);
         const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);
-        load({grid_.brick(BrickGrid::place_of(at))}, 1, query);
+        Context alone;
+        alone.threads = 1;
+        load({grid_.brick(BrickGrid::place_of(at))}, alone, query);
         counters += query;
         return static_cast<double>(samples()[layout_.by_voxel().at(at[0], at[1], at[2])]);
     }
 
     void read_all(std::span<std::byte> out, const Context& context, IoCounters& counters) override {
-        counters += bricks_.read_all(std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), context.threads);
+        counters += bricks_.read_all(std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), context);
     }
 
     void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
@@ -133,22 +135,22 @@ public:
         for_bricks(grid_, context.threads, [&](std::int64_t b) {
             if (bricks[b] == 0) fill_with(bricks_.low(b), grid_.box(b), whole);
         });
-        counters += bricks_.read_into(whole, std::move(wanted), context.threads);
+        counters += bricks_.read_into(whole, std::move(wanted), context);
     }
 
     void read_box(const Box& box, std::int64_t step, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
-        read_samples(bricks_, box, step, context.threads, std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), counters);
+        read_samples(bricks_, box, step, context, std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), counters);
     }
 
     void read_means(std::int64_t step, std::int64_t layer, std::span<float> out, const Context& context, IoCounters& counters) override {
-        isoatlas::read_means(bricks_, step, layer, context.threads, out, counters);
+        isoatlas::read_means(bricks_, step, layer, context, out, counters);
     }
 
     std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context, IoCounters& counters) override {
-        return brick_histogram(bricks_, edges, context.threads, counters);
+        return brick_histogram(bricks_, edges, context, counters);
     }
 
-    void check(const Context& context) const override { bricks_.check(context.threads); }
+    void check(const Context& context) const override { bricks_.check(context); }
 
     void clear() override {
         const std::lock_guard lock(mutex_);
@@ -182,10 +184,10 @@ private:
     }
 
     /// Makes bricks present; the query holds them.
-    void load(const std::vector<std::int64_t>& wanted, int threads, LevelQuery& query) {
+    void load(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
         const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
         try {
-            query += bricks_.read(missing, threads, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
+            query += bricks_.read(missing, context, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
         } catch (...) {
             cache_.abandon(missing);
             throw;
@@ -193,8 +195,8 @@ private:
         cache_.settle(missing);
     }
     /// The same, and the query looks at them.
-    void hold(const std::vector<std::int64_t>& wanted, int threads, LevelQuery& query) {
-        load(wanted, threads, query);
+    void hold(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
+        load(wanted, context, query);
         for (const std::int64_t b : wanted) query.visited += grid_.box(b).count();
     }
 
@@ -208,17 +210,17 @@ private:
         std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
     };
 
-    Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, int threads, LevelQuery& query) {
-        LevelBricks around = bricks_of(part, threshold, threads);
+    Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
+        LevelBricks around = bricks_of(part, threshold, context.threads);
         HighBits bits(around);
         Classified result{{std::move(bits), std::move(around)}, {}};
         auto& [high, bricks] = result.level;
         result.needed = divided_bricks(part, bricks);
-        hold(result.needed, threads, query);
-        fill(high, part, bricks.classes, threshold.least, threads);
-        std::vector<std::int64_t> beside = beside_surface(high, part.grid, bricks.classes, threads);
+        hold(result.needed, context, query);
+        fill(high, part, bricks.classes, threshold.least, context.threads);
+        std::vector<std::int64_t> beside = beside_surface(high, part.grid, bricks.classes, context.threads);
         for (std::int64_t& b : beside) b = part.number(b);
-        hold(beside, threads, query);
+        hold(beside, context, query);
         result.needed.insert(result.needed.end(), beside.begin(), beside.end());
         return result;
     }

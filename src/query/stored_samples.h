@@ -61,7 +61,7 @@ public:
     /// What names need (query/names.h) of the bricks of a level.
     virtual void add_extremes(LevelBricks& bricks, const Context& context) const = 0;
     /// classify() for the bricks of a box alone (bricks, not samples), with all that names need. Cost: proportional to the box.
-    [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, LevelQuery& query) = 0;
+    [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, const Context& context, LevelQuery& query) = 0;
     /// What classify() would read of a store that was just opened: the divided bricks at least, at most also those beside bricks of
     /// another class. Reads nothing.
     struct Foreseen {

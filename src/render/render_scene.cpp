@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "render/film.h"
 #include "render/overlay.h"
@@ -97,7 +98,7 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
     const std::int64_t across = tiles_of(film.width), rows = tiles_of(film.height);
     constexpr std::int64_t kRowsAtOnce = 4;  // between two looks at the caller
     for (std::int64_t row = 0; row < rows; row += kRowsAtOnce) {
-        if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "stopped"});
+        stop_if_cancelled(context);
         context.report("draw", 1, 2, static_cast<double>(row) / static_cast<double>(rows));
         const std::int64_t count = std::min(kRowsAtOnce, rows - row) * across;
         for_each_block(context.threads, count, [&](std::int64_t tile) { painter.paint_tile(row * across + tile, film); });

@@ -118,14 +118,14 @@ std::string error_json(const Error& error) {
     return document("error", [&](JsonStream& json) { put_error(json, error); });
 }
 
-std::string events_json(const Opening::State& state, const std::vector<Turns::Pending>& pending) {
+std::string events_json(const Opening::State& state, const std::vector<Lines::Pending>& pending) {
     std::string text = document("events", [&](JsonStream& json) {
         json.key("state").value(state.is_open ? "open" : state.failure ? "failed" : "building");
         if (!state.is_open && state.failure) put_error(json, *state.failure);
         if (!state.is_open && !state.failure) put_build(json, state.build);
         json.key("questions").begin_array();
-        for (const Turns::Pending& question : pending) {
-            json.begin_object().key("client").value(question.client).key("place").value(question.place);
+        for (const auto& [line, question] : pending) {
+            json.begin_object().key("client").value(question.client).key("line").value(line).key("place").value(question.place);
             json.key("fraction").value(question.fraction).end_object();
         }
         json.end_array();

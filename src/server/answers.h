@@ -10,8 +10,8 @@
 #include "isoatlas/error.h"
 #include "isoatlas/render.h"
 #include "page/contents.h"
+#include "server/lines.h"
 #include "server/opening.h"
-#include "server/turns.h"
 
 namespace isoatlas::server {
 
@@ -37,6 +37,6 @@ struct AtVoxel {
 [[nodiscard]] std::string transfer_json(std::span<const TransferBump> bumps, const Calibration& calibration);
 [[nodiscard]] std::string error_json(const Error& error);
 /// On one line. pending: of the client that listens.
-[[nodiscard]] std::string events_json(const Opening::State& state, const std::vector<Turns::Pending>& pending);
+[[nodiscard]] std::string events_json(const Opening::State& state, const std::vector<Lines::Pending>& pending);
 
 }  // namespace isoatlas::server

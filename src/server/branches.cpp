@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "atlas/access.h"
+#include "base/cancel.h"
 #include "isoatlas/shell_word.h"
 #include "server/document.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using output::JsonStream;
 
-constexpr std::int64_t kDefaultListed = 1000;
+constexpr std::int64_t kDefaultListed = 1000, kMostListed = 20'000;
 /// An isovalue so little above that of the merge that the branch has nearly all its voxels, and so far that no rounding reaches it.
 constexpr double kShareAboveMerge = 1.0 / 64;
 
@@ -46,12 +47,15 @@ page::PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
 
 }  // namespace
 
-const BranchHierarchy& Branches::hierarchy(const Atlas& atlas, const Context& context) const {
-    return *hierarchy_.get([&] { return std::make_unique<BranchHierarchy>(atlas.hierarchy(context)); });
+BranchesWanted branches_wanted(Words& words, const Calibration& calibration) {
+    BranchesWanted wanted{.selection = selection_of(words, calibration)};
+    wanted.top = words.whole("top", 1, kMostListed).value_or(kDefaultListed);
+    words.refuse_others();
+    return wanted;
 }
 
-page::PageEntry Branches::entry(const Atlas& atlas, std::int64_t rank, const Context& context) const {
-    const std::span<const BranchInfo> all = hierarchy(atlas, context).branches();
+page::PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank) {
+    const std::span<const BranchInfo> all = hierarchy.branches();
     if (rank < 0 || rank >= std::ssize(all)) {
         throw Error(ErrorKind::not_found, {.where = "branch " + std::to_string(rank),
                                            .what = "there is no such object",
@@ -60,17 +64,16 @@ page::PageEntry Branches::entry(const Atlas& atlas, std::int64_t rank, const Con
     return entry_of(atlas, all[static_cast<std::size_t>(rank)]);
 }
 
-std::string Branches::json(const Atlas& atlas, Words& words, const Context& context) const {
+std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, const BranchesWanted& wanted, const Context& context) {
     const Calibration scale = atlas.info().calibration;
-    const Selection selection = selection_of(words, scale);
-    const std::int64_t top = words.whole("top", 1, kMostListed).value_or(kDefaultListed);
-    words.refuse_others();
-    const BranchHierarchy& of = hierarchy(atlas, context);
-    const std::span<const BranchInfo> all = of.branches();
-    const std::vector<std::int64_t> kept = of.kept(selection);
-    const std::span<const std::int64_t> listed = std::span(kept).first(std::min(kept.size(), static_cast<std::size_t>(top)));
+    const std::span<const BranchInfo> all = hierarchy.branches();
+    const std::vector<std::int64_t> kept = hierarchy.kept(wanted.selection);
+    const std::span<const std::int64_t> listed = std::span(kept).first(std::min(kept.size(), static_cast<std::size_t>(wanted.top)));
     std::vector<page::PageEntry> entries;
-    for (const std::int64_t rank : listed) entries.push_back(entry_of(atlas, all[static_cast<std::size_t>(rank)]));
+    for (const std::int64_t rank : listed) {
+        stop_if_cancelled(context);
+        entries.push_back(entry_of(atlas, all[static_cast<std::size_t>(rank)]));
+    }
     return document("branches", [&](JsonStream& json) {
         json.key("source").value(shell_word(atlas.info().path)).key("all").value(all.size()).key("kept").value(kept.size());
         const auto put = [&](const char* name, auto&& value) {
@@ -95,7 +98,7 @@ std::string Branches::json(const Atlas& atlas, Words& words, const Context& cont
         put("hypervolume", [&](Branch branch, Entry) { return scale.reported_difference(branch.hypervolume); });
         put("voxels", [](Branch branch, Entry) { return branch.voxels; });
         put("measure", [](Branch branch, Entry) { return branch.measure; });
-        put("standsOut", [&](Branch branch, Entry) { return std::ranges::binary_search(of.essential(), &branch - all.data()); });
+        put("standsOut", [&](Branch branch, Entry) { return std::ranges::binary_search(hierarchy.essential(), &branch - all.data()); });
     });
 }
 

@@ -2,33 +2,28 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 
-#include "base/lazy.h"
 #include "isoatlas/atlas.h"
 #include "page/contents.h"
 #include "server/words.h"
 
 namespace isoatlas::server {
 
-/// Every question must be about the same store.
-class Branches {
-public:
-    /// docs/schema/server-branches. Throws Error{usage} for words it does not know. Cost: the first call that of Atlas::hierarchy(); then
-    /// O(branches).
-    [[nodiscard]] std::string json(const Atlas& atlas, Words& words, const Context& context) const;
-    /// A branch as large as it gets on its own: just above the value at which it merges; the trunk in the middle of its isovalues.
-    /// Throws Error{not_found}.
-    [[nodiscard]] page::PageEntry entry(const Atlas& atlas, std::int64_t rank, const Context& context) const;
-
-    /// Answers list at most so many.
-    static constexpr std::int64_t kMostListed = 20'000;
-
-private:
-    [[nodiscard]] const BranchHierarchy& hierarchy(const Atlas& atlas, const Context& context) const;
-
-    Lazy<std::unique_ptr<BranchHierarchy>> hierarchy_;
+/// What a question for branches asks for.
+struct BranchesWanted {
+    Selection selection{};  ///< stored values
+    std::int64_t top = 0;   ///< at most so many are listed
 };
+/// Throws Error{usage} for words it does not know.
+[[nodiscard]] BranchesWanted branches_wanted(Words& words, const Calibration& calibration);
+
+/// docs/schema/server-branches. Throws Error{cancelled}. Cost: O(branches), and the events of those that are listed.
+[[nodiscard]] std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, const BranchesWanted& wanted,
+                                        const Context& context);
+
+/// A branch as large as it gets on its own: just above the value at which it merges; the trunk in the middle of its isovalues.
+/// Throws Error{not_found}. Cost: O(events of the branch).
+[[nodiscard]] page::PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank);
 
 }  // namespace isoatlas::server

@@ -23,11 +23,11 @@ std::string card_json(const std::string& name, const page::Turntable& picture) {
 
 }  // namespace
 
-std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question,
+std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question, Turns& turns,
                         const Context& context) {
     const std::string name = subject.name + ", frames " + std::to_string(frames);
     if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);
-    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    const std::unique_ptr<Turns::Turn> turn = turns.take(question.client, question.left);
     if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);  // another client has asked for it meanwhile
     Context own = context;
     own.threads = 1;  // surfaces that somebody waits for go first

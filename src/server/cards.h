@@ -21,19 +21,14 @@ struct CardSubject {
 
 class Cards {
 public:
-    /// docs/schema/server-card. frames: of the turntable, 1 to 64. Throws Error: cancelled (a newer question of the same client came, who
-    /// asked has left, or end() was called), resource (too many wait). Cost: the first time Atlas::extract() and `frames` pictures; one
-    /// thread.
+    /// docs/schema/server-card. frames: of the turntable, 1 to 64. turns: of those who draw, one at a time. Throws Error: cancelled,
+    /// resource (too many wait). Cost: the first time Atlas::extract() and `frames` pictures; one thread.
     [[nodiscard]] std::string json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question,
-                                   const Context& context);
-    /// Ends what is being drawn; nothing is drawn from now on.
-    void end() { turns_.end(); }
+                                   Turns& turns, const Context& context);
 
 private:
-    static constexpr int kMostWaiting = 16;
     static constexpr std::size_t kMostKept = 512;  ///< some 30 kB each
 
-    Turns turns_{1, kMostWaiting};
     TextCache answers_{kMostKept};
 };
 

@@ -26,12 +26,12 @@ EventStream::~EventStream() {
         streams_.clients_.erase(streams_.clients_.find(client_));
         last = !streams_.clients_.contains(client_);
     }
-    if (last && !client_.empty()) streams_.turns_.leave(client_);
+    if (last && !client_.empty()) streams_.lines_.leave(client_);
 }
 
 std::string EventStream::state() const {
-    std::vector<Turns::Pending> pending;
-    if (!client_.empty()) pending = streams_.turns_.pending(client_);
+    std::vector<Lines::Pending> pending;
+    if (!client_.empty()) pending = streams_.lines_.pending(client_);
     return events_json(streams_.opening_.state(), pending);
 }
 

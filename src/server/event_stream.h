@@ -9,8 +9,8 @@
 #include <string>
 
 #include "server/changes.h"
+#include "server/lines.h"
 #include "server/opening.h"
-#include "server/turns.h"
 
 namespace isoatlas::server {
 
@@ -43,7 +43,7 @@ private:
 /// All of a server.
 class EventStreams {
 public:
-    EventStreams(const Opening& opening, Turns& turns, Changes& changes) : opening_(opening), turns_(turns), changes_(changes) {}
+    EventStreams(const Opening& opening, Lines& lines, Changes& changes) : opening_(opening), lines_(lines), changes_(changes) {}
 
     /// Throws Error{resource} when too many listen. client: without a lane; empty: it has no questions.
     [[nodiscard]] std::shared_ptr<EventStream> listen(const std::string& client, Left left);
@@ -54,7 +54,7 @@ private:
     friend class EventStream;
 
     const Opening& opening_;
-    Turns& turns_;
+    Lines& lines_;
     Changes& changes_;
     std::atomic<bool> ended_ = false;
     std::mutex mutex_;

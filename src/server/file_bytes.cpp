@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "base/cancel.h"
 #include "base/check.h"
 #include "base/file_system.h"
 
@@ -13,7 +14,8 @@ namespace {
 
 class MemoryFile final : public File {
 public:
-    explicit MemoryFile(std::string& bytes) : bytes_(bytes), size_(static_cast<std::int64_t>(bytes.size())) {}
+    MemoryFile(std::string& bytes, const Context& context)
+        : bytes_(bytes), context_(context), size_(static_cast<std::int64_t>(bytes.size())) {}
     std::int64_t size() const override { return size_; }
     std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
         const std::size_t first = std::min(static_cast<std::size_t>(offset), bytes_.size()),
@@ -22,6 +24,7 @@ public:
         return static_cast<std::ptrdiff_t>(count);
     }
     std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes) override {
+        stop_if_cancelled(context_);
         const auto first = static_cast<std::size_t>(offset);
         if (first + bytes.size() > bytes_.size()) bytes_.resize(first + bytes.size());
         if (!bytes.empty()) std::memcpy(bytes_.data() + first, bytes.data(), bytes.size());
@@ -39,12 +42,15 @@ public:
 
 private:
     std::string& bytes_;
+    const Context& context_;
     std::int64_t size_;
 };
 
 /// As much of a file system as an AtomicFile needs.
 class MemoryFiles final : public FileSystem {
 public:
+    explicit MemoryFiles(const Context& context) : context_(context) {}
+
     std::string& content(const std::string& path) { return files_[path]; }
 
     FileStatus status(const std::string& path) override {
@@ -53,7 +59,7 @@ public:
     }
     OpenedFile open(const std::string& path) override {
         if (!files_.contains(path)) return {nullptr, -ENOENT};
-        return {std::make_unique<MemoryFile>(files_[path]), 0};
+        return {std::make_unique<MemoryFile>(files_[path], context_), 0};
     }
     OpenedFile create(const std::string& path) override {
         files_[path].clear();
@@ -69,13 +75,14 @@ public:
     int sync_folder(const std::string&) override { return 0; }
 
 private:
+    const Context& context_;
     std::map<std::string, std::string> files_;
 };
 
 }  // namespace
 
-std::string file_bytes(const std::string& extension, const std::function<void(const std::string&)>& write) {
-    MemoryFiles files;
+std::string file_bytes(const std::string& extension, const std::function<void(const std::string&)>& write, const Context& context) {
+    MemoryFiles files(context);
     const OwnFileSystem own(files);
     const std::string path = "file" + extension;
     write(path);

@@ -168,6 +168,12 @@ void Server::stop() {
 }
 
 void Server::open(const Atlas& atlas) { data_->service.opening().open(atlas); }
+void Server::prepare(const Context& context) {
+    try {
+        data_->service.prepare(context);
+    } catch (const Error&) {  // who asks is told
+    }
+}
 void Server::tell(const BuildState& state) { data_->service.opening().tell(state); }
 void Server::fail(const Error& error) { data_->service.opening().fail(error); }
 

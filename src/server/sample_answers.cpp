@@ -5,7 +5,6 @@
 #include "isoatlas/error.h"
 #include "isoatlas/holders.h"
 #include "isoatlas/isovalue.h"
-#include "isoatlas/render.h"
 #include "server/answers.h"
 #include "server/wire_samples.h"
 #include "server/words.h"
@@ -16,7 +15,6 @@ namespace {
 constexpr std::int64_t kSliceSamples = 1 << 20, kMostSliceSamples = 1 << 22;
 constexpr std::int64_t kVolumeValues = 1 << 21, kMostVolumeValues = 1 << 25;
 constexpr std::size_t kMostHolders = 256;
-constexpr std::int64_t kTransferObjects = 5;  ///< as `isoatlas render --volume`
 
 const char* const kBytes = "application/octet-stream";
 
@@ -30,22 +28,13 @@ void require_volume(const Atlas& atlas) {
 }
 
 /// Does an object of one voxel hold another one at an isovalue?
-bool holds(const Atlas& atlas, const Holders& sample, const NumberAt& object) {
+bool holds(const Atlas& atlas, const Holders& sample, const NumberAt& object, const Context& context) {
     const double tau = stored_isovalue(atlas.info(), object.at);
     const std::optional<std::int64_t> own = sample.object(tau);
-    return own && (*own == object.number || own == Holders(atlas, object.number).object(tau));
+    return own && (*own == object.number || own == Holders(atlas, object.number, context).object(tau));
 }
 
 }  // namespace
-
-std::vector<NamedEntry> named_entries(const page::PageContents& contents) {
-    std::vector<NamedEntry> entries;
-    for (const page::PageEntry& entry : contents.entries) {
-        const bool is_dark = contents.branches[static_cast<std::size_t>(entry.branch)].dark;
-        entries.push_back({entry.id, entry.tau, entry.voxels, is_dark});
-    }
-    return entries;
-}
 
 Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context) {
     require_volume(atlas);
@@ -77,7 +66,7 @@ Answer volume_answer(const Atlas& atlas, const Question& question, const Context
     return {200, kBytes, wire_volume(atlas.coarse(most, context), atlas.range(), atlas.info().calibration), {}};
 }
 
-Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question) {
+Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question, const Context& context) {
     const VolumeInfo& info = atlas.info();
     const Extent& extent = info.extent;
     Words words(question.words);
@@ -89,10 +78,10 @@ Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, con
     const std::vector<NumberAt> objects = words.list_at("object", 0, extent.voxels() - 1, kMostHolders);
     const std::vector<NumberAt> contours = words.list_at("contour", 0, extent.voxels() - 1, kMostHolders);
     words.refuse_others();
-    const Holders sample(atlas, extent.index(at[0], at[1], at[2]));
+    const Holders sample(atlas, extent.index(at[0], at[1], at[2]), context);
     AtVoxel found{.voxel = {at[0], at[1], at[2]}, .position = {}, .value = info.calibration.reported(sample.value())};
     found.position = to_physical(info.geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
-    for (const NumberAt& object : objects) found.objects.push_back(holds(atlas, sample, object));
+    for (const NumberAt& object : objects) found.objects.push_back(holds(atlas, sample, object, context));
     for (const NumberAt& contour : contours) found.contours.push_back(sample.cavity(stored_isovalue(info, contour.at)) == contour.number);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const NamedEntry& entry = entries[i];
@@ -101,13 +90,6 @@ Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, con
     }
     std::ranges::stable_sort(found.entries, {}, [&](std::int64_t i) { return entries[i].voxels; });
     return {200, "application/json", at_json(found), {}};
-}
-
-Answer transfer_answer(const Atlas& atlas, const Question& question, const Context& context) {
-    Words(question.words).refuse_others();
-    const std::vector<TransferBump> bumps =
-        propose_transfer(atlas.objects({.top = kTransferObjects}, context), atlas.info(), atlas.range());
-    return {200, "application/json", transfer_json(bumps, atlas.info().calibration), {}};
 }
 
 }  // namespace isoatlas::server

@@ -1,10 +1,9 @@
-// Answers about samples: a slice, the volume in fewer values, what holds a voxel, and what matter a transfer function makes of values.
+// Answers about samples: a slice, the volume in fewer values, what holds a voxel.
 #pragma once
 
 #include <vector>
 
 #include "isoatlas/atlas.h"
-#include "page/contents.h"
 #include "server/question.h"
 
 namespace isoatlas::server {
@@ -16,13 +15,12 @@ struct NamedEntry {
     std::int64_t voxels;
     bool dark;
 };
-/// In the order of /api/atlas. contents: what that shows.
-[[nodiscard]] std::vector<NamedEntry> named_entries(const page::PageContents& contents);
 
-/// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store).
+/// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store), cancelled. entries: in the order of
+/// /api/atlas.
 [[nodiscard]] Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context);
 [[nodiscard]] Answer volume_answer(const Atlas& atlas, const Question& question, const Context& context);
-[[nodiscard]] Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question);
-[[nodiscard]] Answer transfer_answer(const Atlas& atlas, const Question& question, const Context& context);
+[[nodiscard]] Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question,
+                               const Context& context);
 
 }  // namespace isoatlas::server

@@ -4,20 +4,23 @@
 #include <exception>
 #include <new>
 
+#include "base/cancel.h"
 #include "base/memory_limit.h"
 #include "isoatlas/error.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/output.h"
 #include "page/template.h"
 #include "server/answers.h"
+#include "server/branches.h"
 #include "server/file_bytes.h"
+#include "server/sample_answers.h"
 #include "server/wire_mesh.h"
 
 namespace isoatlas::server {
 namespace {
 
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
-constexpr int kAtOnce = 2, kSamplesAtOnce = 2, kQuickAtOnce = 4, kMostWaiting = 256;
+constexpr int kAtOnce = 2;                                      ///< answers of size
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
@@ -59,20 +62,15 @@ Service::Service(std::string token, const Context& context, std::int64_t memory)
       context_(context),
       memory_((memory > 0 ? memory : available_memory() / 4) / kAtOnce),
       opening_(changes_),
-      turns_(kAtOnce, kMostWaiting, &changes_),
-      sample_turns_(kSamplesAtOnce, kMostWaiting, &changes_),
-      quick_(kQuickAtOnce, kMostWaiting),
-      events_(opening_, turns_, changes_) {
+      lines_(changes_),
+      events_(opening_, lines_, changes_) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
 }
 
 void Service::end() {
     ended_ = true;
-    turns_.end();
-    cards_.end();
-    sample_turns_.end();
-    quick_.end();
+    lines_.end();
     events_.end();
 }
 
@@ -99,7 +97,7 @@ Answer Service::answer_known(const Question& question) {
             403, Error(ErrorKind::usage, {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"}));
     }
     if (question.path == "/api/events") return events_answer(question);
-    if (question.path == "/api/atlas") return atlas_answer();
+    if (question.path == "/api/atlas") return json_answer(known(question).atlas);
     if (question.path == "/api/preview") return preview_answer(question);
     if (question.path == "/api/objects") return objects_answer(question);
     if (question.path == "/api/measures") return measures_answer(question);
@@ -107,8 +105,11 @@ Answer Service::answer_known(const Question& question) {
     if (question.path == "/api/card") return card_answer(question);
     if (question.path == "/api/surface") return surface_answer(question);
     if (question.path == "/api/label") return label_answer(question);
-    if (question.path == "/api/at") return at_answer(atlas(), entries_.get([this] { return named_entries(contents()); }), question);
-    if (question.path == "/api/transfer") return transfer_answer(atlas(), question, context_);
+    if (question.path == "/api/at") return at_answer(question);
+    if (question.path == "/api/transfer") {
+        Words(question.words).refuse_others();
+        return json_answer(known(question).transfer);
+    }
     if (question.path == "/api/slice") return samples_answer(question, slice_answer);
     if (question.path == "/api/volume") return samples_answer(question, volume_answer);
     throw Error(
@@ -121,8 +122,31 @@ Answer Service::answer_known(const Question& question) {
 }
 
 Answer Service::samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&)) {
-    const std::unique_ptr<Turns::Turn> turn = sample_turns_.take(question.client, question.left);
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::samples, question);
     return make(atlas(), question, context_of(*turn));
+}
+
+Answer Service::at_answer(const Question& question) {
+    const Known& known = this->known(question);
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::samples, question);
+    return server::at_answer(atlas(), known.entries, question, context_of(*turn));
+}
+
+std::unique_ptr<Turns::Turn> Service::turn_in(Line line, const Question& question) {
+    return lines_.of(line).take(question.client, question.left);
+}
+
+const Known& Service::known(const Question& question) {
+    if (const Known* there = known_.there()) return *there;
+    const Atlas& atlas = this->atlas();
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::atlas, question);
+    return known_.get(context_of(*turn), [&atlas](const Context& context) { return know(atlas, context); });
+}
+
+void Service::prepare(const Context& context) {
+    Context own = context_;
+    own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
+    (void)known_.get(own, [&atlas = atlas()](const Context& shared) { return know(atlas, shared); });
 }
 
 Answer Service::events_answer(const Question& question) {
@@ -132,20 +156,13 @@ Answer Service::events_answer(const Question& question) {
     return answer;
 }
 
-Answer Service::atlas_answer() {
-    return json_answer(atlas_json_.get([&atlas = atlas(), this] { return atlas_json(atlas, contents()); }));
-}
-
-const page::PageContents& Service::contents() const {
-    return contents_.get([&atlas = atlas(), this] { return page::page_contents(atlas, {}, context_); });
-}
-
 Answer Service::preview_answer(const Question& question) {
     Words words(question.words);
     const double tau = required_tau(words);
     words.refuse_others();
-    const std::unique_ptr<Turns::Turn> turn = quick_.take(question.client, question.left);
-    return json_answer(preview_json(atlas().preview(stored_tau(atlas(), tau)), tau));
+    (void)known(question);
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
+    return json_answer(preview_json(atlas().preview(stored_tau(atlas(), tau), context_of(*turn)), tau));
 }
 
 Answer Service::objects_answer(const Question& question) {
@@ -153,8 +170,9 @@ Answer Service::objects_answer(const Question& question) {
     const double tau = required_tau(words);
     const std::int64_t top = words.whole("top", 1, kMostListed).value_or(1000);
     words.refuse_others();
-    const std::unique_ptr<Turns::Turn> turn = quick_.take(question.client, question.left);
-    return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false), tau, top));
+    (void)known(question);
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
+    return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false, context_of(*turn)), tau, top));
 }
 
 Answer Service::measures_answer(const Question& question) {
@@ -164,46 +182,50 @@ Answer Service::measures_answer(const Question& question) {
     const std::vector<std::int64_t> objects = voxels(words, "object");
     words.refuse_others();
     if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
-    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    (void)known(question);  // the trees
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
     ExtractOptions options;
     options.objects = objects;
     options.normals = false;
     const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
-    return json_answer(measures_json(surface, atlas.active(surface.tau, false), tau));
+    return json_answer(measures_json(surface, atlas.active(surface.tau, false, context_of(*turn)), tau));
 }
 
-Answer Service::branches_answer(const Question& question) const {
+Answer Service::branches_answer(const Question& question) {
     Words words(question.words);
-    return json_answer(branches_.json(atlas(), words, context_));
+    const BranchesWanted wanted = branches_wanted(words, atlas().info().calibration);
+    const Known& known = this->known(question);
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
+    return json_answer(branches_json(atlas(), known.hierarchy, wanted, context_of(*turn)));
 }
 
-CardSubject Service::card_subject(Words& words) const {
+CardSubject Service::card_subject(Words& words, const Known& known) const {
     const std::optional<std::int64_t> entry = words.whole("entry", 0, kMostListed), branch = words.whole("branch", 0, kMostBranches);
     if (entry.has_value() == branch.has_value())
         throw Error(ErrorKind::usage,
                     {.where = "entry", .what = "which object is meant is not said once", .next = "add entry=N or branch=RANK"});
     if (branch) {
-        page::PageEntry drawn = branches_.entry(atlas(), *branch, context_);
+        page::PageEntry drawn = branch_entry(atlas(), known.hierarchy, *branch);
         drawn.colour = palette(*branch);
         return {"branch " + std::to_string(*branch), false, std::move(drawn)};
     }
-    const std::vector<page::PageEntry>& entries = contents().entries;
+    const std::vector<page::PageEntry>& entries = known.contents.entries;
     if (*entry >= std::ssize(entries)) {
         throw Error(ErrorKind::not_found, {.where = "entry " + std::to_string(*entry),
                                            .what = "the atlas has no such entry",
                                            .expected = "less than " + std::to_string(entries.size())});
     }
     const page::PageEntry& drawn = entries[static_cast<std::size_t>(*entry)];
-    return {"entry " + std::to_string(*entry), contents().branches[static_cast<std::size_t>(drawn.branch)].dark, drawn};
+    return {"entry " + std::to_string(*entry), known.contents.branches[static_cast<std::size_t>(drawn.branch)].dark, drawn};
 }
 
 Answer Service::card_answer(const Question& question) {
     const Atlas& atlas = atlas_of_volume();
     Words words(question.words);
-    const CardSubject subject = card_subject(words);
+    const CardSubject subject = card_subject(words, known(question));
     const std::int64_t frames = words.whole("frames", 1, kMostFrames).value_or(kMostFrames);
     words.refuse_others();
-    return json_answer(cards_.json(atlas, subject, frames, question, context_));
+    return json_answer(cards_.json(atlas, subject, frames, question, lines_.of(Line::cards), context_));
 }
 
 Answer Service::surface_answer(const Question& question) {
@@ -220,12 +242,13 @@ Answer Service::surface_answer(const Question& question) {
     const std::int64_t most = words.whole("most", 1, kMostTriangles).value_or(kMostTriangles);
     words.refuse_others();
 
-    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
     const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
-    if (format) return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }));
+    const Context context = context_of(*turn);
+    if (format)
+        return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }, context));
     const Vec3& spacing = atlas.info().geometry.spacing;
-    WireMesh mesh =
-        wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most, .threads = context_.threads});
+    WireMesh mesh = wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most}, context);
     Answer answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
@@ -243,11 +266,15 @@ Answer Service::label_answer(const Question& question) {
         throw Error(ErrorKind::resource, {.what = "the labels of so many voxels are more than this server may hold",
                                           .next = "isoatlas label writes them; or start the viewer with more --memory"});
     }
-    const std::unique_ptr<Turns::Turn> turn = turns_.take(question.client, question.left);
-    const Cut cut = atlas.cut(stored_tau(atlas, tau), {.label = true}, context_of(*turn));
+    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
+    const Context context = context_of(*turn);
+    const Cut cut = atlas.cut(stored_tau(atlas, tau), {.label = true}, context);
     const LabelOrigin origin{.interpolant = cut.interpolant, .tunnel_height = cut.tunnel_height, .tau = cut.tau};
+    stop_if_cancelled(context);
     const std::vector<std::uint32_t> labels = object_labels(cut, objects);
-    return file_answer(file_bytes("." + format, [&](const std::string& path) { write_labels(path, atlas.info(), labels, origin); }));
+    stop_if_cancelled(context);
+    return file_answer(
+        file_bytes("." + format, [&](const std::string& path) { write_labels(path, atlas.info(), labels, origin); }, context));
 }
 
 const Atlas& Service::atlas_of_volume() const {

@@ -21,17 +21,16 @@
 #include <atomic>
 #include <string>
 
-#include "base/lazy.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
-#include "server/branches.h"
 #include "server/cards.h"
 #include "server/changes.h"
 #include "server/event_stream.h"
+#include "server/known.h"
+#include "server/lines.h"
 #include "server/opening.h"
 #include "server/question.h"
-#include "server/sample_answers.h"
-#include "server/turns.h"
+#include "server/shared.h"
 #include "server/words.h"
 
 namespace isoatlas::server {
@@ -43,6 +42,8 @@ public:
 
     /// The store that answers come from, or where it stands; nothing is answered before.
     [[nodiscard]] Opening& opening() { return opening_; }
+    /// Finds what every page asks first, on this thread. Throws Error: as Opening::atlas(), input (damaged store), cancelled.
+    void prepare(const Context& context);
     /// Never throws but for want of memory. From many threads.
     [[nodiscard]] Answer answer(const Question& question);
     /// Ends what is being answered.
@@ -51,16 +52,19 @@ public:
 private:
     [[nodiscard]] Answer answer_known(const Question& question);
     [[nodiscard]] Answer events_answer(const Question& question);
-    [[nodiscard]] Answer atlas_answer();
     [[nodiscard]] Answer preview_answer(const Question& question);
     [[nodiscard]] Answer objects_answer(const Question& question);
     [[nodiscard]] Answer measures_answer(const Question& question);
-    [[nodiscard]] Answer branches_answer(const Question& question) const;
+    [[nodiscard]] Answer branches_answer(const Question& question);
+    [[nodiscard]] Answer at_answer(const Question& question);
     [[nodiscard]] Answer card_answer(const Question& question);
     [[nodiscard]] Answer surface_answer(const Question& question);
     [[nodiscard]] Answer label_answer(const Question& question);
-    [[nodiscard]] const page::PageContents& contents() const;
-    [[nodiscard]] CardSubject card_subject(Words& words) const;
+    /// Waits until it is found, in no line: all wait for the same.
+    [[nodiscard]] const Known& known(const Question& question);
+    [[nodiscard]] CardSubject card_subject(Words& words, const Known& known) const;
+    /// Waits for its turn.
+    [[nodiscard]] std::unique_ptr<Turns::Turn> turn_in(Line line, const Question& question);
     /// When it is its turn.
     [[nodiscard]] Answer samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&));
 
@@ -78,15 +82,11 @@ private:
     const std::int64_t memory_;  ///< of one answer
     Changes changes_;
     Opening opening_;
-    Turns turns_, sample_turns_;
-    Turns quick_;  ///< of what is known from the trees alone
+    Lines lines_;
     EventStreams events_;
-    Branches branches_;
     Cards cards_;
-    Lazy<page::PageContents> contents_;
-    Lazy<std::string> atlas_json_;
+    Shared<Known> known_;
     std::atomic<bool> ended_ = false;
-    Lazy<std::vector<NamedEntry>> entries_;
 };
 
 }  // namespace isoatlas::server

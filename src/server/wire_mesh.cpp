@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "isoatlas/error.h"
 #include "server/coarse_surface.h"
@@ -100,12 +101,15 @@ void put_in_strips(std::span<unsigned> corners) {
 }
 
 /// Triangles in strips, points in the order in which they come first: neighbours have near numbers, so both pack well.
-void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points, int threads) {
+void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points, const Context& context) {
     const std::size_t parts = (corners.size() + kPart - 1) / kPart;
-    for_each_block(threads, static_cast<std::int64_t>(parts), [&](std::int64_t part) {
+    const CallerLooks look(context);
+    for_each_block(context.threads, static_cast<std::int64_t>(parts), [&](std::int64_t part) {
+        look();
         const std::size_t first = static_cast<std::size_t>(part) * kPart;
         put_in_strips(std::span(corners).subspan(first, std::min(kPart, corners.size() - first)));
     });
+    stop_if_cancelled(context);
     std::vector<WirePoint> ordered(points.size());
     ordered.resize(
         meshopt_optimizeVertexFetch(ordered.data(), corners.data(), corners.size(), points.data(), points.size(), sizeof(WirePoint)));
@@ -145,7 +149,7 @@ void check(const Surface& surface) {
 
 }  // namespace
 
-WireMesh wire_mesh(const Surface& surface, const WireOptions& options) {
+WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context) {
     check(surface);
     choose_versions();
     const Box box = box_of(surface);
@@ -153,16 +157,18 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options) {
     header.origin = box.low;
     header.step = options.step;
     for (std::size_t axis = 0; axis < 3; ++axis) header.step = std::max(header.step, (box.high[axis] - box.low[axis]) / kSteps);
-    std::vector<WirePoint> points = quantised(surface, header, options.threads);
-    std::vector<unsigned> corners = corners_of(surface, options.threads);
+    std::vector<WirePoint> points = quantised(surface, header, context.threads);
+    std::vector<unsigned> corners = corners_of(surface, context.threads);
     WireMesh mesh;
     mesh.coarse = options.most_triangles > 0 && surface.triangles.size() > static_cast<std::size_t>(options.most_triangles);
+    stop_if_cancelled(context);
     if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.most_triangles));
-    put_in_order(corners, points, options.threads);
+    put_in_order(corners, points, context);
+    stop_if_cancelled(context);
     mesh.points = static_cast<std::int64_t>(points.size());
     mesh.triangles = static_cast<std::int64_t>(corners.size() / 3);
     Bytes point_bytes, triangle_bytes;
-    run_both(options.threads, [&] { point_bytes = packed(points); }, [&] { triangle_bytes = packed(corners, points.size()); });
+    run_both(context.threads, [&] { point_bytes = packed(points); }, [&] { triangle_bytes = packed(corners, points.size()); });
     header.points = static_cast<std::uint32_t>(points.size());
     header.triangles = static_cast<std::uint32_t>(mesh.triangles);
     header.point_bytes = static_cast<std::uint32_t>(point_bytes.size());

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <string>
 
+#include "isoatlas/context.h"
 #include "isoatlas/surface.h"
 
 namespace isoatlas::server {
@@ -21,7 +22,6 @@ namespace isoatlas::server {
 struct WireOptions {
     double step = 0;                  ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
     std::int64_t most_triangles = 0;  ///< fewer by clustering points where there are more; 0: as many as there are
-    int threads = 0;                  ///< 0: one per processor; the bytes do not depend on it
 };
 
 struct WireMesh {
@@ -30,8 +30,8 @@ struct WireMesh {
     bool coarse = false;  ///< triangles were left out
 };
 
-/// surface: of a 3D volume, with normals. Throws Error{resource} for more than 2^31 points or 2^30 triangles.
+/// surface: of a 3D volume, with normals. Throws Error: resource (more than 2^31 points or 2^30 triangles), cancelled.
 /// Cost: about 300 ns a triangle, 60 bytes of memory.
-[[nodiscard]] WireMesh wire_mesh(const Surface& surface, const WireOptions& options);
+[[nodiscard]] WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context = {});
 
 }  // namespace isoatlas::server

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/cancel.h"
 #include "base/check.h"
 #include "base/parallel.h"
 #include "isoatlas/error.h"
@@ -134,12 +135,14 @@ IoCounters BrickReader<T>::most_of_part(std::vector<std::int64_t> bricks) const 
 }
 
 template <class T>
-IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, int threads,
+IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, const Context& context,
                                 const std::function<void(std::int64_t, std::span<const T>)>& sink) const {
     sort_by_offset(bricks);
     const std::vector<Extent> extents = extents_of(bricks, kLongest);
     const IoCounters counters = count(bricks, extents);
-    for_each_block(threads, static_cast<std::int64_t>(extents.size()), [&](std::int64_t e) {
+    const CallerLooks look(context);
+    for_each_block(context.threads, static_cast<std::int64_t>(extents.size()), [&](std::int64_t e) {
+        look();
         const Extent& extent = extents[static_cast<std::size_t>(e)];
         std::vector<std::byte> bytes(static_cast<std::size_t>(extent.end - extent.begin));
         if (!bytes.empty()) store_.read_unchecked(data_, extent.begin, bytes);
@@ -153,8 +156,8 @@ IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, int threads,
 }
 
 template <class T>
-IoCounters BrickReader<T>::read_into(T* whole, std::vector<std::int64_t> bricks, int threads) const {
-    return read(std::move(bricks), threads, [this, whole](std::int64_t brick, std::span<const T> samples) {
+IoCounters BrickReader<T>::read_into(T* whole, std::vector<std::int64_t> bricks, const Context& context) const {
+    return read(std::move(bricks), context, [this, whole](std::int64_t brick, std::span<const T> samples) {
         const Box box = grid_.box(brick);
         const T* from = samples.data();
         const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
@@ -166,9 +169,9 @@ IoCounters BrickReader<T>::read_into(T* whole, std::vector<std::int64_t> bricks,
 }
 
 template <class T>
-IoCounters BrickReader<T>::read_all(std::span<T> whole, int threads) const {
+IoCounters BrickReader<T>::read_all(std::span<T> whole, const Context& context) const {
     ISOATLAS_CHECK(static_cast<std::int64_t>(whole.size()) == grid_.extent.voxels());
-    return read_into(whole.data(), all_bricks(), threads);
+    return read_into(whole.data(), all_bricks(), context);
 }
 
 template <class T>
@@ -179,8 +182,8 @@ std::vector<std::int64_t> BrickReader<T>::all_bricks() const {
 }
 
 template <class T>
-void BrickReader<T>::check(int threads) const {
-    (void)read(all_bricks(), threads, [this](std::int64_t brick, std::span<const T> samples) {
+void BrickReader<T>::check(const Context& context) const {
+    (void)read(all_bricks(), context, [this](std::int64_t brick, std::span<const T> samples) {
         const auto i = static_cast<std::size_t>(brick);
         if (extreme_places(samples) != ExtremePlaces{highest_[i], lowest_[i]}) damaged(store_, brick, kWrongExtremes);
     });

@@ -41,15 +41,16 @@ public:
     [[nodiscard]] std::int64_t lowest_voxel(std::int64_t brick) const { return voxel_at(brick, lowest_[static_cast<std::size_t>(brick)]); }
 
     /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that lie
-    /// close to each other in the file come with one read. Throws Error{input} for a damaged one, or one whose extremes are not where they
-    /// are said to be.
-    IoCounters read(std::vector<std::int64_t> bricks, int threads, const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+    /// close to each other in the file come with one read. Throws Error: input (a damaged one, or one whose extremes are not where they
+    /// are said to be), cancelled.
+    IoCounters read(std::vector<std::int64_t> bricks, const Context& context,
+                    const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
     /// The same into the whole volume, x fastest: every sample where it belongs.
-    IoCounters read_into(T* whole, std::vector<std::int64_t> bricks, int threads) const;
+    IoCounters read_into(T* whole, std::vector<std::int64_t> bricks, const Context& context) const;
     /// All samples. whole.size(): the voxels of the volume.
-    IoCounters read_all(std::span<T> whole, int threads) const;
+    IoCounters read_all(std::span<T> whole, const Context& context) const;
     /// Reads all bricks; throws Error{input} where the places of the extremes are not those of the samples.
-    void check(int threads) const;
+    void check(const Context& context) const;
 
 private:
     struct Extent {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "base/cancel.h"
 #include "base/memory_limit.h"
 #include "base/parallel_sort.h"
 #include "critical/bodies.h"
@@ -69,12 +70,12 @@ BigVector<std::uint64_t> sorted_grid_keys(std::span<const std::uint64_t> codes, 
 }
 
 /// All samples of a store, which has more critical elements than half of them.
-BigVector<std::byte> all_samples(const Container& store, int threads) {
+BigVector<std::byte> all_samples(const Container& store, const Context& context) {
     const VolumeInfo& volume = store.contents().volume;
     BigVector<std::byte> samples(static_cast<std::size_t>(volume.extent.voxels()) * size_of(volume.type));
     visit_type(volume.type, [&]<class T>(T) {
         const BrickReader<T> bricks(store);
-        (void)bricks.read_all(std::span<T>(reinterpret_cast<T*>(samples.data()), samples.size() / sizeof(T)), threads);
+        (void)bricks.read_all(std::span<T>(reinterpret_cast<T*>(samples.data()), samples.size() / sizeof(T)), context);
     });
     return samples;
 }
@@ -149,25 +150,26 @@ std::vector<PackedArray> element_arrays(std::span<const double> values, std::spa
 }
 
 template <class Id>
-void read_elements(const Container& store, const std::byte* samples, int threads, BigVector<std::uint64_t>& codes,
+void read_elements(const Container& store, const std::byte* samples, const Context& context, BigVector<std::uint64_t>& codes,
                    BigVector<double>& values) {
     const Contents& contents = store.contents();
     const bool has_values = std::ranges::any_of(contents.arrays, [](const StoredArray& array) { return array.name == kValue; });
     read_codes<Id>(store, !has_values, codes);
+    stop_if_cancelled(context);
     const bool dense = is_dense(codes.size(), contents.volume);
     if (!dense && !has_values) contradiction(store, "values of critical elements are missing");
     if (!dense || (has_values && contents.volume.type == ValueType::f64)) return read_array(store, kValue, type_name<double>(), values);
     BigVector<std::byte> own;
-    if (samples == nullptr) own = all_samples(store, threads);
+    if (samples == nullptr) own = all_samples(store, context);
     const VolumeView volume{contents.volume, samples == nullptr ? own.data() : samples};
     const double height = tunnel_height_of(contents.parameters.interpolant, contents.parameters.tunnel_height);
-    if (has_values) return restore_values(store, volume, height, threads, codes, values);
-    if (!sort_codes(volume, height, threads, codes, values)) contradiction(store, "critical elements are not those of the samples");
+    if (has_values) return restore_values(store, volume, height, context.threads, codes, values);
+    if (!sort_codes(volume, height, context.threads, codes, values)) contradiction(store, "critical elements are not those of the samples");
 }
 
 #define ISOATLAS_ELEMENTS(Id)                                                                                                              \
     template std::vector<PackedArray> element_arrays<Id>(std::span<const double>, std::span<const std::uint64_t>, const VolumeInfo&, int); \
-    template void read_elements<Id>(const Container&, const std::byte*, int, BigVector<std::uint64_t>&, BigVector<double>&);
+    template void read_elements<Id>(const Container&, const std::byte*, const Context&, BigVector<std::uint64_t>&, BigVector<double>&);
 ISOATLAS_ELEMENTS(std::uint32_t)
 ISOATLAS_ELEMENTS(std::uint64_t)
 #undef ISOATLAS_ELEMENTS

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/big_vector.h"
+#include "isoatlas/context.h"
 #include "isoatlas/volume.h"
 #include "store/container.h"
 #include "store/pack.h"
@@ -25,9 +26,9 @@ template <class Id>
                                                       const VolumeInfo& volume, int threads);
 
 /// Codes and values, descending. samples: of the volume, x fastest; null: those of the store, which are read where they are needed.
-/// Throws Error{input} when arrays contradict each other or the samples.
+/// Throws Error: input (arrays contradict each other or the samples), cancelled.
 template <class Id>
-void read_elements(const Container& store, const std::byte* samples, int threads, BigVector<std::uint64_t>& codes,
+void read_elements(const Container& store, const std::byte* samples, const Context& context, BigVector<std::uint64_t>& codes,
                    BigVector<double>& values);
 
 }  // namespace isoatlas::store

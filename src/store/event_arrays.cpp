@@ -63,8 +63,10 @@ std::vector<PackedArray> event_arrays(const Analysis& analysis) {
 
 PackedArray event_sum_array(std::span<const double> sums) { return packed_chunks<double>("events/sum", "float64", sums); }
 
+bool has_event_sums(const Container& store) { return store.contents().has_array("events/sum"); }
+
 std::vector<double> event_sums_of(const Container& store, std::int64_t events) {
-    if (!store.contents().has_array("events/sum")) return {};
+    if (!has_event_sums(store)) return {};
     const auto numbers = store.all<double>("events/sum", "float64");
     if (static_cast<std::int64_t>(numbers.size()) != events) {
         throw Error(ErrorKind::input, {.file = store.path(),

@@ -28,6 +28,7 @@ namespace isoatlas::store {
 /// events/sum: sum of the samples of the zone of each event, which hypervolumes are made of. Not in the first stores of version 1.
 [[nodiscard]] PackedArray event_sum_array(std::span<const double> sums);
 
+[[nodiscard]] bool has_event_sums(const Container& store);
 /// Nothing when they are not stored. Throws Error{input} when there are not as many as events.
 [[nodiscard]] std::vector<double> event_sums_of(const Container& store, std::int64_t events);
 

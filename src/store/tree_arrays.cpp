@@ -5,6 +5,7 @@
 
 #include "store/element_arrays.h"
 #include "store/typed_arrays.h"
+#include "zones/analyse.h"
 #include "zones/analysis_data.h"
 #include "zones/trees.h"
 
@@ -26,13 +27,27 @@ void check(const AnalysisArrays<Id>& a, const Container& store) {
 }
 
 template <class Id>
-std::unique_ptr<IndexedArrays<Id>> read_arcs(const Container& store, const std::byte* samples, int threads) {
+std::unique_ptr<IndexedArrays<Id>> read_arcs(const Container& store, const std::byte* samples, const Context& context) {
     auto result = std::make_unique<IndexedArrays<Id>>();
     AnalysisArrays<Id>& arrays = result->arrays;
-    read_elements<Id>(store, samples, threads, arrays.code, arrays.value);
+    read_elements<Id>(store, samples, context, arrays.code, arrays.value);
     read_array(store, kTowardsOutside, type_name<Id>(), arrays.contours.other);
     check(arrays, store);
     return result;
+}
+
+/// With voxel counts.
+Analysis with_trees(const Container& store, const std::byte* samples, const Context& context) {
+    Analysis analysis = arcs_of(store, samples, context);
+    analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
+        AnalysisArrays<Id>& arrays = held.arrays;
+        if (!restore_trees(arrays, store.contents().volume.extent.rank, context)) contradiction(store, "the contour tree is none");
+        read_array(store, kVoxels, type_name<Id>(), arrays.element_voxels);
+        if (arrays.element_voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
+        add_up_voxels(arrays);
+        release(arrays.element_voxels);
+    });
+    return analysis;
 }
 
 }  // namespace
@@ -71,7 +86,7 @@ std::vector<PackedArray> copied_arrays(const Container& store) {
     return packs;
 }
 
-Analysis arcs_of(const Container& store, const std::byte* samples, int threads) {
+Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context) {
     const Contents& contents = store.contents();
     auto data = std::make_unique<Analysis::Data>();
     data->extent = contents.volume.extent;
@@ -80,23 +95,18 @@ Analysis arcs_of(const Container& store, const std::byte* samples, int threads) 
     const bool is_wide = std::any_of(contents.arrays.begin(), contents.arrays.end(),
                                      [](const StoredArray& a) { return a.name == kTowardsOutside && a.type == "uint64"; });
     if (is_wide) {
-        data->arrays = read_arcs<std::uint64_t>(store, samples, threads);
+        data->arrays = read_arcs<std::uint64_t>(store, samples, context);
     } else {
-        data->arrays = read_arcs<std::uint32_t>(store, samples, threads);
+        data->arrays = read_arcs<std::uint32_t>(store, samples, context);
     }
     return Analysis(std::move(data));
 }
 
-Analysis analysis_of(const Container& store, int threads) {
-    Analysis analysis = arcs_of(store, nullptr, threads);
-    analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
-        AnalysisArrays<Id>& arrays = held.arrays;
-        if (!restore_trees(arrays, store.contents().volume.extent.rank, threads)) contradiction(store, "the contour tree is none");
-        read_array(store, kVoxels, type_name<Id>(), arrays.element_voxels);
-        if (arrays.element_voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
-        add_up_voxels(arrays);
-        release(arrays.element_voxels);
-    });
+Analysis analysis_of(const Container& store, const Context& context) { return with_trees(store, nullptr, context); }
+
+Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, const Context& context) {
+    Analysis analysis = with_trees(store, volume.bytes, context);
+    if (!add_zones(analysis, volume, context)) contradiction(store, "the trees are not those of the samples");
     return analysis;
 }
 

@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "field/volume_view.h"
 #include "isoatlas/analysis.h"
 #include "store/container.h"
 #include "store/pack.h"
@@ -24,10 +25,12 @@ namespace isoatlas::store {
 [[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
 
 /// What find_arcs() gave. samples: of the volume, x fastest; null: those of the store, which are read where elements are many. Throws
-/// Error{input} when arrays contradict each other. Cost: reads them.
-[[nodiscard]] Analysis arcs_of(const Container& store, const std::byte* samples, int threads);
-/// The analysis of a store, without zones of voxels. Throws Error{input} when arrays contradict each other. Cost: reads all of them, O(n
-/// alpha).
-[[nodiscard]] Analysis analysis_of(const Container& store, int threads);
+/// Error: input (arrays contradict each other), cancelled. Cost: reads them.
+[[nodiscard]] Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context);
+/// The analysis of a store, without zones of voxels. Throws Error: input (arrays contradict each other), cancelled. Cost: reads all of
+/// them, O(n alpha).
+[[nodiscard]] Analysis analysis_of(const Container& store, const Context& context);
+/// The same with zones. volume: all samples of the store. Cost: and add_zones() (zones/analyse.h).
+[[nodiscard]] Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas::store

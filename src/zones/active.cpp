@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/cancel.h"
 #include "field/order.h"
 #include "zones/active_index.h"
 
@@ -13,7 +14,7 @@ namespace isoatlas {
 
 struct ActiveIndex::Data {
     virtual ~Data() = default;
-    [[nodiscard]] virtual ActiveObjects at(double tau, const ActiveOptions& options) const = 0;
+    [[nodiscard]] virtual ActiveObjects at(double tau, const ActiveOptions& options, const Context& context) const = 0;
     [[nodiscard]] virtual ObjectChanges changes(double high, double low, bool all) const = 0;
     [[nodiscard]] virtual std::int64_t object_of(const VoxelValue& maximum, double tau) const = 0;
     [[nodiscard]] virtual std::optional<std::int64_t> cavity_of(const VoxelValue& minimum, double tau) const = 0;
@@ -22,6 +23,8 @@ struct ActiveIndex::Data {
 };
 
 namespace {
+
+constexpr std::size_t kBetweenLooks = 4096;  // objects
 
 void require_finite(double tau) {
     if (std::isfinite(tau)) return;
@@ -39,11 +42,14 @@ class Answers final : public ActiveIndex::Data {
 public:
     Answers(const AnalysisArrays<Id>& arrays, const Extent& extent) : zones_(arrays), extent_(extent) {}
 
-    [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options) const override {
+    [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options, const Context& context) const override {
         const std::vector<Id> active = zones_.zones(zones_.rank(tau));
         ActiveObjects all;
         all.tau = tau;
-        for (const Id event : active) all.objects.push_back(object(event, tau, options));
+        for (const Id event : active) {
+            if (all.objects.size() % kBetweenLooks == 0) stop_if_cancelled(context);
+            all.objects.push_back(object(event, tau, options));
+        }
         std::vector<std::size_t> order(active.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         const auto key = [&](std::size_t i) { return std::tuple(-all.objects[i].voxels_most, all.objects[i].id); };
@@ -200,9 +206,9 @@ ActiveIndex::ActiveIndex(ActiveIndex&&) noexcept = default;
 ActiveIndex& ActiveIndex::operator=(ActiveIndex&&) noexcept = default;
 ActiveIndex::~ActiveIndex() = default;
 
-ActiveObjects ActiveIndex::at(double tau, const ActiveOptions& options) const {
+ActiveObjects ActiveIndex::at(double tau, const ActiveOptions& options, const Context& context) const {
     require_finite(tau);
-    return data_->at(tau, options);
+    return data_->at(tau, options, context);
 }
 
 ObjectChanges ActiveIndex::changes(double tau, double other_tau, bool all) const {

@@ -1,10 +1,13 @@
 // The engine from samples to zones: the flow of the whole library on one page.
 #include "zones/analyse.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "critical/basins.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
 #include "critical/leading_elements.h"
@@ -60,6 +63,21 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
     });
 }
 
+/// Is every basin (arrays.zone) that of a maximum, and does every object begin at one? HeavyPaths takes it for granted.
+template <class Id>
+bool fit(const AnalysisArrays<Id>& arrays, const Extent& extent) {
+    const auto is_maximum = [](std::uint64_t code) { return ElementCode{code}.h0() == 0; };
+    const BigVector<Id> maxima = elements_of_maxima<Id>(arrays.code, extent);
+    if (static_cast<std::size_t>(std::ranges::count_if(arrays.code, is_maximum)) != maxima.size()) return false;  // one voxel twice
+    if (!std::ranges::all_of(arrays.zone, [&](Id entry) { return Basins<Id>::number(entry) < maxima.size(); })) return false;
+    std::vector<bool> is_reached(arrays.tree.size(), false);
+    for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
+        if (!is_reached[e] && !is_maximum(arrays.code[arrays.tree.top[e]])) return false;
+        is_reached[arrays.tree.parent[e]] = true;  // parents come after their children
+    }
+    return true;
+}
+
 /// Calls find(grid, scan, arrays) with arrays of the width that fits, and makes an analysis of them.
 template <class Find>
 Analysis analyse_with(const VolumeView& volume, const AnalysisOptions& options, const Context& context, const Find& find) {
@@ -112,23 +130,29 @@ void count_voxels(Analysis& analysis, const VolumeView& volume, const Context& c
     context.report("zones", 4, kPhases, 1);
 }
 
-void complete(Analysis& analysis, const VolumeView& volume, const Context& context) {
-    visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+bool add_zones(Analysis& analysis, const VolumeView& volume, const Context& context) {
+    return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const GridView<T> grid{samples.data(), volume.info->extent};
-        analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
-            ISOATLAS_CHECK(restore_trees(held.arrays, grid.extent.rank, context.threads));
+        return analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
             BigVector<Id>& basin = held.arrays.zone;
             if (basin.empty()) basin = basins_of_maxima<Id>(grid.extent, links_of_grid(grid, context), context);
+            if (!fit(held.arrays, grid.extent)) return false;
             make_zones(grid, held.arrays, context);
+            return true;
         });
     });
+}
+
+void complete(Analysis& analysis, const VolumeView& volume, const Context& context) {
+    analysis.data().visit([&](auto& held) { ISOATLAS_CHECK(restore_trees(held.arrays, volume.info->extent.rank, context)); });
+    ISOATLAS_CHECK(add_zones(analysis, volume, context));
 }
 
 Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Context& context) {
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
     Analysis analysis =
         analyse_with(volume, options, context, [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, AnalysisArrays<Id>& arrays) {
-            make_trees(critical_set(grid, std::move(scan), arrays, context), arrays, context.threads);
+            make_trees(critical_set(grid, std::move(scan), arrays, context), arrays, context);
             if (options.zones) {
                 context.report("zones", 4, kPhases, 0);
                 make_zones(grid, arrays, context);

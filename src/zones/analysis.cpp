@@ -67,14 +67,14 @@ Element Analysis::element(std::int64_t id) const {
 }
 
 std::int64_t Analysis::contour_arc_count() const {
-    return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.index().arcs.size()); });
+    return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.levels().arcs.size()); });
 }
 
 ContourArc Analysis::contour_arc(std::int64_t id) const {
     require(id >= 0 && id < contour_arc_count(), "contour");
     return data_->visit([&](const auto& held) {
         const auto& tree = held.arrays.contours;
-        const std::size_t x = held.index().arcs[id];
+        const std::size_t x = held.levels().arcs[id];
         const auto upper = static_cast<std::int64_t>(tree.upper(x)), lower = static_cast<std::int64_t>(tree.lower(x));
         const bool outside = lower == static_cast<std::int64_t>(held.arrays.value.size());
         return ContourArc{upper, lower, held.arrays.value[upper],
@@ -84,13 +84,13 @@ ContourArc Analysis::contour_arc(std::int64_t id) const {
 }
 
 std::int64_t Analysis::level_count() const {
-    return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.index().levels.size()); });
+    return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.levels().levels.size()); });
 }
 
 Level Analysis::level(std::int64_t id) const {
     require(id >= 0 && id < level_count(), "level");
     return data_->visit([&](const auto& held) {
-        const auto& index = held.index();
+        const auto& index = held.levels();
         const std::size_t root = index.levels[id];
         return Level{held.arrays.value[root], static_cast<std::int64_t>(held.arrays.tree.event_of_element[root]),
                      list_at(index.level_in, id), list_at(index.level_out, id)};
@@ -107,7 +107,7 @@ Event Analysis::event(std::int64_t id) const {
         const auto& arrays = held.arrays;
         const auto& tree = arrays.tree;
         const auto& measures = arrays.measures;
-        const auto& index = held.index();
+        const auto& index = held.events();
         const bool is_3d = data_->extent.rank == 3, root = tree.is_root(id), has_zones = !arrays.voxels.empty();
         Event event{};
         event.id = id;
@@ -133,7 +133,7 @@ Event Analysis::event(std::int64_t id) const {
 void Analysis::visit_object_contours(const std::function<void(std::int64_t, std::span<const GenusCount>)>& visit) const {
     data_->visit([&](const auto& held) {
         const auto& arrays = held.arrays;
-        const auto& index = held.index();
+        const auto& index = held.levels();
         std::vector<Histogram> waiting(
             arrays.tree.size());  // of finished children, gathered at their parent; moved on, so few live at a time
         std::vector<GenusCount> flat;

@@ -35,26 +35,37 @@ struct Lists {
 
 /// Built on first use from the arrays.
 template <class Id>
-struct AnalysisIndex {
-    std::vector<Id> arcs;                   ///< nodes whose arc has a length, by (upper, lower)
-    std::vector<Id> levels;                 ///< roots of the non-trivial levels, descending
-    Lists<Id> level_in, level_out;          ///< genera, sorted, by position in `levels`
-    Lists<Id> event_levels;                 ///< positions in `levels`, by event
+struct LevelIndex {
+    std::vector<Id> arcs;           ///< nodes whose arc has a length, by (upper, lower)
+    std::vector<Id> levels;         ///< roots of the non-trivial levels, descending
+    Lists<Id> level_in, level_out;  ///< genera, sorted, by position in `levels`
+    Lists<Id> event_levels;         ///< positions in `levels`, by event
+};
+
+/// Built on first use from the arrays; most callers need no levels, which cost more.
+template <class Id>
+struct EventIndex {
     std::vector<std::int64_t> first_child;  ///< by event
     std::vector<std::int64_t> children;
     std::vector<Id> object_voxels;  ///< by event: of its object at the low end of the zone; empty without zones
 };
 
 template <class Id>
-AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays);
+LevelIndex<Id> index_levels(const AnalysisArrays<Id>& arrays);
+template <class Id>
+EventIndex<Id> index_events(const AnalysisArrays<Id>& arrays);
 
 template <class Id>
 struct IndexedArrays {
     AnalysisArrays<Id> arrays;
-    Lazy<AnalysisIndex<Id>> lazy;
+    Lazy<LevelIndex<Id>> lazy_levels;
+    Lazy<EventIndex<Id>> lazy_events;
 
-    [[nodiscard]] const AnalysisIndex<Id>& index() const {
-        return lazy.get([this] { return index_analysis(arrays); });
+    [[nodiscard]] const LevelIndex<Id>& levels() const {
+        return lazy_levels.get([this] { return index_levels(arrays); });
+    }
+    [[nodiscard]] const EventIndex<Id>& events() const {
+        return lazy_events.get([this] { return index_events(arrays); });
     }
 };
 

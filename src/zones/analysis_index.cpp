@@ -48,8 +48,8 @@ std::vector<Id> arcs_with_length(const AnalysisArrays<Id>& arrays) {
 }  // namespace
 
 template <class Id>
-AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays) {
-    AnalysisIndex<Id> index;
+LevelIndex<Id> index_levels(const AnalysisArrays<Id>& arrays) {
+    LevelIndex<Id> index;
     const std::size_t n = arrays.value.size(), events = arrays.tree.size();
     const ContourTree<Id>& tree = arrays.contours;
     index.arcs = arcs_with_length(arrays);
@@ -83,6 +83,13 @@ AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays) {
     index.event_levels = make_lists<Id>(events, [&](auto&& add) {
         for (std::size_t i = 0; i < index.levels.size(); ++i) add(arrays.tree.event_of_element[index.levels[i]], static_cast<Id>(i));
     });
+    return index;
+}
+
+template <class Id>
+EventIndex<Id> index_events(const AnalysisArrays<Id>& arrays) {
+    EventIndex<Id> index;
+    const std::size_t events = arrays.tree.size();
     const Lists<Id> children = make_lists<Id>(events, [&](auto&& add) {
         for (std::size_t e = 0; e < events; ++e) {
             if (!arrays.tree.is_root(e)) add(arrays.tree.parent[e], static_cast<Id>(e));
@@ -97,7 +104,11 @@ AnalysisIndex<Id> index_analysis(const AnalysisArrays<Id>& arrays) {
     return index;
 }
 
-template AnalysisIndex<std::uint32_t> index_analysis(const AnalysisArrays<std::uint32_t>&);
-template AnalysisIndex<std::uint64_t> index_analysis(const AnalysisArrays<std::uint64_t>&);
+#define ISOATLAS_INDEX(Id)                                           \
+    template LevelIndex<Id> index_levels(const AnalysisArrays<Id>&); \
+    template EventIndex<Id> index_events(const AnalysisArrays<Id>&);
+ISOATLAS_INDEX(std::uint32_t)
+ISOATLAS_INDEX(std::uint64_t)
+#undef ISOATLAS_INDEX
 
 }  // namespace isoatlas

@@ -75,6 +75,12 @@ std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, 
     return intervals;
 }
 
+std::vector<SpectrumInterval> count_intervals(const Analysis& analysis, const ObjectTable& table) {
+    return analysis.data().visit([&](const auto& held) {
+        return count_intervals(held.arrays, analysis.extent().rank, events_of_entries(held.arrays, table.entries));
+    });
+}
+
 #define ISOATLAS_COUNT_INTERVALS(Id)                                                                          \
     template std::vector<bool> events_of_entries(const AnalysisArrays<Id>&, const std::vector<ObjectEntry>&); \
     template std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>&, int, const std::vector<bool>& essential);

@@ -18,4 +18,7 @@ template <class Id>
 template <class Id>
 [[nodiscard]] std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& essential);
 
+/// The same; essential is what a table of these trees lists.
+[[nodiscard]] std::vector<SpectrumInterval> count_intervals(const Analysis& analysis, const ObjectTable& table);
+
 }  // namespace isoatlas

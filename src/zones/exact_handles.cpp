@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/cancel.h"
 #include "base/check.h"
 #include "base/parallel.h"
 #include "critical/descending_disk.h"
@@ -69,7 +70,7 @@ public:
         const auto closing = static_cast<std::int64_t>(elements_.closing.size());
         std::vector<Column> traced(static_cast<std::size_t>(kBatch));
         for (std::int64_t first = 0; first < closing; first += kBatch) {
-            if (context_.cancelled && context_.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+            stop_if_cancelled(context_);
             context_.report("tunnels", 0, 1, static_cast<double>(first) / static_cast<double>(closing));
             const std::int64_t count = std::min(kBatch, closing - first);
             for_each_block(context_.threads, count, [&](std::int64_t i) { traced[i] = column(elements_.closing[first + i]); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "critical/scan.h"
 #include "tree/contour_tree.h"
@@ -15,16 +16,19 @@ namespace {
 
 /// Levels, events and their measures. join: parents of the join tree.
 template <class Id>
-void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank, int threads) {
+void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank, const Context& context) {
+    stop_if_cancelled(context);
     BigVector<std::int8_t> delta = rank == 3 ? delta_chis(arrays.code, 3) : BigVector<std::int8_t>();
     BigVector<Id> group;
     run_both(
-        threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); },
+        context.threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); },
         [&] { group = join_groups<Id>(join, arrays.value); });
     const BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, delta);
+    stop_if_cancelled(context);
     arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, kind);
+    stop_if_cancelled(context);
     if (rank != 3) delta = delta_chis(arrays.code, rank);
-    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, delta, threads);
+    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, delta, context.threads);
 }
 
 }  // namespace
@@ -49,20 +53,21 @@ BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int thr
 }
 
 template <class Id>
-void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
+void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, const Context& context) {
     const int rank = set.rank;
-    const BigVector<Id> join = make_arcs(std::move(set), arrays, threads);
-    make_events<Id>(join, arrays, rank, threads);
+    const BigVector<Id> join = make_arcs(std::move(set), arrays, context.threads);
+    make_events<Id>(join, arrays, rank, context);
 }
 
 template <class Id>
-bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads) {
+bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context) {
     const bool is_3d = rank == 3;
     if (arrays.contours.other.size() != arrays.value.size() + 1) return false;
     if (!complete_contour_tree<Id>(arrays.contours, is_3d ? delta_chis(arrays.code, 3) : BigVector<std::int8_t>())) return false;
     if (!is_3d) std::fill(arrays.contours.half_chi.begin(), arrays.contours.half_chi.end(), 1);
+    stop_if_cancelled(context);
     const BigVector<Id> join = join_tree_of(arrays.contours);
-    make_events<Id>(join, arrays, rank, threads);
+    make_events<Id>(join, arrays, rank, context);
     return true;
 }
 
@@ -74,10 +79,10 @@ void add_up_voxels(AnalysisArrays<Id>& arrays) {
     }
 }
 
-#define ISOATLAS_TREES(Id)                                                       \
-    template BigVector<Id> make_arcs(CriticalSet<Id>, AnalysisArrays<Id>&, int); \
-    template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, int);         \
-    template bool restore_trees(AnalysisArrays<Id>&, int, int);                  \
+#define ISOATLAS_TREES(Id)                                                          \
+    template BigVector<Id> make_arcs(CriticalSet<Id>, AnalysisArrays<Id>&, int);    \
+    template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, const Context&); \
+    template bool restore_trees(AnalysisArrays<Id>&, int, const Context&);          \
     template void add_up_voxels(AnalysisArrays<Id>&);
 ISOATLAS_TREES(std::uint32_t)
 ISOATLAS_TREES(std::uint64_t)

@@ -10,14 +10,14 @@ namespace isoatlas {
 template <class Id>
 BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
 
-/// Fills in everything but the zones. Cost: O(n alpha).
+/// Fills in everything but the zones. Throws Error{cancelled}. Cost: O(n alpha).
 template <class Id>
-void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
+void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, const Context& context);
 
 /// The same from value, code and contours.other, all else follows from them. Returns false when these are no contour tree: a damaged
-/// store. Cost: O(n alpha).
+/// store. Throws Error{cancelled}. Cost: O(n alpha).
 template <class Id>
-[[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, int threads);
+[[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context);
 
 /// Per element: change of the Euler characteristic.
 [[nodiscard]] BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank);

@@ -17,9 +17,9 @@ MAX_LINES = 400
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
 DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
-    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_limit\.cpp|src/server/(turns|changes)\.h",
-    r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/field/slab_work\.cpp|src/base/memory_limit\.cpp",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/(analysis_data|open_voxels)\.h|src/store/hdf5_layout\.cpp|src/query/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(turns|changes|opening|event_stream)\.h",  # std::once_flag: the index is made when first asked for
+    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_limit\.cpp|src/server/(turns|changes|shared)\.h",
+    r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_limit\.cpp",  # asks which thread it is on; watches memory, computes nothing
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/(analysis_data|open_voxels)\.h|src/store/hdf5_layout\.cpp|src/query/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(turns|changes|opening|event_stream|shared)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"src/dist/.*",
     r"tiff.*\.h": r"src/io/tiff.*|src/output/.*|tests/.*",
     r"pugixml\.hpp": r"src/io/.*|src/output/.*|tests/.*",

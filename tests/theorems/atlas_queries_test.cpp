@@ -2,16 +2,20 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <set>
 #include <sstream>
 #include <thread>
 
+#include "atlas/overview.h"
 #include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
 #include "oracle/stores.h"
+#include "store/brick_writer.h"
+#include "store/tree_arrays.h"
 
 namespace oracle {
 namespace {
@@ -138,6 +142,18 @@ std::string text(const isoatlas::ObjectTable& table) {
     return out.str();
 }
 
+std::string text(const isoatlas::DarkTable& table) {
+    std::ostringstream out;
+    out.precision(17);
+    out << table.branches << ' ' << table.noise << '\n';
+    for (const auto& o : table.entries) {
+        out << o.id << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure << ' '
+            << o.hypervolume << ' ' << o.object << ' ' << o.tunnels << ' ' << o.islands << ' ' << join(o.position) << o.tau_low << ' '
+            << o.tau_high << ' ' << o.inside << ' ' << name_of(o.reason) << ' ' << o.note << '\n';
+    }
+    return out.str();
+}
+
 isoatlas::Selection arbitrary_selection(const isoatlas::BranchHierarchy& hierarchy) {
     const auto& some = hierarchy.branches()[*rc::gen::inRange<std::size_t>(0, hierarchy.branches().size())];
     isoatlas::Selection selection;
@@ -181,19 +197,39 @@ RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     isoatlas::build_atlas(path_, volume);
     const Atlas atlas(path_);
-    const auto text_of = [](const isoatlas::DarkTable& table) {
-        std::ostringstream out;
-        out.precision(17);
-        out << table.branches << ' ' << table.noise << '\n';
-        for (const auto& o : table.entries) {
-            out << o.id << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure << ' '
-                << o.hypervolume << ' ' << o.object << ' ' << o.tunnels << ' ' << o.islands << ' ' << join(o.position) << o.tau_low << ' '
-                << o.tau_high << ' ' << o.inside << ' ' << name_of(o.reason) << ' ' << o.note << '\n';
-        }
-        return out.str();
-    };
     for (const std::int64_t top : {0, 2})
-        RC_ASSERT(text_of(atlas.dark_objects({.top = top})) == text_of(rank_dark_objects(volume, isoatlas::analyse(volume), {.top = top})));
+        RC_ASSERT(text(atlas.dark_objects({.top = top})) == text(rank_dark_objects(volume, isoatlas::analyse(volume), {.top = top})));
+}
+
+/// A store of the same volume without its tables, as one of noise with too many critical elements is.
+void leave_tables_out(const std::string& from, const Volume& volume, const std::string& to) {
+    const isoatlas::store::Container store(from);
+    std::vector<isoatlas::store::PackedArray> arrays = isoatlas::store::brick_arrays(volume, {});
+    for (isoatlas::store::PackedArray& array : isoatlas::store::copied_arrays(store)) {
+        const auto lies_in = [&array](const char* folder) { return array.name.starts_with(folder); };
+        if (std::ranges::any_of(std::array{"elements/", "census/"}, lies_in)) arrays.push_back(std::move(array));
+    }
+    isoatlas::store::pack_store(to, store.contents(), arrays);
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, TellTogetherWhatTheyTellApart, ()) {
+    const Grid grid = arbitrary_volume();
+    Volume volume = to_volume(grid, arbitrary_type(grid));
+    volume.info.geometry = arbitrary_geometry(grid);
+    isoatlas::build_atlas(path_, volume);
+    const std::string bare = path_ + ".bare";
+    leave_tables_out(path_, volume, bare);
+    const isoatlas::Analysis analysis = isoatlas::analyse(volume);
+    const isoatlas::BranchHierarchy hierarchy(volume, analysis);
+    for (const std::string& path : {path_, bare}) {
+        const Atlas atlas(path);
+        const isoatlas::Overview found = isoatlas::overview_of(atlas, {});
+        RC_ASSERT(text(found.bright) == text(isoatlas::rank_objects(volume, analysis, {.top = 0})));
+        RC_ASSERT(text(found.dark) == text(rank_dark_objects(volume, analysis, {.top = 0})));
+        RC_ASSERT(text(found.hierarchy, {}) == text(hierarchy, {}));
+        RC_ASSERT(atlas.active(grid.value[0]).objects.size() == Atlas(path).active(grid.value[0]).objects.size());
+    }
+    std::filesystem::remove(bare);
 }
 
 RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfObjects, ()) {

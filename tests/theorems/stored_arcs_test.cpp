@@ -87,7 +87,7 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
             RC_ASSERT(same(found.contours.other, arrays.contours.other));
             RC_ASSERT(same(found.element_voxels, voxels));
             RC_ASSERT(same(counted_by_tiles(volume, found, context_of(1 + static_cast<int>(tile % 2), tile)), voxels));
-            RC_ASSERT(isoatlas::restore_trees(found, grid.rank, 1));
+            RC_ASSERT(isoatlas::restore_trees(found, grid.rank, context_of(1, 0)));
             isoatlas::add_up_voxels(found);
             RC_ASSERT(same(found.voxels, arrays.voxels));
         }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { detailsOf, messages, progressOf, waitingFor, type Build, type ServerState } from "../src/viewer/ask/server_state";
+import { detailsOf, messages, progressOf, waitingFor, type Build, type Question, type ServerState } from "../src/viewer/ask/server_state";
 
 function streamOf(...pieces: string[]): ReadableStream<Uint8Array> {
   return new ReadableStream({
@@ -50,8 +50,9 @@ describe("a build in words", () => {
 
 describe("what one waits for", () => {
   it("is what is being made, or the first place in the queue", () => {
-    const at = (place: number, fraction = 0): { client: string; place: number; fraction: number } => ({
+    const at = (place: number, fraction = 0, line: Question["line"] = "surfaces"): Question => ({
       client: "me/surface",
+      line,
       place,
       fraction,
     });
@@ -59,5 +60,8 @@ describe("what one waits for", () => {
     expect(waitingFor([at(0, 0.5)])).toBe("making a surface: 50 %");
     expect(waitingFor([at(0, 0.5), at(0, 0.25), at(1)])).toBe("making 2 surfaces: 25 %");
     expect(waitingFor([at(7), at(3)])).toBe("waiting for a turn: 3 in the queue");
+    expect(waitingFor([at(0, 0, "atlas")])).toBe("finding what stands out");
+    expect(waitingFor([at(0, 0, "samples"), at(0, 0.5)])).toBe("making a surface: 50 %");
+    expect(waitingFor([at(0, 0, "cards"), at(3, 0, "cards")])).toBe("");
   });
 });

@@ -25,8 +25,8 @@ protected:
 
     Changes changes_;
     Opening opening_{changes_};
-    Turns turns_{1, 10, &changes_};
-    EventStreams streams_{opening_, turns_, changes_};
+    Lines lines_{changes_};
+    EventStreams streams_{opening_, lines_, changes_};
 };
 
 TEST_F(EventStreamTest, TellsOfTheBuild) {
@@ -47,20 +47,27 @@ TEST_F(EventStreamTest, TellsOfTheBuild) {
 TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
     const auto stream = streams_.listen("me", {});
     EXPECT_TRUE(next(*stream)["questions"].empty());
-    const auto other = turns_.take("you/surface");
-    std::thread asker([&] { EXPECT_THROW((void)turns_.take("me/surface"), Error); });
-    while (turns_.waiting() < 1) std::this_thread::yield();
-    const nlohmann::json questions = next(*stream)["questions"];
-    ASSERT_EQ(questions.size(), 1U);
-    EXPECT_EQ(questions[0]["client"], "me/surface");
-    EXPECT_EQ(questions[0]["place"], 1);
-    turns_.leave("me");
+    Turns& cards = lines_.of(Line::cards);
+    const auto other = cards.take("you/card");
+    const auto slice = lines_.of(Line::samples).take("me/slice");
+    std::thread asker([&] { EXPECT_THROW((void)cards.take("me/card"), Error); });
+    while (cards.waiting() < 1) std::this_thread::yield();
+    nlohmann::json questions;
+    while (questions.size() < 2) questions = next(*stream)["questions"];
+    EXPECT_EQ(questions[0]["client"], "me/slice");
+    EXPECT_EQ(questions[0]["line"], "samples");
+    EXPECT_EQ(questions[0]["place"], 0);
+    EXPECT_EQ(questions[1]["client"], "me/card");
+    EXPECT_EQ(questions[1]["line"], "cards");
+    EXPECT_EQ(questions[1]["place"], 1);
+    lines_.leave("me");
+    EXPECT_TRUE(slice->is_over());
     asker.join();
 }
 
 TEST_F(EventStreamTest, TheLastStreamOfAClientTakesItsQuestionsAlong) {
     auto first = streams_.listen("me", {}), second = streams_.listen("me", {});
-    const auto turn = turns_.take("me/surface");
+    const auto turn = lines_.of(Line::trees).take("me/objects");
     first.reset();
     EXPECT_FALSE(turn->is_over());
     second.reset();

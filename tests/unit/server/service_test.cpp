@@ -301,6 +301,64 @@ TEST_F(ServiceTest, AnExtractionEndsWhenWhoAskedHasLeft) {
     EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 200);
 }
 
+TEST_F(ServiceTest, AnyAnswerIsGivenUpWhenWhoAskedHasLeft) {
+    const std::string id = std::to_string(atlas_->objects().entries[0].id);
+    const std::vector<std::pair<std::string, std::multimap<std::string, std::string>>> questions{
+        {"/api/atlas", {}},
+        {"/api/preview", {{"tau", "0.5"}}},
+        {"/api/objects", {{"tau", "0.5"}}},
+        {"/api/branches", {}},
+        {"/api/card", {{"entry", "0"}}},
+        {"/api/card", {{"branch", "0"}, {"frames", "1"}}},
+        {"/api/surface", {{"tau", "0.5"}}},
+        {"/api/surface", {{"tau", "0.5"}, {"object", id}}},
+        {"/api/surface", {{"tau", "0.5"}, {"format", "stl"}}},
+        {"/api/label", {{"tau", "0.5"}}},
+        {"/api/measures", {{"tau", "0.5"}, {"object", id}}},
+        {"/api/slice", {{"axis", "0"}, {"index", "1"}}},
+        {"/api/volume", {}},
+        {"/api/at", {{"voxel", "1,2,3"}}},
+        {"/api/transfer", {}},
+    };
+    for (const auto& [path, words] : questions) {
+        service_.emplace("secret", Context{});  // nothing is found yet
+        service_->opening().open(*atlas_);
+        atlas_->clear_cache();
+        int looks = 0;
+        left_ = [&looks] { return ++looks > 1; };  // there when it is asked, gone soon after
+        EXPECT_EQ(ask(path, words).status, 409) << path;
+        EXPECT_LE(looks, 4) << path;
+        left_ = {};
+        EXPECT_EQ(ask(path, words).status, 200) << path;
+    }
+}
+
+TEST_F(ServiceTest, WhatAllAskForIsFoundOnce) {
+    std::array<std::string, 4> answers;
+    oracle::ask_at_once([&](int asker, const Context&) {
+        answers[static_cast<std::size_t>(asker)] = service_->answer({"/api/atlas", {}, "secret", ""}).bytes;
+    });
+    for (const std::string& answer : answers) EXPECT_TRUE(answer == answers[0]);
+    const std::int64_t extents = atlas_->reads().extents;
+    service_->prepare({});
+    EXPECT_TRUE(ask("/api/atlas").bytes == answers[0]);
+    EXPECT_EQ(ask("/api/transfer").status, 200);
+    EXPECT_EQ(atlas_->reads().extents, extents);
+}
+
+TEST_F(ServiceTest, WhatIsPreparedIsThere) {
+    service_->prepare({});
+    left_ = [] { return true; };
+    EXPECT_EQ(ask("/api/atlas").status, 200);  // nothing to wait for
+    Service other("secret", {});
+    EXPECT_THROW(other.prepare({}), Error);
+    other.opening().open(*atlas_);
+    Context stopped;
+    stopped.cancelled = [] { return true; };
+    EXPECT_THROW(other.prepare(stopped), Error);
+    EXPECT_NO_THROW(other.prepare({}));
+}
+
 TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
     Service small("secret", {}, 1000);
     small.opening().open(*atlas_);
@@ -316,6 +374,8 @@ TEST_F(ServiceTest, AfterTheEndNothingIsMade) {
     EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 409);
     EXPECT_EQ(ask("/api/card", {{"branch", "0"}}).status, 409);
     EXPECT_EQ(ask("/api/slice", {{"axis", "0"}, {"index", "0"}}).status, 409);
+    EXPECT_EQ(ask("/api/atlas").status, 409);
+    EXPECT_EQ(ask("/api/at", {{"voxel", "0,0,0"}}).status, 409);
 }
 
 }  // namespace

@@ -138,8 +138,12 @@ TEST(WireMesh, CoarseHasFewerTriangles) {
 TEST(WireMesh, SameBytesForAnyThreads) {
     const Surface surface = surface_of("noise", 0.5);
     ASSERT_GT(surface.triangles.size(), 100000U);  // several parts
-    const std::string bytes = wire_mesh(surface, {.step = 0.01, .threads = 1}).bytes;
-    for (const int threads : {0, 2, 3}) EXPECT_EQ(wire_mesh(surface, {.step = 0.01, .threads = threads}).bytes, bytes);
+    const auto bytes_with = [&](int threads) {
+        Context context;
+        context.threads = threads;
+        return wire_mesh(surface, {.step = 0.01}, context).bytes;
+    };
+    for (const int threads : {0, 2, 3}) EXPECT_EQ(bytes_with(threads), bytes_with(1));
 }
 
 }  // namespace

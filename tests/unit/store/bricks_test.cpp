@@ -45,7 +45,7 @@ public:
             const BrickReader<T> reader(store);
             std::vector<std::int64_t> all;
             for (std::int64_t b = 0; b < reader.grid().count(); ++b) all.push_back(b);
-            reader.read(all, 2, [&](std::int64_t brick, std::span<const T> samples) {
+            reader.read(all, {}, [&](std::int64_t brick, std::span<const T> samples) {
                 const Box box = reader.grid().box(brick);
                 std::size_t i = 0;
                 for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
@@ -138,7 +138,7 @@ TEST_F(Bricks, NeighboursAreReadTogether) {
         const auto place = reader.grid().place(b);
         if (place[0] < 4 && place[1] < 4 && place[2] < 4) corner.push_back(b);
     }
-    const IoCounters counters = reader.read(corner, 1, [](std::int64_t, std::span<const std::uint8_t>) {});
+    const IoCounters counters = reader.read(corner, {}, [](std::int64_t, std::span<const std::uint8_t>) {});
     EXPECT_EQ(counters.bricks, 64);
     EXPECT_EQ(counters.extents, 1);
     EXPECT_LT(counters.bytes, 64 * kBrickSamples);

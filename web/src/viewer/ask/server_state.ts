@@ -14,6 +14,7 @@ export interface Build {
 /** One that is not yet answered. */
 export interface Question {
   client: string;
+  line: "surfaces" | "samples" | "trees" | "cards" | "atlas";
   /** in the queue, from 1; 0: the answer is being made */
   place: number;
   fraction: number;
@@ -77,13 +78,23 @@ export function detailsOf(build: Build): string {
   return parts.filter((part) => part !== "").join(", ");
 }
 
-/** What one waits for; empty: nothing. */
+/** What is being done for a line that has no share to tell. */
+const WORK: Partial<Record<Question["line"], string>> = {
+  samples: "reading samples",
+  trees: "looking into the trees",
+  atlas: "finding what stands out",
+};
+
+/** What one waits for; empty: nothing. Pictures of cards come when they come. */
 export function waitingFor(questions: readonly Question[]): string {
-  const waits = questions.filter(({ place }) => place > 0).map(({ place }) => place);
-  const made = questions.filter(({ place }) => place === 0);
-  if (made.length > 0) {
-    const share = Math.min(...made.map(({ fraction }) => fraction));
-    return `making ${made.length === 1 ? "a surface" : `${made.length} surfaces`}: ${Math.floor(100 * share)} %`;
+  const awaited = questions.filter(({ line }) => line !== "cards");
+  const waits = awaited.filter(({ place }) => place > 0).map(({ place }) => place);
+  const made = awaited.filter(({ place }) => place === 0);
+  const surfaces = made.filter(({ line }) => line === "surfaces");
+  if (surfaces.length > 0) {
+    const share = Math.min(...surfaces.map(({ fraction }) => fraction));
+    return `making ${surfaces.length === 1 ? "a surface" : `${surfaces.length} surfaces`}: ${Math.floor(100 * share)} %`;
   }
+  if (made[0]) return WORK[made[0].line] ?? "";
   return waits.length > 0 ? `waiting for a turn: ${Math.min(...waits)} in the queue` : "";
 }

@@ -1,0 +1,34 @@
+#include "atlas/overview.h"
+
+#include "atlas/access.h"
+#include "atlas/object_arrays.h"
+#include "base/cancel.h"
+#include "store/tree_arrays.h"
+#include "zones/rank.h"
+
+namespace isoatlas {
+namespace {
+
+/// Are both tables stored, and whole?
+bool has_tables(const store::Container& store) {
+    if (!has_objects(store) || !has_dark(store)) return false;
+    const ObjectTable bright = objects_of(store);
+    return is_whole(bright) && knows_branches(bright) && is_whole(dark_of(store));
+}
+
+}  // namespace
+
+Overview overview_of(const Atlas& atlas, const Context& context) {
+    if (has_tables(AtlasAccess::store(atlas)))
+        return {atlas.objects({.top = 0}, context), atlas.dark_objects({.top = 0}, context), atlas.hierarchy(context)};
+    const Volume whole = atlas.volume(context);
+    Analysis zoned = store::zoned_analysis_of(AtlasAccess::store(atlas), whole, context);
+    stop_if_cancelled(context);
+    BothTables tables = rank_both(whole, zoned, 0, context);
+    stop_if_cancelled(context);
+    BranchHierarchy hierarchy(whole, zoned, context);
+    AtlasAccess::keep(atlas, std::move(zoned));
+    return {std::move(tables.bright), std::move(tables.dark), std::move(hierarchy)};
+}
+
+}  // namespace isoatlas
