@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "page/page_axis.h"
 #include "page/thin_curve.h"
 
 namespace isoatlas::page {
@@ -28,7 +29,7 @@ public:
 
     PageContents gather() && {
         const auto [low, high] = atlas_.range();
-        contents_.scale = axis_scale(atlas_, context_);
+        contents_.scale = page_axis(atlas_, context_);
         const ObjectTable table = atlas_.objects({.top = options_.top}, context_);
         DarkTable dark = atlas_.dark_objects({.top = 0}, context_);
         contents_.bright = table.branches, contents_.noise = table.noise;

@@ -26,7 +26,7 @@ const char* text_of(IsovalueReason reason) {
         case IsovalueReason::outline: return "everything that is not background";
         case IsovalueReason::outer: return "its outer boundary alone is sharpest here";
         case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
-        case IsovalueReason::merge: return "as large as it gets before it merges; no isovalue stands out";
+        case IsovalueReason::merge: return "as large as it gets before it merges with another object";
         case IsovalueReason::middle: return "the middle of its range; no isovalue stands out";
     }
     return "";
@@ -47,7 +47,7 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
 }
 
 bool is_background(const ObjectEntry& entry, const Extent& extent) {
-    return entry.outline && static_cast<double>(entry.voxels) > 2.0 / 3 * static_cast<double>(extent.voxels());
+    return entry.outline && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
 }
 
 namespace {

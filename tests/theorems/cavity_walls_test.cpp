@@ -88,8 +88,8 @@ bool are_filled_as_brute_force_says(const Grid& grid, isoatlas::Interpolant inte
                     count += at.object_of[v] == object || was_in_cavity[v];
                 }
                 // An edge of a bin between the last isovalue and this one: nothing happens between them.
-                const double edge = std::ceil((below - histogram.low) / histogram.width() + 1e-6);
-                const bool has_edge = edge >= 1 && histogram.low + edge * histogram.width() < tau - 1e-6;
+                const double edge = std::ceil((histogram.axis.position(below) - histogram.low) / histogram.width() + 1e-6);
+                const bool has_edge = edge >= 1 && histogram.axis.height(histogram.low + edge * histogram.width()) < tau - 1e-6;
                 below = tau;
                 if (!has_edge) continue;
                 const auto first = histogram.added.begin() + static_cast<std::ptrdiff_t>(edge);
