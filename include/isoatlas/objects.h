@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,7 @@ struct RecommendedIsovalue {
     double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: nothing stands out. Where
                               ///< nearly all samples are low, the rate is along the bent axis of the page
     IsovalueReason reason;
-    std::int64_t cavity = -1;  ///< inner: the cavity (DarkEntry::id at tau, the id of the contour around it); else -1
+    std::int64_t cavity = -1;  ///< inner, and of dark objects: the cavity (DarkEntry::id at tau, the id of the contour around it); else -1
     friend bool operator==(const RecommendedIsovalue&, const RecommendedIsovalue&) = default;
 };
 
@@ -79,8 +80,8 @@ struct RankOptions {
 /// (essential.md section 2). In units of `noise`.
 [[nodiscard]] double noise_height(double noise, std::int64_t voxels);
 
-/// Those of one object, given by ObjectEntry::branch_top.
-[[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(const ObjectTable& table, std::int64_t branch_top);
+/// Those of one object, given by ObjectEntry::branch_top or DarkEntry::branch_minimum. isovalues: of a table.
+[[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top);
 /// That of the line's own isovalue; nothing when it is not known.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 

@@ -133,7 +133,10 @@ private:
                                           .hypervolume = entry.hypervolume,
                                           .voxels = entry.voxels,
                                           .measure = entry.measure,
-                                          .stands_out = true});
+                                          .stands_out = true,
+                                          .isovalues = isovalues_of(dark.isovalues, entry.branch_minimum)});
+            std::erase_if(contents_.branches.back().isovalues,
+                          [&](const RecommendedIsovalue& isovalue) { return isovalue.tau == entry.best_tau; });
             contents_.entries.push_back({.branch = branch,
                                          .id = entry.id,
                                          .tau = entry.best_tau,

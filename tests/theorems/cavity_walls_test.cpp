@@ -152,7 +152,7 @@ TEST(CavityWalls, AreSharpAtOtherIsovaluesThanTheOuterBoundary) {
     const isoatlas::ObjectTable table = isoatlas::rank_objects(volume, analysis);
     ASSERT_FALSE(table.entries.empty());
     std::map<IsovalueReason, std::vector<RecommendedIsovalue>> by_reason;
-    for (const RecommendedIsovalue& isovalue : isovalues_of(table, table.entries[0].branch_top))
+    for (const RecommendedIsovalue& isovalue : isovalues_of(table.isovalues, table.entries[0].branch_top))
         by_reason[isovalue.reason].push_back(isovalue);
     const auto& outer = by_reason[IsovalueReason::outer];
     ASSERT_EQ(outer.size(), 1U);
