@@ -12,11 +12,12 @@
 namespace isoatlas::cli {
 namespace {
 
-Json entry_json(const DarkEntry& entry, const VolumeInfo& info) {
+Json entry_json(const DarkTable& table, const DarkEntry& entry, const VolumeInfo& info) {
     const Scale scale(info);
     Json json{{"id", entry.id}};
     add_isovalues(json, entry, scale);
     json["reason"] = name_of(entry.reason);
+    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_minimum), scale);
     json["object"] = entry.object;
     json["tunnels"] = entry.tunnels;
     json["islands"] = entry.islands;
@@ -46,6 +47,11 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
     terminal.say(fmt::format("{} in all; {} to look at", counted(table.branches, "cavity", "cavities"),
                              counted(static_cast<std::int64_t>(table.entries.size()), "dark object")));
     text.print(terminal);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_minimum);
+        if (!others.empty()) others.erase(others.begin());
+        tell_isovalues(terminal, i, others, scale);
+    }
     if (table.entries.empty()) {
         terminal.say("no cavity stands out from the noise; --all lists everything");
         return;
@@ -60,7 +66,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
 void add_dark(Json& json, const DarkTable& table, const VolumeInfo& info) {
     json["dark_branches"] = table.branches;
     Json& list = json["dark"] = Json::array();
-    for (const DarkEntry& entry : table.entries) list.push_back(entry_json(entry, info));
+    for (const DarkEntry& entry : table.entries) list.push_back(entry_json(table, entry, info));
 }
 
 void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const DarkTable& table) {
@@ -71,7 +77,7 @@ void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, 
     head["noise"] = table.noise * info.calibration.slope;
     add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
-          [&](std::int64_t i) { return entry_json(table.entries[static_cast<std::size_t>(i)], info); });
+          [&](std::int64_t i) { return entry_json(table, table.entries[static_cast<std::size_t>(i)], info); });
 }
 
 }  // namespace isoatlas::cli

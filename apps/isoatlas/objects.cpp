@@ -29,19 +29,12 @@ std::string extract_command(const Arguments& arguments, std::int64_t id, const s
 
 // The table: objects at their own best isovalues.
 
-Json isovalue_json(const RecommendedIsovalue& isovalue, const Scale& scale) {
-    Json json{{"tau", scale.reported(isovalue.tau)}, {"reason", name_of(isovalue.reason)}, {"prominence", number(isovalue.prominence)}};
-    if (isovalue.reason == IsovalueReason::inner) json["cavity"] = isovalue.cavity;
-    return json;
-}
-
 Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
     Json json{{"id", entry.id}, {"event", entry.event}};
     add_isovalues(json, entry, scale);
     const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
     json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
-    Json& isovalues = json["isovalues"] = Json::array();
-    for (const RecommendedIsovalue& isovalue : isovalues_of(table, entry.branch_top)) isovalues.push_back(isovalue_json(isovalue, scale));
+    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top), scale);
     json["chi"] = 1 - entry.tunnels + entry.cavities;
     json["b1"] = entry.tunnels;
     json["b2"] = entry.cavities;
@@ -94,13 +87,9 @@ void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Sc
     std::set<std::pair<std::int64_t, double>> told;
     for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top, entry.best_tau);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
-        std::string others;
-        for (const RecommendedIsovalue& isovalue : isovalues_of(table, table.entries[i].branch_top)) {
-            if (!told.emplace(isovalue.branch_top, isovalue.tau).second) continue;
-            const std::string cavity = isovalue.cavity < 0 ? "" : fmt::format(", cavity {}", isovalue.cavity);
-            others += fmt::format("{} {} ({}{})", others.empty() ? "" : ",", scale.brief(isovalue.tau), name_of(isovalue.reason), cavity);
-        }
-        if (!others.empty()) terminal.say(fmt::format("{} also at{}", i + 1, others));
+        std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_top);
+        std::erase_if(others, [&](const RecommendedIsovalue& isovalue) { return !told.emplace(isovalue.branch_top, isovalue.tau).second; });
+        tell_isovalues(terminal, i, others, scale);
     }
 }
 

@@ -30,13 +30,17 @@ struct DarkEntry {
     std::array<double, 3> position;  ///< voxel coordinates of the lowest voxel
     double tau_low, tau_high;        ///< for isovalues in (tau_low, tau_high] nothing of this changes but its extent
     std::int64_t inside;             ///< position in DarkTable::entries of the closest entry that contains this one; -1: none
+    std::int64_t branch_minimum;     ///< voxel of the minimum at which its branch begins; -1: not known (stores of early versions)
     std::string note;                ///< "inside 3", ...
 };
 
 struct DarkTable {
     std::vector<DarkEntry> entries;  ///< by rank
-    std::int64_t branches = 0;       ///< how many dark objects there are in all
-    double noise = 0;                ///< estimated standard deviation of the noise, stored units
+    /// Of all dark objects of the table, by their rank; of each by descending prominence, outlines last; best_tau is the first. branch_top
+    /// is DarkEntry::branch_minimum. Empty: a store of an early version.
+    std::vector<RecommendedIsovalue> isovalues{};
+    std::int64_t branches = 0;  ///< how many dark objects there are in all
+    double noise = 0;           ///< estimated standard deviation of the noise, stored units
 };
 
 /// Ranked and gated as bright objects are; the outside is not listed. analysis: of this volume. Throws Error: usage (of another volume),

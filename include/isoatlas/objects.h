@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ enum class IsovalueReason : std::uint8_t {
     outline,  ///< the same at the low end of its range, or the lowest of several that holds 15 % of the volume: all but background
     outer,    ///< steady when its outer boundary is counted alone, with the cavities filled that are dark objects that matter
     inner,    ///< steady for one of these cavities: its wall
-    merge,    ///< nothing stands out: just above the value at which it merges
+    merge,    ///< nothing stands out: just above the value at which it merges; of the trunk: at which another large object joins it
     middle,   ///< nothing stands out: the middle of the range of the object that is there at every isovalue
 };
 [[nodiscard]] const char* name_of(IsovalueReason reason);  ///< "steady", "outline", ...
@@ -48,15 +49,16 @@ enum class IsovalueReason : std::uint8_t {
 struct RecommendedIsovalue {
     std::int64_t branch_top;  ///< of the object: ObjectEntry::branch_top
     double tau;               ///< stored value
-    double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: nothing stands out
+    double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: nothing stands out. Where
+                              ///< nearly all samples are low, the rate is along the bent axis of the page
     IsovalueReason reason;
-    std::int64_t cavity = -1;  ///< inner: the cavity (DarkEntry::id at tau, the id of the contour around it); else -1
+    std::int64_t cavity = -1;  ///< inner, and of dark objects: the cavity (DarkEntry::id at tau, the id of the contour around it); else -1
     friend bool operator==(const RecommendedIsovalue&, const RecommendedIsovalue&) = default;
 };
 
 struct ObjectTable {
-    std::vector<ObjectEntry> entries;  ///< by rank
-    /// Of all objects of the table, by their rank; of each by descending prominence, outlines last, but those of lines first; then outer
+    std::vector<ObjectEntry> entries;  ///< by rank; the trunk has up to five, from the outside in, the box of the volume last
+    /// Of all objects of the table, by their rank; of each those of lines first, then by descending prominence, outlines last; then outer
     /// and inner ones that are further from the former than can be told apart, of up to five cavities. Empty: a store of an early version.
     std::vector<RecommendedIsovalue> isovalues{};
     std::int64_t branches = 0;  ///< how many objects there are in all (maxima events)
@@ -78,12 +80,13 @@ struct RankOptions {
 /// (essential.md section 2). In units of `noise`.
 [[nodiscard]] double noise_height(double noise, std::int64_t voxels);
 
-/// Those of one object, given by ObjectEntry::branch_top.
-[[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(const ObjectTable& table, std::int64_t branch_top);
+/// Those of one object, given by ObjectEntry::branch_top or DarkEntry::branch_minimum. isovalues: of a table.
+[[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top);
 /// That of the line's own isovalue; nothing when it is not known.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
-/// Does it show the box of the volume more than what is in it? An outline of more than two thirds of all voxels. Pictures leave it out.
+inline constexpr double kBackgroundPart = 2.0 / 3;
+/// Does it show the box of the volume more than what is in it? An outline of more than that part of all voxels. Pictures leave it out.
 [[nodiscard]] bool is_background(const ObjectEntry& entry, const Extent& extent);
 
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.

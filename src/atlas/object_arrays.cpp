@@ -6,7 +6,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr const char* kBranchTop = "objects/branch_top";  // not in the first stores of version 1
+constexpr const char* kBranchTop = "objects/branch_top";       // not in the first stores of version 1
+constexpr const char* kBranchMinimum = "dark/branch_minimum";  // not in the first stores of version 2
 
 /// Calls visit(name, type, member of ObjectEntry) for everything that is stored of an entry.
 template <class Visit>
@@ -46,16 +47,17 @@ void for_dark_members(Visit&& visit) {
     visit("dark/islands", "int64", &DarkEntry::islands);
     visit("dark/inside", "int64", &DarkEntry::inside);
     visit("dark/reason", "uint8", &DarkEntry::reason);
+    visit(kBranchMinimum, "int64", &DarkEntry::branch_minimum);
 }
 
-/// The same for RecommendedIsovalue.
+/// The same for RecommendedIsovalue. group: "isovalues" or "dark_isovalues".
 template <class Visit>
-void for_isovalue_members(Visit&& visit) {
-    visit("isovalues/branch_top", "int64", &RecommendedIsovalue::branch_top);
-    visit("isovalues/tau", "float64", &RecommendedIsovalue::tau);
-    visit("isovalues/prominence", "float64", &RecommendedIsovalue::prominence);
-    visit("isovalues/reason", "uint8", &RecommendedIsovalue::reason);
-    visit("isovalues/cavity", "int64", &RecommendedIsovalue::cavity);
+void for_isovalue_members(const std::string& group, Visit&& visit) {
+    visit((group + "/branch_top").c_str(), "int64", &RecommendedIsovalue::branch_top);
+    visit((group + "/tau").c_str(), "float64", &RecommendedIsovalue::tau);
+    visit((group + "/prominence").c_str(), "float64", &RecommendedIsovalue::prominence);
+    visit((group + "/reason").c_str(), "uint8", &RecommendedIsovalue::reason);
+    visit((group + "/cavity").c_str(), "int64", &RecommendedIsovalue::cavity);
 }
 
 template <class T>
@@ -70,7 +72,7 @@ store::PackedArray owned(const char* name, const char* type, std::vector<T> numb
 template <class Member>
 using Stored = std::conditional_t<std::is_same_v<Member, bool> || std::is_enum_v<Member>, std::uint8_t, Member>;
 
-/// for_each: for_members or for_isovalue_members.
+/// for_each: for_members, for_dark_members or for_isovalue_members.
 template <class Line>
 void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vector<store::PackedArray>& arrays) {
     for_each([&]<class Member>(const char* name, const char* type, Member Line::* member) {
@@ -92,6 +94,13 @@ template <class Line>
 std::vector<Line> lines_of(const store::Container& store, const char* first, const char* type, const auto& for_each) {
     std::vector<Line> lines(static_cast<std::size_t>(store.contents().array(first, type).count()));
     for_each([&]<class Member>(const char* name, const char* type_of_member, Member Line::* member) {
+        if constexpr (std::is_same_v<Member, std::int64_t>) {
+            const bool is_optional = std::string_view(name) == kBranchTop || std::string_view(name) == kBranchMinimum;
+            if (is_optional && !store.contents().has_array(name)) {
+                for (Line& line : lines) line.*member = -1;
+                return;
+            }
+        }
         const auto numbers = store.all<Stored<Member>>(name, type_of_member);
         if (numbers.size() != lines.size()) contradiction(store);
         for (std::size_t i = 0; i < numbers.size(); ++i) lines[i].*member = static_cast<Member>(numbers[i]);
@@ -99,10 +108,11 @@ std::vector<Line> lines_of(const store::Container& store, const char* first, con
     return lines;
 }
 
-/// Not in the first stores of version 1.
-std::vector<RecommendedIsovalue> isovalues_of(const store::Container& store) {
-    if (!store.contents().has_array("isovalues/tau")) return {};
-    return lines_of<RecommendedIsovalue>(store, "isovalues/tau", "float64", [](const auto& visit) { for_isovalue_members(visit); });
+/// Bright ones are not in the first stores of version 1, dark ones not in those of version 2.
+std::vector<RecommendedIsovalue> isovalues_of(const store::Container& store, const std::string& group) {
+    const std::string first = group + "/tau";
+    if (!store.contents().has_array(first)) return {};
+    return lines_of<RecommendedIsovalue>(store, first.c_str(), "float64", [&](const auto& visit) { for_isovalue_members(group, visit); });
 }
 
 std::array<double, 3> position_of(std::int64_t voxel, const Extent& extent) {
@@ -110,13 +120,14 @@ std::array<double, 3> position_of(std::int64_t voxel, const Extent& extent) {
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
 }
 
+void check(const RecommendedIsovalue& isovalue, bool has_cavity, const store::Container& store) {
+    if (isovalue.reason > IsovalueReason::middle || has_cavity != (isovalue.cavity >= 0)) contradiction(store);
+    if (isovalue.cavity >= store.contents().volume.extent.voxels()) contradiction(store);
+}
+
 void check(const ObjectTable& table, const store::Container& store) {
     const std::int64_t voxels = store.contents().volume.extent.voxels();
-    for (const RecommendedIsovalue& isovalue : table.isovalues) {
-        const bool is_cavity = isovalue.reason == IsovalueReason::inner;
-        if (isovalue.reason > IsovalueReason::middle || is_cavity != (isovalue.cavity >= 0) || isovalue.cavity >= voxels)
-            contradiction(store);
-    }
+    for (const RecommendedIsovalue& isovalue : table.isovalues) check(isovalue, isovalue.reason == IsovalueReason::inner, store);
     for (const ObjectEntry& entry : table.entries) {
         if (entry.id < 0 || entry.id >= voxels || entry.inside < -1) contradiction(store);
         // What contains an entry has a lower isovalue: the way from one to the next ends.
@@ -131,7 +142,7 @@ void check(const ObjectTable& table, const store::Container& store) {
 std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
     std::vector<store::PackedArray> arrays;
     add_arrays([](const auto& visit) { for_members(visit); }, table.entries, arrays);
-    add_arrays([](const auto& visit) { for_isovalue_members(visit); }, table.isovalues, arrays);
+    add_arrays([](const auto& visit) { for_isovalue_members("isovalues", visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("objects/branches", "int64", {table.branches}));
     arrays.push_back(owned<double>("objects/noise", "float64", {table.noise}));
     return arrays;
@@ -141,21 +152,12 @@ bool has_objects(const store::Container& store) { return store.contents().has_ar
 
 ObjectTable objects_of(const store::Container& store) {
     ObjectTable table;
-    table.entries.resize(static_cast<std::size_t>(store.contents().array("objects/id", "int64").count()));
-    for_members([&]<class Member>(const char* name, const char* type, Member ObjectEntry::* member) {
-        if (std::string_view(name) == kBranchTop && !store.contents().has_array(name)) {
-            for (ObjectEntry& entry : table.entries) entry.*member = static_cast<Member>(-1);
-            return;
-        }
-        const auto numbers = store.all<Stored<Member>>(name, type);
-        if (numbers.size() != table.entries.size()) contradiction(store);
-        for (std::size_t i = 0; i < numbers.size(); ++i) table.entries[i].*member = static_cast<Member>(numbers[i]);
-    });
+    table.entries = lines_of<ObjectEntry>(store, "objects/id", "int64", [](const auto& visit) { for_members(visit); });
     const auto branches = store.all<std::int64_t>("objects/branches", "int64");
     const auto noise = store.all<double>("objects/noise", "float64");
     if (branches.size() != 1 || noise.size() != 1) contradiction(store);
     table.branches = branches[0], table.noise = noise[0];
-    table.isovalues = isovalues_of(store);
+    table.isovalues = isovalues_of(store, "isovalues");
     check(table, store);
     const Extent& extent = store.contents().volume.extent;
     for (ObjectEntry& entry : table.entries) entry.position = position_of(entry.id, extent);
@@ -169,6 +171,7 @@ bool knows_branches(const ObjectTable& table) {
 std::vector<store::PackedArray> dark_arrays(const DarkTable& table) {
     std::vector<store::PackedArray> arrays;
     add_arrays([](const auto& visit) { for_dark_members(visit); }, table.entries, arrays);
+    add_arrays([](const auto& visit) { for_isovalue_members("dark_isovalues", visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("dark/branches", "int64", {table.branches}));
     arrays.push_back(owned<double>("dark/noise", "float64", {table.noise}));
     return arrays;
@@ -182,6 +185,8 @@ DarkTable dark_of(const store::Container& store) {
     const auto noise = store.all<double>("dark/noise", "float64");
     if (branches.size() != 1 || noise.size() != 1) contradiction(store);
     table.branches = branches[0], table.noise = noise[0];
+    table.isovalues = isovalues_of(store, "dark_isovalues");
+    for (const RecommendedIsovalue& isovalue : table.isovalues) check(isovalue, true, store);
     const Extent& extent = store.contents().volume.extent;
     const auto count = static_cast<std::int64_t>(table.entries.size());
     for (DarkEntry& entry : table.entries) {

@@ -6,6 +6,7 @@
 //   objects/outline, trunk                                     uint8
 //   objects/branches, noise                                    one number each
 //   dark/...                                                   the table of dark objects
+//   dark_isovalues/...                                         theirs
 //   isovalues/branch_top, cavity, tau, prominence, reason      int64, int64, float64, float64, uint8, per recommended isovalue
 #pragma once
 

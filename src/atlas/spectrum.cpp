@@ -36,7 +36,7 @@ std::vector<SpectrumAdvice> advice_of(const Analysis& analysis, const ObjectTabl
         const std::optional<RecommendedIsovalue> own = isovalue_of(table, *entry);
         advice.push_back({entry->best_tau, entry->id, own ? std::optional(own->reason) : std::nullopt, -1, entry->note});
         if (std::next(entry) != table.entries.end() && std::next(entry)->branch_top == entry->branch_top) continue;  // more lines
-        for (const RecommendedIsovalue& other : isovalues_of(table, entry->branch_top)) {
+        for (const RecommendedIsovalue& other : isovalues_of(table.isovalues, entry->branch_top)) {
             const bool has_line = std::ranges::any_of(
                 table.entries, [&](const ObjectEntry& line) { return line.branch_top == other.branch_top && line.best_tau == other.tau; });
             if (has_line) continue;

@@ -8,6 +8,7 @@
 
 #include "atlas/access.h"
 #include "base/cancel.h"
+#include "page/page_axis.h"
 #include "page/thin_curve.h"
 #include "zones/count_intervals.h"
 
@@ -32,7 +33,7 @@ public:
 
     PageContents gather() && {
         const double low = atlas_.range()[0];
-        contents_.scale = axis_scale(atlas_, context_);
+        contents_.scale = page_axis(atlas_, context_);
         stop_if_cancelled(context_);
         contents_.spectrum = count_columns(count_intervals(analysis_, found_.bright), low, contents_.scale, kColumns);
         const ObjectTable table = first_entries(found_.bright, options_.top);
@@ -138,7 +139,10 @@ private:
                                           .hypervolume = entry.hypervolume,
                                           .voxels = entry.voxels,
                                           .measure = entry.measure,
-                                          .stands_out = true});
+                                          .stands_out = true,
+                                          .isovalues = isovalues_of(dark.isovalues, entry.branch_minimum)});
+            std::erase_if(contents_.branches.back().isovalues,
+                          [&](const RecommendedIsovalue& isovalue) { return isovalue.tau == entry.best_tau; });
             contents_.entries.push_back({.branch = branch,
                                          .id = entry.id,
                                          .tau = entry.best_tau,

@@ -7,7 +7,7 @@
 
 #include "isoatlas/analysis.h"
 #include "isoatlas/spectrum.h"
-#include "page/axis_scale.h"
+#include "page/page_axis.h"
 
 namespace isoatlas::page {
 

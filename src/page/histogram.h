@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "isoatlas/atlas.h"
-#include "page/axis_scale.h"
+#include "page/page_axis.h"
 
 namespace isoatlas::page {
 

@@ -9,12 +9,12 @@
 #include "base/memory_limit.h"
 #include "zones/select_branches.h"
 #include "zones/stable_isovalue.h"
+#include "zones/trunk_rows.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr double kLargePart = 0.15;    // of the volume: what ends so large is what is not background
-constexpr std::size_t kTrunkRows = 5;  // nested zones of the trunk: skin, skull, enamel, ...
+constexpr double kLargePart = 0.15;  // of the volume: what ends so large is what is not background
 
 constexpr IsovalueReason kOutline = IsovalueReason::outline;
 
@@ -22,10 +22,10 @@ template <class Id>
 class Rows {
 public:
     Rows(const VolumeView& volume, const SideTree<Id>& tree, const Branches& branches)
-        : volume_(volume), tree_(tree), branches_(branches) {}
+        : volume_(volume), tree_(tree), branches_(branches), axis_(axis_scale(volume), tree.sign) {}
 
     [[nodiscard]] BranchRows choose(const NoiseModel& noise, const RankOptions& options) const {
-        BranchRows result = choose_isovalues(chosen(noise, options));
+        BranchRows result = choose_isovalues(chosen(noise, options), options, noise);
         std::vector<BranchRow>& rows = result.rows;
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
         const std::int64_t last = rows.empty() ? -1 : rows.back().branch;
@@ -39,7 +39,7 @@ private:
     [[nodiscard]] bool is_bright() const { return tree_.sign > 0; }
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
-    /// By rank; more than there may be rows are not needed.
+    /// By rank.
     [[nodiscard]] std::vector<std::int64_t> chosen(const NoiseModel& noise, const RankOptions& options) const {
         std::vector<std::int64_t> kept;
         if (options.selection) {
@@ -52,8 +52,6 @@ private:
             kept.resize(branches_.branch.size());
             std::iota(kept.begin(), kept.end(), std::int64_t{0});
         }
-        if (options.top > 0 && static_cast<std::int64_t>(kept.size()) > options.top + 1)
-            kept.resize(static_cast<std::size_t>(options.top) + 1);
         return kept;
     }
 
@@ -65,7 +63,7 @@ private:
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
             slot[kept[k]] = static_cast<std::int64_t>(k);
-            result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer);
+            result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
         }
         tree_.for_heights(volume_, [&](std::size_t v, double height) {
             const std::int64_t k = slot[branches_.of_event[tree_.zone[v]]];
@@ -79,12 +77,22 @@ private:
         return result;
     }
 
-    [[nodiscard]] BranchRows choose_isovalues(const std::vector<std::int64_t>& kept) const {
+    /// chosen: of which more than there may be rows get none.
+    [[nodiscard]] BranchRows choose_isovalues(const std::vector<std::int64_t>& chosen, const RankOptions& options,
+                                              const NoiseModel& noise) const {
+        std::vector<std::int64_t> kept = chosen;
+        if (options.top > 0 && static_cast<std::int64_t>(kept.size()) > options.top + 1)
+            kept.resize(static_cast<std::size_t>(options.top) + 1);
         BranchRows result{{}, {}, histograms(kept)};
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
             std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
-            const std::size_t rows = rows_of(kept[k], own);
+            std::size_t rows = 1;
+            if (k == 0 && is_bright()) {  // the dark trunk is the outside, which has no rows
+                const std::vector<BranchIsovalue> more = before_merges(branches_, chosen, result.histograms[k], own, noise);
+                own.insert(std::ranges::find(own, kOutline, &BranchIsovalue::reason), more.begin(), more.end());
+                rows = arrange_trunk_rows(own, volume_.info->extent.voxels());
+            }
             for (std::size_t i = 0; i < rows; ++i)
                 result.rows.push_back({kept[k], b.appears, b.merges, own[i].tau, b.hypervolume, own[i].reason == kOutline});
             result.isovalues.insert(result.isovalues.end(), own.begin(), own.end());
@@ -100,26 +108,21 @@ private:
         return peak.at_low_end || (is_large && peak.tau == std::ranges::min(peaks, {}, &StableIsovalue::tau).tau);
     }
 
-    /// How many of its isovalues get a row, the outline among them.
-    static std::size_t rows_of(std::int64_t branch, std::vector<BranchIsovalue>& own) {
-        if (branch > 0) return 1;
-        if (own.size() > kTrunkRows && own.back().reason == kOutline) std::rotate(own.begin() + kTrunkRows - 1, own.end() - 1, own.end());
-        return std::min(own.size(), kTrunkRows);
-    }
-
     /// At least one.
     [[nodiscard]] std::vector<BranchIsovalue> isovalues(std::int64_t branch, const BranchHistogram& histogram) const {
         const Branch& b = branches_.branch[branch];
-        std::vector<StableIsovalue> peaks = stable_isovalues(histogram.added, histogram.low, histogram.high);
+        std::vector<StableIsovalue> peaks = stable_isovalues(histogram);
         const std::int64_t least = least_voxels(volume_.info->extent.voxels());  // of a few voxels the gaps between their values are seen
         std::erase_if(peaks, [least](const StableIsovalue& peak) { return peak.volume < static_cast<double>(least); });
         std::vector<BranchIsovalue> own;
         for (const StableIsovalue& peak : peaks)
-            own.push_back({branch, alive(peak.tau, b), peak.prominence, is_outline(peak, peaks) ? kOutline : IsovalueReason::steady});
+            own.push_back({branch, alive(peak.tau, b), peak.prominence, is_outline(peak, peaks) ? kOutline : IsovalueReason::steady, -1,
+                           peak.volume});
         std::ranges::stable_partition(own, [](const BranchIsovalue& isovalue) { return isovalue.reason != kOutline; });
         if (own.empty()) {
             const bool is_trunk = b.merges < lowest();
-            own.push_back({branch, alive(just_above(b, histogram), b), 0, is_trunk ? IsovalueReason::middle : IsovalueReason::merge});
+            own.push_back({branch, alive(just_above(b, histogram), b), 0, is_trunk ? IsovalueReason::middle : IsovalueReason::merge, -1,
+                           static_cast<double>(b.voxels)});
         }
         return own;
     }
@@ -134,8 +137,9 @@ private:
 
     /// No isovalue stands out: one bin above the height at which the branch ends, the middle of the range for the trunk.
     [[nodiscard]] double just_above(const Branch& b, const BranchHistogram& histogram) const {
-        return b.merges < lowest() ? (lowest() + b.appears) / 2
-                                   : histogram.low + std::min(histogram.width(), (b.appears - histogram.low) / 2);
+        if (b.merges < lowest()) return (lowest() + b.appears) / 2;
+        const double room = histogram.axis.position(b.appears) - histogram.low;
+        return histogram.axis.height(histogram.low + std::min(histogram.width(), room / 2));
     }
 
     /// Does a sample of a height belong to the object of its branch at tau?
@@ -184,6 +188,7 @@ private:
     const VolumeView& volume_;
     const SideTree<Id>& tree_;
     const Branches& branches_;
+    HeightAxis axis_;
 };
 
 /// Rows by event, then by falling tau.

@@ -26,11 +26,12 @@ struct BranchIsovalue {
     double tau, prominence;
     IsovalueReason reason;
     std::int64_t cavity = -1;  ///< as in RecommendedIsovalue
+    double volume = 0;         ///< voxels of the object there, about
 };
 
 struct BranchRows {
-    std::vector<BranchRow> rows;  ///< by rank; the trunk, which has several rows, first
-    /// Of the branches that have rows, by rank; of each by descending prominence, outlines last; first those that have rows.
+    std::vector<BranchRow> rows;  ///< by rank; the trunk, which has several rows (trunk_rows.h), first
+    /// Of the branches that have rows, by rank; of each first those that have rows; then by descending prominence, outlines last.
     std::vector<BranchIsovalue> isovalues;
     std::vector<BranchHistogram> histograms;  ///< of these branches, by rank
 };

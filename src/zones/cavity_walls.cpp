@@ -67,7 +67,7 @@ std::vector<std::int64_t> slots(const std::vector<BranchHistogram>& histograms, 
 bool is_new(double tau, const BranchHistogram& histogram, const std::vector<BranchIsovalue>& known) {
     return std::ranges::none_of(known, [&](const BranchIsovalue& isovalue) {
         return isovalue.branch == histogram.branch && isovalue.prominence > 0 &&
-               std::abs(isovalue.tau - tau) <= kSmoothedBins * histogram.width();
+               std::abs(histogram.axis.position(isovalue.tau) - histogram.axis.position(tau)) <= kSmoothedBins * histogram.width();
     });
 }
 
@@ -95,7 +95,7 @@ public:
 private:
     void add_outer(const BranchHistogram& filled, std::vector<BranchIsovalue>& result) const {
         const auto least = static_cast<double>(least_voxels(volume_.info->extent.voxels()));
-        for (const StableIsovalue& peak : stable_isovalues(filled.added, filled.low, filled.high)) {
+        for (const StableIsovalue& peak : stable_isovalues(filled)) {
             if (peak.at_low_end || peak.volume < least || !has_cavity(filled.branch, peak.tau)) continue;
             if (is_new(peak.tau, filled, chosen_.isovalues))
                 result.push_back({filled.branch, peak.tau, peak.prominence, IsovalueReason::outer});

@@ -26,15 +26,15 @@ const char* text_of(IsovalueReason reason) {
         case IsovalueReason::outline: return "everything that is not background";
         case IsovalueReason::outer: return "its outer boundary alone is sharpest here";
         case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
-        case IsovalueReason::merge: return "as large as it gets before it merges; no isovalue stands out";
+        case IsovalueReason::merge: return "as large as it gets before it merges with another object";
         case IsovalueReason::middle: return "the middle of its range; no isovalue stands out";
     }
     return "";
 }
 
-std::vector<RecommendedIsovalue> isovalues_of(const ObjectTable& table, std::int64_t branch_top) {
+std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top) {
     std::vector<RecommendedIsovalue> own;
-    std::ranges::copy_if(table.isovalues, std::back_inserter(own),
+    std::ranges::copy_if(isovalues, std::back_inserter(own),
                          [&](const RecommendedIsovalue& isovalue) { return isovalue.branch_top == branch_top; });
     return own;
 }
@@ -47,7 +47,7 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
 }
 
 bool is_background(const ObjectEntry& entry, const Extent& extent) {
-    return entry.outline && static_cast<double>(entry.voxels) > 2.0 / 3 * static_cast<double>(extent.voxels());
+    return entry.outline && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
 }
 
 namespace {
@@ -57,6 +57,11 @@ void keep_first(std::vector<Entry>& entries, std::int64_t top) {
     std::vector<bool> keep(entries.size(), true);
     for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = top <= 0 || static_cast<std::int64_t>(i) < top;
     keep_entries(entries, keep);
+}
+
+/// Those of objects that have lines.
+void keep_isovalues(std::vector<RecommendedIsovalue>& isovalues, const std::set<std::int64_t>& branches) {
+    std::erase_if(isovalues, [&](const RecommendedIsovalue& isovalue) { return !branches.contains(isovalue.branch_top); });
 }
 
 std::string inside_text(std::int64_t inside) { return "inside " + std::to_string(inside + 1); }
@@ -70,13 +75,18 @@ ObjectTable first_entries(ObjectTable table, std::int64_t top) {
         entry.note = entry.outline ? "outline" : entry.inside >= 0 ? inside_text(entry.inside) : entry.trunk ? "largest" : "";
         tops.insert(entry.branch_top);
     }
-    std::erase_if(table.isovalues, [&](const RecommendedIsovalue& isovalue) { return !tops.contains(isovalue.branch_top); });
+    keep_isovalues(table.isovalues, tops);
     return table;
 }
 
 DarkTable first_entries(DarkTable table, std::int64_t top) {
     keep_first(table.entries, top);
-    for (DarkEntry& entry : table.entries) entry.note = entry.inside >= 0 ? inside_text(entry.inside) : "";
+    std::set<std::int64_t> minima;
+    for (DarkEntry& entry : table.entries) {
+        entry.note = entry.inside >= 0 ? inside_text(entry.inside) : "";
+        minima.insert(entry.branch_minimum);
+    }
+    keep_isovalues(table.isovalues, minima);
     return table;
 }
 

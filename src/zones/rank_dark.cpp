@@ -22,6 +22,7 @@ template <class Id>
 DarkEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const DarkSide<Id>& side, const BranchRow& row) {
     DarkEntry entry{};
     entry.id = side.voxel(arrays, row.event);
+    entry.branch_minimum = lowest_voxel(arrays, side.dark, static_cast<std::size_t>(side.branches.branch[row.branch].top));
     entry.appears = -row.appears, entry.merges = -row.merges, entry.best_tau = -row.tau;
     entry.reason = std::ranges::find(side.chosen.isovalues, row.branch, &BranchIsovalue::branch)->reason;  // it has one row
     entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
@@ -32,6 +33,19 @@ DarkEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays, c
     const std::array<std::int64_t, 3> voxel = volume.info->extent.voxel(entry.id);
     for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
     return entry;
+}
+
+/// Every isovalue of a branch, with the cavity that it is there.
+template <class Id>
+void add_isovalues(const AnalysisArrays<Id>& arrays, const DarkSide<Id>& side, DarkTable& table) {
+    for (const BranchIsovalue& own : side.chosen.isovalues) {
+        const std::int64_t top = side.branches.branch[own.branch].top;
+        std::int64_t event = top;
+        while (!side.tree.is_root(event) && side.tree.height[side.tree.parent[event]] > own.tau)
+            event = static_cast<std::int64_t>(side.tree.parent[event]);
+        const std::int64_t minimum = lowest_voxel(arrays, side.dark, static_cast<std::size_t>(top));
+        table.isovalues.push_back({minimum, -own.tau, own.prominence, own.reason, side.voxel(arrays, event)});
+    }
 }
 
 /// The object around each, and the genus of the wall between them.
@@ -101,6 +115,7 @@ DarkTable dark_table(const VolumeView& volume, const Analysis& analysis, const A
         table.entries.push_back(entry_of(volume, arrays, side, rows[i]));
         table.entries.back().inside = around[i];
     }
+    add_isovalues(arrays, side, table);
     table = first_entries(std::move(table), 0);
     add_walls(analysis, table);
     return table;

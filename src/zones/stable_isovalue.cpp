@@ -73,4 +73,10 @@ std::vector<StableIsovalue> stable_isovalues(std::span<const double> added, doub
     return peaks;
 }
 
+std::vector<StableIsovalue> stable_isovalues(const BranchHistogram& histogram) {
+    std::vector<StableIsovalue> peaks = stable_isovalues(histogram.added, histogram.low, histogram.high);
+    for (StableIsovalue& peak : peaks) peak.tau = histogram.axis.height(peak.tau);
+    return peaks;
+}
+
 }  // namespace isoatlas

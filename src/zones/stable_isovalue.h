@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "zones/branch_histogram.h"
+
 namespace isoatlas {
 
 /// Bins that the smoothing takes together: isovalues closer than that are not told apart.
@@ -23,5 +25,7 @@ struct StableIsovalue {
 /// added[i]: voxels that join the object in bin i of (low, high], bins of equal width from low to high; V(tau at the low edge of bin i) =
 /// sum of added[i..]. Returns peaks by descending prominence, possibly none.
 std::vector<StableIsovalue> stable_isovalues(std::span<const double> added, double low, double high);
+/// The same of a branch; q is the rate along its axis, tau a height.
+std::vector<StableIsovalue> stable_isovalues(const BranchHistogram& histogram);
 
 }  // namespace isoatlas

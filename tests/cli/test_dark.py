@@ -46,6 +46,13 @@ class Dark(harness.CliTest):
         for words in (["noise.nrrd", "--threads", "3"], ["noise.atlas"]):
             self.assertEqual(one["objects"], self.run_json("objects", words[0], "--dark", "--all", *words[1:])["objects"])
 
+    def test_every_isovalue_has_a_wall(self):
+        table = self.run_json("objects", "noise.nrrd", "--dark", "--all")
+        for entry in table["objects"][:5]:
+            self.assertEqual(entry["isovalues"][0]["tau"], entry["best_tau"])
+            for isovalue in entry["isovalues"]:
+                self.run_ok("extract", "noise.nrrd", "--tau", repr(isovalue["tau"]), "--contour", str(isovalue["cavity"]), "-o", "wall.ply")
+
     def test_nothing_dark_and_errors(self):
         self.assertEqual(self.run_json("objects", "one.npy", "--dark")["objects"], [])
         self.assertIn("no cavity", self.run_ok("objects", "one.npy", "--dark").stderr)

@@ -149,8 +149,10 @@ std::string text(const isoatlas::DarkTable& table) {
     for (const auto& o : table.entries) {
         out << o.id << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure << ' '
             << o.hypervolume << ' ' << o.object << ' ' << o.tunnels << ' ' << o.islands << ' ' << join(o.position) << o.tau_low << ' '
-            << o.tau_high << ' ' << o.inside << ' ' << name_of(o.reason) << ' ' << o.note << '\n';
+            << o.tau_high << ' ' << o.inside << ' ' << name_of(o.reason) << ' ' << o.branch_minimum << ' ' << o.note << '\n';
     }
+    for (const auto& i : table.isovalues)
+        out << i.branch_top << ' ' << i.tau << ' ' << i.prominence << ' ' << name_of(i.reason) << ' ' << i.cavity << '\n';
     return out.str();
 }
 

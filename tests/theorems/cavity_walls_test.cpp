@@ -88,8 +88,8 @@ bool are_filled_as_brute_force_says(const Grid& grid, isoatlas::Interpolant inte
                     count += at.object_of[v] == object || was_in_cavity[v];
                 }
                 // An edge of a bin between the last isovalue and this one: nothing happens between them.
-                const double edge = std::ceil((below - histogram.low) / histogram.width() + 1e-6);
-                const bool has_edge = edge >= 1 && histogram.low + edge * histogram.width() < tau - 1e-6;
+                const double edge = std::ceil((histogram.axis.position(below) - histogram.low) / histogram.width() + 1e-6);
+                const bool has_edge = edge >= 1 && histogram.axis.height(histogram.low + edge * histogram.width()) < tau - 1e-6;
                 below = tau;
                 if (!has_edge) continue;
                 const auto first = histogram.added.begin() + static_cast<std::ptrdiff_t>(edge);
@@ -152,7 +152,7 @@ TEST(CavityWalls, AreSharpAtOtherIsovaluesThanTheOuterBoundary) {
     const isoatlas::ObjectTable table = isoatlas::rank_objects(volume, analysis);
     ASSERT_FALSE(table.entries.empty());
     std::map<IsovalueReason, std::vector<RecommendedIsovalue>> by_reason;
-    for (const RecommendedIsovalue& isovalue : isovalues_of(table, table.entries[0].branch_top))
+    for (const RecommendedIsovalue& isovalue : isovalues_of(table.isovalues, table.entries[0].branch_top))
         by_reason[isovalue.reason].push_back(isovalue);
     const auto& outer = by_reason[IsovalueReason::outer];
     ASSERT_EQ(outer.size(), 1U);

@@ -116,6 +116,21 @@ RC_GTEST_PROP(DarkObjects, LiveAsLongAsBruteForceSays, ()) {
     for (std::size_t i = 1; i < table.entries.size(); ++i) RC_ASSERT(table.entries[i - 1].hypervolume >= table.entries[i].hypervolume);
 }
 
+/// The isovalues of an entry are isovalues of its branch, and name what it is there.
+void check_isovalues(const DarkTable& table, const DarkEntry& entry, const Elements& elements) {
+    const std::vector<isoatlas::RecommendedIsovalue> own = isovalues_of(table.isovalues, entry.branch_minimum);
+    RC_ASSERT(!own.empty());
+    RC_ASSERT(own[0].tau == entry.best_tau);
+    RC_ASSERT(own[0].reason == entry.reason);
+    RC_ASSERT(own[0].cavity == entry.id);
+    for (const isoatlas::RecommendedIsovalue& isovalue : own) {
+        RC_ASSERT(entry.appears < isovalue.tau);
+        RC_ASSERT(isovalue.tau <= entry.merges);
+        const Snapshot at = snapshot(elements, elements.cut_at(isovalue.tau));
+        RC_ASSERT(at.lows[at.low_of[entry.branch_minimum]].lowest == isovalue.cavity);
+    }
+}
+
 RC_GTEST_PROP(DarkObjects, AreWhatTheirBestIsovalueShows, ()) {
     const Grid grid = *arbitrary_grid(6, 100);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
@@ -125,6 +140,7 @@ RC_GTEST_PROP(DarkObjects, AreWhatTheirBestIsovalueShows, ()) {
     const Elements elements = elements_of(grid, interpolant);
     const DarkTable table = isoatlas::rank_dark_objects(volume, analysis, {.top = 8, .gate = false});
     for (const DarkEntry& entry : table.entries) {
+        check_isovalues(table, entry, elements);
         RC_ASSERT(entry.appears < entry.best_tau);
         RC_ASSERT(entry.best_tau <= entry.merges);
         RC_ASSERT(entry.tau_low < entry.best_tau);
@@ -154,6 +170,27 @@ RC_GTEST_PROP(DarkObjects, AreWhatTheirBestIsovalueShows, ()) {
             RC_ASSERT(!isoatlas::extract(volume, tau, options).points.empty());
         }
     }
+}
+
+// A hollow with a darker core is shown at two isovalues: one for the wall of each.
+TEST(DarkObjects, WithTwoBoundariesHaveTwoIsovalues) {
+    constexpr Index n = 33;
+    std::vector<float> samples;
+    for (Index v = 0; v < n * n * n; ++v) {
+        const auto x = static_cast<double>(v % n - 16), y = static_cast<double>(v / n % n - 16), z = static_cast<double>(v / (n * n) - 16);
+        const double r = std::sqrt(x * x + y * y + z * z);
+        const auto rise = [r](double at) { return 1 / (1 + std::exp((at - r) / 0.4)); };
+        samples.push_back(static_cast<float>(10 + r / 100 + 40 * rise(5) + 50 * rise(10) - 100 * rise(14)));
+    }
+    const Volume volume = isoatlas::make_volume<float>({3, {n, n, n}}, samples);
+    const DarkTable table = isoatlas::rank_dark_objects(volume, isoatlas::analyse(volume));
+    ASSERT_EQ(table.entries.size(), 1U);
+    const std::vector<isoatlas::RecommendedIsovalue> own = isovalues_of(table.isovalues, table.entries[0].branch_minimum);
+    const auto has = [&](double low, double high) {
+        return std::ranges::any_of(own, [&](const auto& isovalue) { return low < isovalue.tau && isovalue.tau < high; });
+    };
+    EXPECT_TRUE(has(15, 45));
+    EXPECT_TRUE(has(55, 95));
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "oracle/stores.h"
-#include "page/axis_scale.h"
 #include "page/histogram.h"
+#include "page/page_axis.h"
 #include "page/thin_curve.h"
 
 namespace isoatlas::page {
@@ -22,24 +22,15 @@ protected:
     }
 };
 
-TEST(AxisScale, MapsThereAndBack) {
-    for (const AxisScale& scale : {AxisScale{-5, 20, 0}, AxisScale{-5, 20, 0.25}}) {
-        for (const double tau : {-5.0, 0.0, 3.5, 20.0}) EXPECT_NEAR(scale.tau(scale.position(tau)), tau, 1e-9);
-        EXPECT_EQ(scale.position(-5), 0);
-        EXPECT_NEAR(scale.position(20), 1, 1e-12);
-    }
-    EXPECT_EQ((AxisScale{3, 3, 0}.position(3)), 0);
-}
-
 TEST_F(PageAxis, IsBentWhereNearlyAllSamplesAreLow) {
     std::vector<float> samples(1000);
     std::iota(samples.begin(), samples.end(), 0.0F);
-    EXPECT_EQ(axis_scale(atlas_of(samples)).bend, 0);
+    EXPECT_EQ(page_axis(atlas_of(samples)).bend, 0);
     samples.back() = 1e6F;
-    const AxisScale bent = axis_scale(atlas_of(samples));
+    const AxisScale bent = page_axis(atlas_of(samples));
     EXPECT_NEAR(bent.bend, 500, 50);
     EXPECT_NEAR(bent.position(999), 0.17, 0.02);  // linear: 0.001
-    EXPECT_EQ(axis_scale(atlas_of<float>({7, 7, 7})).bend, 0);
+    EXPECT_EQ(page_axis(atlas_of<float>({7, 7, 7})).bend, 0);
 }
 
 TEST_F(PageAxis, HistogramCountsEverySampleOnce) {

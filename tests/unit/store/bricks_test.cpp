@@ -101,7 +101,7 @@ RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
             RC_ASSERT(reader.highest_voxel(b) == most[static_cast<std::size_t>(b)].second);
             RC_ASSERT(reader.lowest_voxel(b) == least[static_cast<std::size_t>(b)].second);
         }
-        reader.check(1);
+        reader.check({.threads = 1});
     });
 }
 
@@ -116,7 +116,7 @@ TEST_F(Bricks, WrongPlacesOfExtremesAreRefused) {
                 if (array.name == name) array.feed = [&](const Put& put) { put(std::as_bytes(std::span(places))); };
             }
             pack(volume, arrays);
-            EXPECT_THROW(BrickReader<std::uint8_t>(Container(path_)).check(1), Error) << name << ' ' << wrong;
+            EXPECT_THROW(BrickReader<std::uint8_t>(Container(path_)).check({.threads = 1}), Error) << name << ' ' << wrong;
         }
     }
 }

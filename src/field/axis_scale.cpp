@@ -1,0 +1,60 @@
+#include "field/axis_scale.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace isoatlas {
+namespace {
+
+constexpr int kOctaves = 20, kSteps = 8;  // edges at the range / 2^(k/8)
+constexpr std::int64_t kSamples = std::int64_t{1} << 20;
+
+/// Distances of the edges from the low end, but for that of the low end itself.
+double edge_above(double range, std::size_t edge) {
+    return range * std::exp2(-static_cast<double>(kOctaves * kSteps - static_cast<int>(edge)) / kSteps);
+}
+
+}  // namespace
+
+std::vector<double> axis_edges(double low, double high) {
+    const double range = high - low;
+    if (!(range > 0) || !std::isfinite(range)) return {};
+    std::vector<double> edges;
+    for (std::size_t i = 0; i <= kOctaves * kSteps; ++i) edges.push_back(low + edge_above(range, i));
+    edges.back() = high;
+    return edges;
+}
+
+AxisScale axis_scale(double low, double high, std::span<const std::int64_t> counts) {
+    AxisScale scale{low, high, 0};
+    const double range = high - low;
+    const auto all = static_cast<double>(std::reduce(counts.begin(), counts.end()));
+    double seen = 0, in_lowest_tenth = 0, median = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        seen += static_cast<double>(counts[i]);
+        const double above = edge_above(range, i + 1);
+        if (above <= range / 10) in_lowest_tenth = seen;
+        if (median == 0 && seen >= all / 2) median = above;
+    }
+    if (all > 0 && in_lowest_tenth >= 0.95 * all) scale.bend = median;
+    return scale;
+}
+
+AxisScale axis_scale(const VolumeView& volume) {
+    return visit_samples(volume, [](auto samples) {
+        const auto [least, most] = std::ranges::minmax(samples);
+        const auto low = static_cast<double>(least), high = static_cast<double>(most);
+        const std::vector<double> edges = axis_edges(low, high);
+        std::vector<std::int64_t> counts(edges.empty() ? 0 : edges.size() - 1, 0);
+        const std::size_t stride = std::max<std::size_t>(1, samples.size() / kSamples) | 1;
+        for (std::size_t v = 0; v < samples.size() && !counts.empty(); v += stride) {
+            const auto sample = static_cast<double>(samples[v]);
+            if (sample < edges.front()) continue;
+            const auto after = static_cast<std::size_t>(std::ranges::upper_bound(edges, sample) - edges.begin());
+            ++counts[std::min(after - 1, counts.size() - 1)];
+        }
+        return axis_scale(low, high, counts);
+    });
+}
+
+}  // namespace isoatlas
