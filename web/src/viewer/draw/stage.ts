@@ -35,6 +35,8 @@ export class Stage {
   private readonly scene = new three.Scene();
   private readonly bodies = new Map<number, Body>();
   private readonly meshes = new Map<number, Mesh>();
+  /** of bodies that were taken away, for those that come: with its last material a shader goes, and is compiled anew at every step */
+  private readonly spare: three.MeshStandardMaterial[] = [];
   /** over the left shoulder */
   private readonly lamp = new three.DirectionalLight(0xffffff, 1.8);
   /** what lies on its positive side stays; null: nothing is cut away */
@@ -87,7 +89,8 @@ export class Stage {
     geometry.setAttribute("normal", new three.BufferAttribute(mesh.normals, 3, true));
     geometry.setIndex(new three.BufferAttribute(mesh.corners, 1));
     this.take(key);
-    const body: Body = new three.Mesh(geometry, new three.MeshStandardMaterial({ roughness: 0.55, side: three.DoubleSide }));
+    const material = this.spare.pop() ?? new three.MeshStandardMaterial({ roughness: 0.55, side: three.DoubleSide });
+    const body: Body = new three.Mesh(geometry, material);
     body.position.set(...mesh.origin);
     body.scale.setScalar(mesh.step);
     body.updateMatrixWorld();
@@ -222,7 +225,7 @@ export class Stage {
     if (!body) return;
     this.scene.remove(body);
     body.geometry.dispose();
-    body.material.dispose();
+    this.spare.push(body.material);
     this.bodies.delete(key);
     this.meshes.delete(key);
   }
