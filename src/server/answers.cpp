@@ -18,6 +18,12 @@ void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
     json.key(name).begin_array().value(bounds.least).value(bounds.most).end_array();
 }
 
+void put_object(JsonStream& json, const ActiveObject& object) {
+    json.begin_object().key("id").value(object.id).key("tunnels").value(object.b1).key("cavities").value(object.b2);
+    put_bounds(json, "voxels", {object.voxels_least, object.voxels_most});
+    json.end_object();
+}
+
 void put_error(JsonStream& json, const Error& error) {
     const ErrorText& text = error.text();
     json.key("error").begin_object().key("code").value(static_cast<int>(error.kind())).key("message").value(error.what());
@@ -43,7 +49,7 @@ std::string atlas_json(const Atlas& atlas, const page::PageContents& contents) {
     return text;
 }
 
-std::string preview_json(const SurfacePreview& preview, double tau) {
+std::string preview_json(const SurfacePreview& preview, double tau, const NamedObject& named) {
     return document("preview", [&](JsonStream& json) {
         json.key("tau").value(tau).key("objects").value(preview.objects).key("contours").value(preview.contours);
         json.key("tunnels").value(preview.tunnels).key("cavities").value(preview.contours - preview.objects);
@@ -51,6 +57,13 @@ std::string preview_json(const SurfacePreview& preview, double tau) {
         put_bounds(json, "cells", preview.cells);
         put_bounds(json, "triangles", preview.triangles);
         put_bounds(json, "bytes", preview.bytes);
+        if (!named.id) return;
+        json.key("object");
+        if (named.object) {
+            put_object(json, *named.object);
+        } else {
+            json.null();
+        }
     });
 }
 
@@ -59,12 +72,7 @@ std::string active_json(const ActiveObjects& active, double tau, std::int64_t to
         const std::size_t listed = std::min(active.objects.size(), static_cast<std::size_t>(top));
         json.key("tau").value(tau).key("count").value(active.objects.size()).key("contours").value(active.contour_count);
         json.key("objects").begin_array();
-        for (std::size_t i = 0; i < listed; ++i) {
-            const ActiveObject& object = active.objects[i];
-            json.line().begin_object().key("id").value(object.id).key("tunnels").value(object.b1).key("cavities").value(object.b2);
-            put_bounds(json, "voxels", {object.voxels_least, object.voxels_most});
-            json.end_object();
-        }
+        for (std::size_t i = 0; i < listed; ++i) put_object(json.line(), active.objects[i]);
         json.end_array();
     });
 }

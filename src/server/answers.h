@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,12 @@ namespace isoatlas::server {
 
 /// What `isoatlas FILE` puts into a page.
 [[nodiscard]] std::string atlas_json(const Atlas& atlas, const page::PageContents& contents);
-[[nodiscard]] std::string preview_json(const SurfacePreview& preview, double tau);
+/// An object that was asked for by its highest voxel, and what is there under this name.
+struct NamedObject {
+    std::optional<std::int64_t> id{};  ///< nothing: none was asked for
+    std::optional<ActiveObject> object{};
+};
+[[nodiscard]] std::string preview_json(const SurfacePreview& preview, double tau, const NamedObject& named);
 /// The first `top` objects.
 [[nodiscard]] std::string active_json(const ActiveObjects& active, double tau, std::int64_t top);
 /// Of the objects of a closed surface with ids. active: those at its isovalue.

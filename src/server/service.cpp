@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <optional>
 
 #include "base/cancel.h"
 #include "base/memory_limit.h"
@@ -159,10 +160,17 @@ Answer Service::events_answer(const Question& question) {
 Answer Service::preview_answer(const Question& question) {
     Words words(question.words);
     const double tau = required_tau(words);
+    NamedObject named{words.whole("object", 0, atlas().info().extent.voxels() - 1)};
     words.refuse_others();
     (void)known(question);
     const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
-    return json_answer(preview_json(atlas().preview(stored_tau(atlas(), tau), context_of(*turn)), tau));
+    const double stored = stored_tau(atlas(), tau);
+    if (named.id) {
+        const std::vector<ActiveObject> objects = atlas().active(stored, false, context_of(*turn)).objects;
+        const auto found = std::ranges::find(objects, *named.id, &ActiveObject::id);
+        if (found != objects.end()) named.object = *found;
+    }
+    return json_answer(preview_json(atlas().preview(stored, context_of(*turn)), tau, named));
 }
 
 Answer Service::objects_answer(const Question& question) {

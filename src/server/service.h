@@ -2,7 +2,7 @@
 //
 //   /api/events                             where the server is, and where the questions of this client are: a stream that goes on
 //   /api/atlas                              what a page shows, without pictures: docs/schema/page.schema.json
-//   /api/preview?tau=T                      what the surface at T is and costs, before it is made
+//   /api/preview?tau=T[&object=ID]          what the surface at T is and costs, before it is made; what object ID is there
 //   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
 //   /api/measures?tau=T&object=ID,...       how large these objects are, in physical units
 //   /api/branches?top=N[&persistence=H...]  all bright objects by rank, or those that a selection keeps (server/branches.h)

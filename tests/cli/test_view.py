@@ -61,6 +61,9 @@ class View(harness.CliTest):
             objects = self.json_of(f"/api/objects?tau={tau!r}")
             self.assert_schema(objects, "server-objects")
             self.assertEqual(objects["count"], preview["objects"])
+            named = self.json_of(f"/api/preview?tau={tau!r}&object={entry['id']}")
+            self.assert_schema(named, "server-preview")
+            self.assertEqual(named["object"], next(one for one in objects["objects"] if one["id"] == entry["id"]))
 
     def test_measures(self):
         tau = self.run_json("objects", "field.atlas")["objects"][0]["best_tau"]

@@ -71,6 +71,39 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
+  it("compiles no shader while one steps, and asks for the cost before anything else, once", async () => {
+    const tab = await served.browser.newPage({ viewport: { width: 1000, height: 700 } });
+    await tab.addInitScript(() => {
+      localStorage.setItem("isoatlas-tour", "seen");
+      const { linkProgram } = WebGL2RenderingContext.prototype;
+      const counted = window as unknown as { linked: number };
+      counted.linked = 0;
+      WebGL2RenderingContext.prototype.linkProgram = function (program) {
+        ++counted.linked;
+        linkProgram.call(this, program);
+      };
+    });
+    await tab.goto(served.address + scene(2));
+    await settled(tab);
+    await tab.waitForTimeout(500);
+    const linked = (): Promise<number> => tab.evaluate(() => (window as unknown as { linked: number }).linked);
+    const before = await linked();
+    expect(before).toBeGreaterThan(0);
+    for (let i = 0; i < 4; ++i) {
+      const asked: string[] = [];
+      const hear = (request: { url(): string }): void => void asked.push(new URL(request.url()).pathname);
+      tab.on("request", hear);
+      await tab.keyboard.press(i % 2 === 0 ? "]" : "[");
+      await settled(tab);
+      await expect.poll(() => asked.length).toBeGreaterThan(1);
+      tab.off("request", hear);
+      expect(asked[0]).toBe("/api/preview");
+      expect(asked.filter((path) => path === "/api/preview" || path === "/api/objects").length).toBe(1);
+    }
+    expect(await linked()).toBe(before);
+    await tab.close();
+  });
+
   it("hides without forgetting, paints, fades, and undoes each by its name", async () => {
     const { tab, problems } = await served.open(scene(2));
     await settled(tab);

@@ -55,6 +55,13 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
     const auto objects = nlohmann::json::parse(ask("/api/objects", {{"tau", std::to_string(tau)}, {"top", "1"}}).bytes);
     EXPECT_EQ(objects["count"], atlas_->active(tau).objects.size());
     EXPECT_EQ(objects["objects"].size(), 1U);
+    EXPECT_FALSE(preview.contains("object"));
+    const std::int64_t id = objects["objects"][0]["id"];
+    const auto of = [&](std::int64_t object) {
+        return nlohmann::json::parse(ask("/api/preview", {{"tau", std::to_string(tau)}, {"object", std::to_string(object)}}).bytes);
+    };
+    EXPECT_EQ(of(id)["object"], objects["objects"][0]);
+    EXPECT_TRUE(of(id == 0 ? 1 : id - 1)["object"].is_null());
     const Answer surface = ask("/api/surface", {{"tau", std::to_string(tau)}});
     ASSERT_EQ(surface.status, 200);
     EXPECT_EQ(surface.headers.at("X-Triangles"), std::to_string(atlas_->extract(tau).triangles.size()));
@@ -136,6 +143,8 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/surface", {{"tau", "0.5"}, {"most", "0"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"shell", "all"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"x", "1"}}, 400},
+                                  {"/api/preview", {{"tau", "0.5"}, {"object", "-1"}}, 400},
+                                  {"/api/preview", {{"tau", "0.5"}, {"object", "99999999999"}}, 400},
                                   {"/api/objects", {{"tau", "0.5"}, {"top", "1e9"}}, 400},
                                   {"/api/measures", {{"tau", "0.5"}}, 400},
                                   {"/api/measures", {{"tau", "0.5"}, {"object", "0"}}, 404},

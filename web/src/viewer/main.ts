@@ -107,11 +107,11 @@ class Viewer implements Desk {
 
   private show(state: State, before: State, dragging: boolean): void {
     if (state.shown !== before.shown || state.selected !== before.selected) this.say(""); // what was said was about what was before
+    this.axis.show(state); // the number and the cost first: they answer the hand
     if (!dragging) history.replaceState(null, "", toHash(state));
     this.choosing.show(state, before);
     this.shown.show(state);
     this.panel.show(state, dragging);
-    this.axis.show(state);
     this.scene.show(state, before, dragging);
     if (state.view && state.view !== before.view) this.stage.eye.view = state.view; // to the digit, so that a link shows the same pixels
   }

@@ -10,6 +10,8 @@ export type Which = { object: number } | { contour: number } | null;
 
 export interface Preview {
   tau: number;
+  /** the one that was asked for; null: there is none of this name */
+  object?: There | null;
   objects: number;
   contours: number;
   tunnels: number;
@@ -37,6 +39,9 @@ export interface Measures extends There {
 /** before it is looked again whether there is something to wait for, in milliseconds */
 const PAUSE = 50;
 
+/** the lane of what answers the hand, before anything is made */
+const AT_ONCE = "preview";
+
 /** What the server says when it cannot answer. */
 export class Refusal extends Error {
   constructor(
@@ -51,7 +56,6 @@ export class Api {
   private readonly client = crypto.randomUUID();
   private surfaces = 0;
   private readonly lanes = new Map<string, AbortController>();
-  private there: { tau: number; all: Promise<There[]> } | null = null;
 
   constructor(
     private readonly token: string,
@@ -81,14 +85,10 @@ export class Api {
     return ((await answer.json()) as { picture: Picture | null }).picture;
   }
 
-  preview(tau: number): Promise<Preview> {
-    return this.ask(`/api/preview?tau=${tau}`, "preview").then((answer) => answer.json() as Promise<Preview>);
-  }
-
-  /** The largest thousand. Whoever asks for the same isovalue gets the same answer. */
-  objects(tau: number): Promise<There[]> {
-    if (this.there?.tau !== tau) this.there = { tau, all: this.ask(`/api/objects?tau=${tau}`, `objects ${tau}`).then(objectsOf) };
-    return this.there.all;
+  /** object: one to be told of, too. */
+  preview(tau: number, object: number | null): Promise<Preview> {
+    const path = `/api/preview?tau=${tau}${object === null ? "" : words({ object })}`;
+    return this.ask(path, AT_ONCE).then((answer) => answer.json() as Promise<Preview>);
   }
 
   /** Of the objects that hold these voxels. */
@@ -144,14 +144,11 @@ export class Api {
     const abort = new AbortController();
     this.lanes.set(lane, abort);
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": `${this.client}/${lane}` };
-    const answer = await fetch(this.base + path, { headers, signal: abort.signal });
+    const priority = lane === AT_ONCE ? "high" : "auto"; // a browser asks a server only a few questions at a time
+    const answer = await fetch(this.base + path, { headers, signal: abort.signal, priority });
     if (!answer.ok) throw new Refusal(answer.status, await messageOf(answer));
     return answer;
   }
-}
-
-async function objectsOf(answer: Response): Promise<There[]> {
-  return ((await answer.json()) as { objects: There[] }).objects;
 }
 
 function shell(walls: Walls): string {

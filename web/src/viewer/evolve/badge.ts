@@ -10,12 +10,9 @@ import type { Shown } from "../state/state";
 const BYTES_A_TRIANGLE = 2.7;
 
 export async function badgeOf({ api, page }: Desk, shown: Shown): Promise<string> {
-  const [preview, objects] = await Promise.all([
-    api.preview(shown.tau),
-    branchOfShown(page, shown.entry)?.side === "bright" ? api.objects(shown.tau) : [],
-  ]);
-  const own = shown.entry >= 0 ? objects.find(({ id }) => id === entryOf(page, shown.entry).id) : undefined;
-  return `${own ? `this object: ${shapeText(own)}; ` : ""}${allText(preview)}`;
+  const isObject = branchOfShown(page, shown.entry)?.side === "bright";
+  const preview = await api.preview(shown.tau, isObject ? entryOf(page, shown.entry).id : null);
+  return `${preview.object ? `this object: ${shapeText(preview.object)}; ` : ""}${allText(preview)}`;
 }
 
 function shapeText({ tunnels, cavities }: { tunnels: number; cavities: number }): string {
