@@ -2,6 +2,7 @@
 import uPlot from "uplot";
 import { Axis } from "../../axis";
 import { html } from "../../dom";
+import { value } from "../../format";
 import type { Page } from "../../page";
 import { plotAxis, plotIn } from "../desk/plot";
 import { ink } from "../desk/theme";
@@ -16,6 +17,21 @@ const UNDER = 24;
 const ROOM = 90;
 
 const STAIRS = uPlot.paths.stepped?.({ align: 1 });
+
+/** Of a volume of one value: in the middle. */
+function scaleOf(axis: Axis): uPlot.Scale {
+  if (axis.low === axis.high) return { time: false, range: [axis.low - 1, axis.high + 1] };
+  return { time: false, range: [axis.low, axis.high], distr: 100, fwd: (tau) => axis.x(tau), bwd: (at) => axis.tau(at) };
+}
+
+/** Numbers are in the middle of their ticks: blanks on the other side move those at the ends into the plot. */
+function numbersOf({ low, high }: Axis): uPlot.Axis.Values {
+  const text = (tick: number): string => {
+    const blanks = low < high ? "\u2007".repeat(value(tick).length) : "";
+    return `${tick === low ? blanks : ""}${value(tick)}${tick === high ? blanks : ""}`;
+  };
+  return (_, ticks) => ticks.map(text);
+}
 
 export class HistogramPlot {
   readonly element = html("div", { class: "plot", "aria-hidden": "true" });
@@ -35,10 +51,13 @@ export class HistogramPlot {
       {
         padding: [2, MARGIN, 0, MARGIN],
         scales: {
-          x: { time: false, range: [axis.low, axis.high], distr: 100, fwd: (tau) => whole.x(tau), bwd: (at) => whole.tau(at) },
+          x: scaleOf(whole),
           y: { range: [0, most], distr: 4 }, // the background outweighs all else
         },
-        axes: [plotAxis({ size: UNDER, grid: { show: false }, splits: ticks, filter: (_, all) => all }), { show: false }],
+        axes: [
+          plotAxis({ size: UNDER, grid: { show: false }, splits: ticks, filter: (_, all) => all, values: numbersOf(whole) }),
+          { show: false },
+        ],
         series: [{}, { paths: STAIRS, fill: () => ink("line"), width: 0, points: { show: false } }],
       },
       [histogram.edges, [...histogram.counts, histogram.counts.at(-1) ?? 0]],
