@@ -17,7 +17,10 @@ while IFS= read -r target; do
     echo "== $name, $seconds s"
     folders=("$grown")
     if [[ -d $seeds ]]; then folders+=("$seeds"); fi
-    "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
+    words=tests/fuzz/${name%_fuzz}.dict
+    options=()
+    if [[ -f $words ]]; then options+=(-dict="$words"); fi
+    "$target" "${options[@]}" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
         -artifact_prefix=build/fuzz/crashes/"$name"- "${folders[@]}"
     found=$((found + 1))
 done < <(find build/fuzz -name '*_fuzz' ! -name 'replay_*' -type f -executable | sort)

@@ -17,7 +17,8 @@ constexpr int kExitCode = static_cast<int>(ErrorKind::cancelled);
 
 std::atomic<int> signals{0};
 std::atomic<bool> writing{false};
-std::atomic<const char*> last_words{"stopped"};
+constexpr const char* kStopped = "stopped";
+std::atomic<const char*> last_words{kStopped};
 std::array<char, 4096> partial{};  // a fixed buffer: the handler may not allocate
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
@@ -60,6 +61,9 @@ WritingGuard::WritingGuard(const std::string& path, const char* message) {
     writing = true;
 }
 
-WritingGuard::~WritingGuard() { writing = false; }
+WritingGuard::~WritingGuard() {
+    writing = false;
+    last_words = kStopped;
+}
 
 }  // namespace isoatlas::cli

@@ -121,12 +121,11 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
 
 /// Dark objects, after the bright ones when both are asked for.
 int list_dark(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
-    const DarkTable dark = source.dark_objects(options);
     if (!arguments.both) {
-        print_dark(terminal, arguments, source, dark);
+        print_dark(terminal, arguments, source, source.dark_objects(options));
         return 0;
     }
-    const ObjectTable table = source.objects(options);
+    const auto [table, dark] = source.both_tables(options);
     if (arguments.json) {
         print_table_json(terminal, source, table, &dark);
         return 0;

@@ -98,6 +98,11 @@ DarkTable Source::dark_objects(const RankOptions& options) {
     return atlas_->dark_objects(options, context());
 }
 
+BothTables Source::both_tables(const RankOptions& options) {
+    if (!atlas_) return rank_both(volume(), analysis(true), options, context());
+    return {objects(options), dark_objects(options)};
+}
+
 BranchHierarchy Source::hierarchy() {
     if (atlas_ && !arguments_.voxel_units) return atlas_->hierarchy(context());
     return {volume(), analysis(true), context()};

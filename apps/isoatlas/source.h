@@ -38,6 +38,7 @@ public:
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
     [[nodiscard]] DarkTable dark_objects(const RankOptions& options);
+    [[nodiscard]] BothTables both_tables(const RankOptions& options);
     /// The branches that selections choose from.
     [[nodiscard]] BranchHierarchy hierarchy();
     /// The same, with the trees that its events belong to.

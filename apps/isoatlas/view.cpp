@@ -100,7 +100,9 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
         } catch (const Error& error) {
             if (interrupted()) return 0;
             server.fail(error);  // it stays there for the page, which tells it too
-            code = report(error, false, terminal);
+            code = report(error, arguments.json, terminal);
+            terminal.say("note: there is no store to show, and the page says why; Ctrl-C ends the viewer with exit code " +
+                         std::to_string(code));
         }
     }
     if (atlas) prepare(server);

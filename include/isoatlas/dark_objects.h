@@ -48,6 +48,15 @@ struct DarkTable {
 [[nodiscard]] DarkTable rank_dark_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                           const Context& context = {});
 
+struct BothTables {
+    ObjectTable bright;
+    DarkTable dark;
+};
+
+/// Both tables, as rank_objects() and rank_dark_objects(), for little more than one of them. analysis: with zones.
+[[nodiscard]] BothTables rank_both(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
+                                   const Context& context = {});
+
 /// The first entries alone (0: all): what rank_dark_objects() gives with that many at most.
 [[nodiscard]] DarkTable first_entries(DarkTable table, std::int64_t top);
 

@@ -133,7 +133,7 @@ public:
                 context_.report("objects", 6, kPhases, 0);
                 complete(*analysis, volume, quiet);
                 context_.report("objects", 6, kPhases, 0.3);
-                const BothTables tables = rank_both(volume, *analysis, kStoredEntries, quiet);
+                const BothTables tables = rank_both(volume, *analysis, {.top = kStoredEntries}, quiet);
                 const auto add = [&arrays](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(arrays)); };
                 context_.report("objects", 6, kPhases, 0.9);
                 add(object_arrays(tables.bright));

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/check.h"
+#include "base/sample_types.h"
 #include "critical/cell_paths.h"
 
 namespace isoatlas {
@@ -262,13 +263,8 @@ std::vector<ElementPlace> DescendingDisks<T>::boundary(ElementCode death) const 
     return std::move(chain.opened);
 }
 
-template class DescendingDisks<std::uint8_t>;
-template class DescendingDisks<std::int8_t>;
-template class DescendingDisks<std::uint16_t>;
-template class DescendingDisks<std::int16_t>;
-template class DescendingDisks<std::uint32_t>;
-template class DescendingDisks<std::int32_t>;
-template class DescendingDisks<float>;
-template class DescendingDisks<double>;
+#define ISOATLAS_INSTANTIATE(T) template class DescendingDisks<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas

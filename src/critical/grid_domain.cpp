@@ -7,6 +7,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
+#include "base/sample_types.h"
 #include "critical/leading_elements.h"
 
 namespace isoatlas {
@@ -57,14 +58,7 @@ Criticals<IdType> GridDomain<T, IdType>::critical(bool keep_basins, const Contex
 #define ISOATLAS_GRID(T)                         \
     template class GridDomain<T, std::uint32_t>; \
     template class GridDomain<T, std::uint64_t>;
-ISOATLAS_GRID(std::uint8_t)
-ISOATLAS_GRID(std::int8_t)
-ISOATLAS_GRID(std::uint16_t)
-ISOATLAS_GRID(std::int16_t)
-ISOATLAS_GRID(std::uint32_t)
-ISOATLAS_GRID(std::int32_t)
-ISOATLAS_GRID(float)
-ISOATLAS_GRID(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_GRID)
 #undef ISOATLAS_GRID
 static_assert(Domain<GridDomain<float, std::uint32_t>>);
 

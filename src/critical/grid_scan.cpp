@@ -5,6 +5,7 @@
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/sample_types.h"
 #include "critical/links.h"
 #include "field/slab_work.h"
 
@@ -59,14 +60,7 @@ BigVector<std::uint8_t> links_of_grid(const GridView<T>& grid, const Context& co
 #define ISOATLAS_SCAN(T)                                                     \
     template GridScan scan_grid(const GridView<T>&, double, const Context&); \
     template BigVector<std::uint8_t> links_of_grid(const GridView<T>&, const Context&);
-ISOATLAS_SCAN(std::uint8_t)
-ISOATLAS_SCAN(std::int8_t)
-ISOATLAS_SCAN(std::uint16_t)
-ISOATLAS_SCAN(std::int16_t)
-ISOATLAS_SCAN(std::uint32_t)
-ISOATLAS_SCAN(std::int32_t)
-ISOATLAS_SCAN(float)
-ISOATLAS_SCAN(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_SCAN)
 #undef ISOATLAS_SCAN
 
 }  // namespace isoatlas

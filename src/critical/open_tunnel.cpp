@@ -1,6 +1,7 @@
 #include "critical/open_tunnel.h"
 
 #include "base/check.h"
+#include "base/sample_types.h"
 #include "critical/bodies.h"
 #include "critical/tunnels.h"
 #include "field/order.h"
@@ -33,13 +34,8 @@ std::optional<OpenTunnel> TunnelFinder<T>::find(const std::array<std::int64_t, 3
     return std::nullopt;
 }
 
-template class TunnelFinder<std::uint8_t>;
-template class TunnelFinder<std::int8_t>;
-template class TunnelFinder<std::uint16_t>;
-template class TunnelFinder<std::int16_t>;
-template class TunnelFinder<std::uint32_t>;
-template class TunnelFinder<std::int32_t>;
-template class TunnelFinder<float>;
-template class TunnelFinder<double>;
+#define ISOATLAS_INSTANTIATE(T) template class TunnelFinder<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas

@@ -5,6 +5,7 @@
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/sample_types.h"
 #include "critical/grid_scan.h"
 #include "critical/leading_elements.h"
 
@@ -71,14 +72,7 @@ TiledBasins<Id> tiled_basins(const GridView<T>& grid, const Tiling& tiling, cons
 #define ISOATLAS_TILED(T)                                                                                \
     template TiledBasins<std::uint32_t> tiled_basins(const GridView<T>&, const Tiling&, const Context&); \
     template TiledBasins<std::uint64_t> tiled_basins(const GridView<T>&, const Tiling&, const Context&);
-ISOATLAS_TILED(std::uint8_t)
-ISOATLAS_TILED(std::int8_t)
-ISOATLAS_TILED(std::uint16_t)
-ISOATLAS_TILED(std::int16_t)
-ISOATLAS_TILED(std::uint32_t)
-ISOATLAS_TILED(std::int32_t)
-ISOATLAS_TILED(float)
-ISOATLAS_TILED(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_TILED)
 #undef ISOATLAS_TILED
 
 }  // namespace isoatlas

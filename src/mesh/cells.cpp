@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/sample_types.h"
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
 
@@ -195,13 +196,8 @@ void CellWriter<T>::write_cell(const State& state, const std::array<std::int64_t
     write_triangles(cell.corner.data(), cell.triangles);
 }
 
-template class CellWriter<std::uint8_t>;
-template class CellWriter<std::int8_t>;
-template class CellWriter<std::uint16_t>;
-template class CellWriter<std::int16_t>;
-template class CellWriter<std::uint32_t>;
-template class CellWriter<std::int32_t>;
-template class CellWriter<float>;
-template class CellWriter<double>;
+#define ISOATLAS_INSTANTIATE(T) template class CellWriter<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas

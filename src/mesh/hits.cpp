@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/prefetch.h"
+#include "base/sample_types.h"
 
 namespace isoatlas {
 namespace {
@@ -145,13 +146,8 @@ void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& pla
     write(batch);
 }
 
-template class HitWriter<std::uint8_t>;
-template class HitWriter<std::int8_t>;
-template class HitWriter<std::uint16_t>;
-template class HitWriter<std::int16_t>;
-template class HitWriter<std::uint32_t>;
-template class HitWriter<std::int32_t>;
-template class HitWriter<float>;
-template class HitWriter<double>;
+#define ISOATLAS_INSTANTIATE(T) template class HitWriter<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas

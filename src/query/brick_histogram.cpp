@@ -4,6 +4,8 @@
 #include <limits>
 #include <mutex>
 
+#include "base/sample_types.h"
+
 namespace isoatlas {
 namespace {
 
@@ -62,15 +64,8 @@ std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, s
 
 #define ISOATLAS_INSTANTIATE(T)                                                                                                  \
     template std::vector<std::int64_t> brick_histogram<T>(const store::BrickReader<T>&, std::span<const double>, const Context&, \
-                                                          store::IoCounters&)
-ISOATLAS_INSTANTIATE(std::uint8_t);
-ISOATLAS_INSTANTIATE(std::int8_t);
-ISOATLAS_INSTANTIATE(std::uint16_t);
-ISOATLAS_INSTANTIATE(std::int16_t);
-ISOATLAS_INSTANTIATE(std::uint32_t);
-ISOATLAS_INSTANTIATE(std::int32_t);
-ISOATLAS_INSTANTIATE(float);
-ISOATLAS_INSTANTIATE(double);
+                                                          store::IoCounters&);
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas

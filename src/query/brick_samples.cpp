@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "base/sample_types.h"
 
 namespace isoatlas {
 namespace {
@@ -102,15 +103,8 @@ void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int
 
 #define ISOATLAS_INSTANTIATE(T)                                                                                                       \
     template void read_samples<T>(const store::BrickReader<T>&, const Box&, std::int64_t, const Context&, std::span<T>, IoCounters&); \
-    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, std::int64_t, const Context&, std::span<float>, IoCounters&)
-ISOATLAS_INSTANTIATE(std::uint8_t);
-ISOATLAS_INSTANTIATE(std::int8_t);
-ISOATLAS_INSTANTIATE(std::uint16_t);
-ISOATLAS_INSTANTIATE(std::int16_t);
-ISOATLAS_INSTANTIATE(std::uint32_t);
-ISOATLAS_INSTANTIATE(std::int32_t);
-ISOATLAS_INSTANTIATE(float);
-ISOATLAS_INSTANTIATE(double);
+    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, std::int64_t, const Context&, std::span<float>, IoCounters&);
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas

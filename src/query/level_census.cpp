@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/sample_types.h"
 
 namespace isoatlas {
 namespace {
@@ -172,14 +173,7 @@ LevelCensus::Counts LevelCensus::at(double tau, bool whole) const {
 
 #define ISOATLAS_CENSUS(T) \
     template CensusPart count_layers(const T*, std::int64_t, const Extent&, std::span<const double>, std::int64_t, std::int64_t);
-ISOATLAS_CENSUS(std::uint8_t)
-ISOATLAS_CENSUS(std::int8_t)
-ISOATLAS_CENSUS(std::uint16_t)
-ISOATLAS_CENSUS(std::int16_t)
-ISOATLAS_CENSUS(std::uint32_t)
-ISOATLAS_CENSUS(std::int32_t)
-ISOATLAS_CENSUS(float)
-ISOATLAS_CENSUS(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_CENSUS)
 #undef ISOATLAS_CENSUS
 
 }  // namespace isoatlas

@@ -5,6 +5,7 @@
 #include <concepts>
 
 #include "base/check.h"
+#include "base/sample_types.h"
 #include "store/bit_groups.h"
 #include "store/float_units.h"
 #include "store/sample_keys.h"
@@ -201,15 +202,8 @@ bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low,
     template std::pair<T, T> extremes_of<T>(std::span<const T>);                                                 \
     template BrickCode choose_code<T>(std::span<const T>, const BoxSize&, T);                                    \
     template void encode_brick<T>(std::span<const T>, const BoxSize&, T, std::uint8_t, std::vector<std::byte>&); \
-    template bool decode_brick<T>(std::span<const std::byte>, const BoxSize&, T, std::span<T>)
-ISOATLAS_INSTANTIATE(std::uint8_t);
-ISOATLAS_INSTANTIATE(std::int8_t);
-ISOATLAS_INSTANTIATE(std::uint16_t);
-ISOATLAS_INSTANTIATE(std::int16_t);
-ISOATLAS_INSTANTIATE(std::uint32_t);
-ISOATLAS_INSTANTIATE(std::int32_t);
-ISOATLAS_INSTANTIATE(float);
-ISOATLAS_INSTANTIATE(double);
+    template bool decode_brick<T>(std::span<const std::byte>, const BoxSize&, T, std::span<T>);
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas::store

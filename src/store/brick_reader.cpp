@@ -8,6 +8,7 @@
 #include "base/cancel.h"
 #include "base/check.h"
 #include "base/parallel.h"
+#include "base/sample_types.h"
 #include "isoatlas/error.h"
 #include "store/brick_codec.h"
 #include "store/brick_extremes.h"
@@ -189,13 +190,8 @@ void BrickReader<T>::check(const Context& context) const {
     });
 }
 
-template class BrickReader<std::uint8_t>;
-template class BrickReader<std::int8_t>;
-template class BrickReader<std::uint16_t>;
-template class BrickReader<std::int16_t>;
-template class BrickReader<std::uint32_t>;
-template class BrickReader<std::int32_t>;
-template class BrickReader<float>;
-template class BrickReader<double>;
+#define ISOATLAS_INSTANTIATE(T) template class BrickReader<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas::store

@@ -1,5 +1,6 @@
 #include "base/bit_ranks.h"
 #include "base/memory_limit.h"
+#include "base/sample_types.h"
 #include "critical/grid_scan.h"
 #include "field/order.h"
 #include "field/slab_work.h"
@@ -54,14 +55,7 @@ template BigVector<std::uint64_t> elements_of_maxima(std::span<const std::uint64
                                                       const ContourTree<std::uint32_t>&, std::span<const std::uint32_t>, const Context&); \
     template BigVector<std::uint64_t> voxels_by_paths(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>,        \
                                                       const ContourTree<std::uint64_t>&, std::span<const std::uint64_t>, const Context&);
-ISOATLAS_BY_PATHS(std::uint8_t)
-ISOATLAS_BY_PATHS(std::int8_t)
-ISOATLAS_BY_PATHS(std::uint16_t)
-ISOATLAS_BY_PATHS(std::int16_t)
-ISOATLAS_BY_PATHS(std::uint32_t)
-ISOATLAS_BY_PATHS(std::int32_t)
-ISOATLAS_BY_PATHS(float)
-ISOATLAS_BY_PATHS(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_BY_PATHS)
 #undef ISOATLAS_BY_PATHS
 // NOLINTEND(bugprone-macro-parentheses)
 

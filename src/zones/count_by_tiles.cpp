@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/part_streams.h"
+#include "base/sample_types.h"
 #include "critical/parted_domain.h"
 #include "field/slab_work.h"
 #include "tree/components.h"
@@ -117,14 +118,7 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
                                                       const Context&);                                                             \
     template BigVector<std::uint64_t> voxels_by_tiles(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
                                                       const Context&);
-ISOATLAS_BY_TILES(std::uint8_t)
-ISOATLAS_BY_TILES(std::int8_t)
-ISOATLAS_BY_TILES(std::uint16_t)
-ISOATLAS_BY_TILES(std::int16_t)
-ISOATLAS_BY_TILES(std::uint32_t)
-ISOATLAS_BY_TILES(std::int32_t)
-ISOATLAS_BY_TILES(float)
-ISOATLAS_BY_TILES(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_BY_TILES)
 #undef ISOATLAS_BY_TILES
 // NOLINTEND(bugprone-macro-parentheses)
 

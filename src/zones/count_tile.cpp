@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/part_streams.h"
+#include "base/sample_types.h"
 #include "critical/representatives.h"
 #include "tree/components.h"
 #include "tree/local_numbers.h"
@@ -146,14 +147,7 @@ void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile
     template void count_tile(const GridView<T>&, const Tiling&, std::int64_t, const TiledBasins<std::uint64_t>&, \
                              std::span<const KeyedElement>, std::span<CountedElement<std::uint64_t>>,            \
                              OpenVoxelBuckets<T, std::uint64_t>&);
-ISOATLAS_COUNT_TILE(std::uint8_t)
-ISOATLAS_COUNT_TILE(std::int8_t)
-ISOATLAS_COUNT_TILE(std::uint16_t)
-ISOATLAS_COUNT_TILE(std::int16_t)
-ISOATLAS_COUNT_TILE(std::uint32_t)
-ISOATLAS_COUNT_TILE(std::int32_t)
-ISOATLAS_COUNT_TILE(float)
-ISOATLAS_COUNT_TILE(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_COUNT_TILE)
 #undef ISOATLAS_COUNT_TILE
 // NOLINTEND(bugprone-macro-parentheses)
 

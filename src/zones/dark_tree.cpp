@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/bit_ranks.h"
+#include "base/sample_types.h"
 #include "critical/grid_scan.h"
 #include "critical/leading_elements.h"
 #include "critical/links.h"
@@ -133,14 +134,7 @@ DarkTree<Id> make_dark_tree(const GridView<T>& grid, const AnalysisArrays<Id>& a
 #define ISOATLAS_DARK(T)                                                                                                       \
     template DarkTree<std::uint32_t> make_dark_tree(const GridView<T>&, const AnalysisArrays<std::uint32_t>&, const Context&); \
     template DarkTree<std::uint64_t> make_dark_tree(const GridView<T>&, const AnalysisArrays<std::uint64_t>&, const Context&);
-ISOATLAS_DARK(std::uint8_t)
-ISOATLAS_DARK(std::int8_t)
-ISOATLAS_DARK(std::uint16_t)
-ISOATLAS_DARK(std::int16_t)
-ISOATLAS_DARK(std::uint32_t)
-ISOATLAS_DARK(std::int32_t)
-ISOATLAS_DARK(float)
-ISOATLAS_DARK(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_DARK)
 #undef ISOATLAS_DARK
 // NOLINTEND(bugprone-macro-parentheses)
 

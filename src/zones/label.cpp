@@ -4,6 +4,7 @@
 #include <atomic>
 #include <vector>
 
+#include "base/sample_types.h"
 #include "critical/basins.h"
 
 namespace isoatlas {
@@ -96,14 +97,7 @@ void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
                                                 std::span<std::uint32_t>, std::span<std::uint32_t>);                      \
     template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&, \
                                                 std::span<std::uint64_t>, std::span<std::uint64_t>);
-ISOATLAS_LABEL(std::uint8_t)
-ISOATLAS_LABEL(std::int8_t)
-ISOATLAS_LABEL(std::uint16_t)
-ISOATLAS_LABEL(std::int16_t)
-ISOATLAS_LABEL(std::uint32_t)
-ISOATLAS_LABEL(std::int32_t)
-ISOATLAS_LABEL(float)
-ISOATLAS_LABEL(double)
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_LABEL)
 #undef ISOATLAS_LABEL
 // NOLINTEND(bugprone-macro-parentheses)
 

@@ -1,4 +1,4 @@
-// rank_objects() and rank_dark_objects() for samples that lie anywhere.
+// rank_objects(), rank_dark_objects() and rank_both() for samples that lie anywhere.
 #pragma once
 
 #include "field/volume_view.h"
@@ -15,13 +15,7 @@ namespace isoatlas {
 [[nodiscard]] DarkTable rank_dark_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                           const Context& context);
 
-struct BothTables {
-    ObjectTable bright;
-    DarkTable dark;
-};
-
-/// Both with the gate and up to so many entries, from one dark tree.
-[[nodiscard]] BothTables rank_both(const VolumeView& volume, const Analysis& analysis, std::int64_t top, const Context& context);
+[[nodiscard]] BothTables rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context);
 
 /// The table of a side that is made. Cost: up to top queries at isovalues (isoatlas/active.h).
 template <class Id>

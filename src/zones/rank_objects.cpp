@@ -95,11 +95,18 @@ ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const R
     return rank_objects(VolumeView(volume), analysis, options, context);
 }
 
-BothTables rank_both(const VolumeView& volume, const Analysis& analysis, std::int64_t top, const Context& context) {
-    return with_tables(volume, analysis, {.top = top}, context,
+BothTables rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return with_tables(volume, analysis, options, context,
                        [&](const auto& arrays, const NoiseModel& noise, const auto& dark, ObjectTable table) {
-                           return BothTables{std::move(table), dark_table(volume, analysis, arrays, dark, noise, top)};
+                           const bool is_same = options.gate && !options.selection;  // as what matters for the bright ones
+                           DarkTable dark_ones = is_same ? dark_table(volume, analysis, arrays, dark, noise, options.top)
+                                                         : rank_dark_objects(volume, analysis, options, context);
+                           return BothTables{std::move(table), std::move(dark_ones)};
                        });
+}
+
+BothTables rank_both(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return rank_both(VolumeView(volume), analysis, options, context);
 }
 
 }  // namespace isoatlas

@@ -14,14 +14,18 @@ class Viewer:
         """Returns once the address is printed."""
         self.process = subprocess.Popen([harness.CLI, "view", *arguments, "--no-browser", "--json"], cwd=folder, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
+        self.document = self.read_document()
+        self.port = self.document["port"]
+        self.token = self.document["address"].split("token=")[1]
+
+    def read_document(self):
+        """The next one on its standard output."""
         lines = []
         while not lines or lines[-1] != "}\n":
             lines.append(self.process.stdout.readline())
             if lines[-1] == "":
                 raise RuntimeError(f"it ended with {self.process.wait()}: {self.process.stderr.read()}")
-        self.document = json.loads("".join(lines))
-        self.port = self.document["port"]
-        self.token = self.document["address"].split("token=")[1]
+        return json.loads("".join(lines))
 
     def stop(self):
         """Ctrl-C; the exit code and what it has said."""

@@ -79,9 +79,13 @@ class Watching(harness.CliTest):
         state = viewer.until("failed")[-1]
         self.assert_schema(state, "server-events")
         self.assertNotEqual(state["error"]["next"], "")
+        document = viewer.read_document()
+        self.assertEqual(document["error"]["exit_code"], state["error"]["code"])
+        self.assertEqual(document["error"]["message"], state["error"]["message"])
         code, said = viewer.stop()
-        self.assertNotEqual(code, 0)
-        self.assertIn(state["error"]["what"], said)
+        self.assertEqual(code, state["error"]["code"])
+        self.assertIn(state["error"]["message"], said)
+        self.assertIn(f"Ctrl-C ends the viewer with exit code {code}", said)
 
     def test_an_image_is_refused_with_what_to_do_instead(self):
         (self.folder / "image.nrrd").write_bytes(b"NRRD0004\ntype: uint8\ndimension: 2\nsizes: 4 4\nencoding: raw\n\n" + bytes(range(16)))

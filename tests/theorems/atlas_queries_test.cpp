@@ -223,6 +223,11 @@ RC_GTEST_FIXTURE_PROP(Stores, TellTogetherWhatTheyTellApart, ()) {
     leave_tables_out(path_, volume, bare);
     const isoatlas::Analysis analysis = isoatlas::analyse(volume);
     const isoatlas::BranchHierarchy hierarchy(volume, analysis);
+    for (const isoatlas::RankOptions& options : {isoatlas::RankOptions{.top = 3}, isoatlas::RankOptions{.top = 9, .gate = false}}) {
+        const isoatlas::BothTables both = isoatlas::rank_both(volume, analysis, options);
+        RC_ASSERT(text(both.bright) == text(isoatlas::rank_objects(volume, analysis, options)));
+        RC_ASSERT(text(both.dark) == text(rank_dark_objects(volume, analysis, options)));
+    }
     for (const std::string& path : {path_, bare}) {
         const Atlas atlas(path);
         const isoatlas::Overview found = isoatlas::overview_of(atlas, {});

@@ -49,7 +49,7 @@ class Waiting {
       this.bar.hidden = false;
       this.details.textContent = detailsOf(build);
     } else if (error) {
-      this.title.textContent = "There is no store to show";
+      this.title.textContent = "The store could not be built";
       this.bar.hidden = true;
       this.details.setAttribute("role", "alert");
       this.details.replaceChildren(error.message);
