@@ -6,7 +6,7 @@ import { html, svg } from "./dom";
 import { count, plural, value, volume } from "./format";
 import { anchorOf, branchName, contentsOf, describe, entriesOf, isDark, nameOf, rangeOf, shapeOf } from "./names";
 import { rangeBar } from "./overview";
-import { branchOf, entryOf, type Page } from "./page";
+import { branchOf, entryOf, type Advice, type Page } from "./page";
 import { legend } from "./spectrum";
 import { thumbnail, turntable } from "./turntable";
 
@@ -129,7 +129,7 @@ export class Detail {
     const facts: [string, (Node | string)[]][] = [["shown at", [value(entry.tau), entry.why ? `: ${entry.why}` : ""]]];
     if (same.length > 0) facts.push(["the same object", this.links(same, (k) => ` at ${value(entryOf(page, k).tau)}`)]);
     const more = branch.isovalues ?? [];
-    if (more.length > 0) facts.push(["look also at", more.map(({ tau, why }) => html("div", {}, `${value(tau)}: ${why}`))]);
+    if (more.length > 0) facts.push(["look also at", more.map((advice) => this.advice(advice))]);
     facts.push(
       ["on its own", [rangeOf(branch)]],
       ["size", [volume(entry.measure, page.volume.unit), page.volume.unit === null ? "" : `, ${count(entry.voxels)} voxels`]],
@@ -142,6 +142,10 @@ export class Detail {
     if (branch.parent >= 0) facts.push(["merges into", [this.branchLink(branch.parent)]]);
     if (siblings.length > 0) facts.push(["merge into it too", this.links(siblings)]);
     return facts;
+  }
+
+  private advice({ tau, why, cavity }: Advice): HTMLElement {
+    return html("div", {}, `${value(tau)}: ${why}`, ...(cavity === undefined ? [] : [": ", this.link(cavity)]));
   }
 
   /** Tunnels and cavities from where it appears to where it merges. */

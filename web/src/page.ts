@@ -38,6 +38,14 @@ export interface Spectrum {
   essential: Counts;
 }
 
+/** An isovalue that shows an object well, and why. */
+export interface Advice {
+  tau: number;
+  why: string;
+  /** the entry of the cavity whose wall that is, where it has one */
+  cavity?: number;
+}
+
 /** An object of the volume, on its own between appears and merges. Bright ones by rank, then dark ones by rank. */
 export interface Branch {
   side: Side;
@@ -59,7 +67,7 @@ export interface Branch {
   standsOut: boolean;
   shape?: Shape | null;
   /** others that show it well, without an entry */
-  isovalues?: { tau: number; why: string }[];
+  isovalues?: Advice[];
 }
 
 /** A branch at an isovalue that shows it. */

@@ -130,6 +130,15 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await tab.close();
   });
 
+  it("leads from an isovalue of a wall to the cavity that it is the wall of", async () => {
+    const { tab } = await open(scene, "#object-1");
+    const dialog = tab.locator("dialog");
+    const advice = dialog.locator("dd", { hasText: "45: the wall of one of its cavities" });
+    await advice.getByRole("button", { name: "Dark object 1" }).click();
+    expect(await dialog.locator("h2").textContent()).toBe("Dark object 1");
+    await tab.close();
+  });
+
   it("turns pictures by keyboard and pointer", async () => {
     const { tab } = await open(page([branch({})], [entry({ picture: { image: pixel, frames: 4, side: 1 } })]));
     const picture = tab.locator(".card .turntable");
