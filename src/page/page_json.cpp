@@ -184,7 +184,20 @@ private:
             put_columns(branch.shape, false);
         }
         if (!branch.isovalues.empty()) write_isovalues(branch.isovalues);
+        if (!branch.tunnels.empty()) write_tunnels(branch);
         json_.end_object();
+    }
+
+    void write_tunnels(const PageBranch& branch) {
+        json_.key("tunnels").begin_object().key("exact").value(contents_.exact_tunnels);
+        json_.key("standingOut").value(branch.standing_tunnels).key("longest").begin_array();
+        for (const PageTunnel& tunnel : branch.tunnels) {
+            json_.begin_object();
+            put_value("opens", tunnel.opens);
+            put_value("closes", tunnel.closes);
+            json_.end_object();
+        }
+        json_.end_array().end_object();
     }
 
     void write_isovalues(const std::vector<RecommendedIsovalue>& isovalues) {

@@ -70,6 +70,7 @@ export class Detail {
       rangeBar(page, i),
       html("dl", { class: "facts" }, ...this.facts(i).flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)])),
       this.shape(i) ?? "",
+      this.tunnels(i) ?? "",
       this.merges(i) ?? "",
       html("h3", {}, "Get it"),
       commandList(entry.commands),
@@ -172,6 +173,21 @@ export class Detail {
       svg("line", { class: "needle", x1: x, x2: x, y1: 4, y2: bottom }),
     );
     return html("section", {}, html("h3", {}, "Its tunnels and cavities over its isovalues"), drawing, legend(lines));
+  }
+
+  /** From where to where its longest tunnels are open. */
+  private tunnels(i: number): HTMLElement | null {
+    const tunnels = branchOf(this.page, entryOf(this.page, i).branch).tunnels;
+    if (!tunnels) return null;
+    const rest = tunnels.standingOut - tunnels.longest.length;
+    const pairs = tunnels.exact ? "Each is told exactly." : "Approximate: the tunnel that opened last is taken to close first.";
+    return html(
+      "section",
+      { class: "tunnels" },
+      html("h3", {}, "Tunnels that noise does not explain"),
+      html("ul", { class: "merges" }, ...tunnels.longest.map(({ opens, closes }) => html("li", {}, `opens at ${value(opens)}, closes at ${value(closes)}`))),
+      html("p", { class: "note" }, `${rest > 0 ? `and ${plural(rest, "shorter one")}. ` : ""}${pairs} A tunnel may close only after the object has merged.`),
+    );
   }
 
   /** What merges into this object, from the first on. */

@@ -38,6 +38,16 @@ export interface Spectrum {
   essential: Counts;
 }
 
+/** Tunnels that open in an object and that noise does not explain. */
+export interface Tunnels {
+  /** else: the tunnel that opened last is taken to close first */
+  exact: boolean;
+  /** how many */
+  standingOut: number;
+  /** the first of them, by length */
+  longest: { opens: number; closes: number }[];
+}
+
 /** An isovalue that shows an object well, and why. */
 export interface Advice {
   tau: number;
@@ -68,6 +78,7 @@ export interface Branch {
   shape?: Shape | null;
   /** others that show it well, without an entry */
   isovalues?: Advice[];
+  tunnels?: Tunnels;
 }
 
 /** A branch at an isovalue that shows it. */

@@ -139,6 +139,14 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await tab.close();
   });
 
+  it("tells from where to where tunnels are open, and how sure that is", async () => {
+    const { tab } = await open(scene, "#object-1");
+    const tunnels = tab.locator("dialog .tunnels");
+    expect(await tunnels.locator("li").allTextContents()).toEqual(["opens at 80, closes at 20", "opens at 40, closes at 30"]);
+    expect(await tunnels.locator(".note").textContent()).toContain("and 1 shorter one. Each is told exactly.");
+    await tab.close();
+  });
+
   it("turns pictures by keyboard and pointer", async () => {
     const { tab } = await open(page([branch({})], [entry({ picture: { image: pixel, frames: 4, side: 1 } })]));
     const picture = tab.locator(".card .turntable");
