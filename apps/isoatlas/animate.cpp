@@ -21,7 +21,8 @@ constexpr Colour kRest{0.62, 0.64, 0.66};  // of what is not kept
 
 struct Made {
     Animation animation;
-    std::vector<Frame> frames;  ///< of an evolution
+    std::vector<Frame> frames;            ///< of an evolution
+    std::optional<bool> exact_tunnels{};  ///< of an evolution
 };
 
 /// One surface for each of its objects, by id.
@@ -123,6 +124,7 @@ Made evolve(const Arguments& arguments, Source& source, RenderOptions options) {
     const Camera camera = fit_camera(largest, view, options);
     largest = {};
     Made made;
+    made.exact_tunnels = evolution.has_exact_tunnels();
     for (std::size_t i = 0; i < taus.size(); ++i) {
         stop_if_interrupted();
         made.frames.push_back(evolution.at(taus[i], i > 0 ? std::optional(taus[i - 1]) : std::nullopt));
@@ -167,6 +169,7 @@ void print_json(const Arguments& arguments, Terminal& terminal, Source& source, 
     head["height"] = made.animation.frames[0].height;
     head["frame_count"] = made.animation.frames.size();
     head["frames_per_second"] = made.animation.frames_per_second;
+    if (made.exact_tunnels) head["pairs"] = *made.exact_tunnels ? "exact" : "approximate";
     add_reads(head, source.reads());
     const Scale scale(source.info());
     print(terminal, head, "frames", static_cast<std::int64_t>(made.frames.size()), [&](std::int64_t i) -> Json {
@@ -203,6 +206,8 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
         print_json(arguments, terminal, source, made);
     } else {
         const Image& first = made.animation.frames[0];
+        if (made.exact_tunnels && !*made.exact_tunnels)
+            terminal.say("the tunnels that are told are approximate: the one that opened last is taken to close first");
         terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", arguments.output,
                                       counted(static_cast<std::int64_t>(made.animation.frames.size()), "frame"), first.width, first.height);
     }

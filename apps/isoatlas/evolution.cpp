@@ -25,7 +25,9 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
 
     double least = options.selection ? options.selection->least_persistence : 0;
     if (least == 0) least = noise_height(source.objects({.top = 1}).noise, source.info().extent.voxels());
-    for (const Handle& handle : pair_handles(analysis_, least)) {
+    const FoundHandles found = find_handles(source.info(), analysis_, least, [&] { return source.volume(); }, source.context());
+    exact_tunnels_ = found.exact;
+    for (const Handle& handle : found.handles) {
         if (rank_of_event_[static_cast<std::size_t>(handle.event)] >= 0) tunnels_.push_back({handle.opens, handle.closes});
     }
     std::set<std::array<double, 3>> known;  // several lines may show the same dark object

@@ -34,6 +34,8 @@ public:
     [[nodiscard]] Frame at(double tau, const std::optional<double>& before) const;
     /// The kept objects at an isovalue: their rank by id.
     [[nodiscard]] std::map<std::int64_t, std::int64_t> kept_objects(double tau) const;
+    /// Is it exact from where to where each kept tunnel is open?
+    [[nodiscard]] bool has_exact_tunnels() const { return exact_tunnels_; }
 
 private:
     /// There for tau in (ends, begins].
@@ -51,6 +53,7 @@ private:
     const ActiveIndex* index_ = nullptr;
     std::vector<std::int64_t> rank_of_event_;  ///< of the kept object; -1: none
     std::vector<Life> objects_, tunnels_, cavities_;
+    bool exact_tunnels_ = false;
 };
 
 }  // namespace isoatlas::cli

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "isoatlas/analysis.h"
@@ -44,6 +45,16 @@ struct ExactHandles {
 /// number of threads.
 [[nodiscard]] std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& analysis, const ExactHandles& options = {},
                                                        const Context& context = {});
+
+struct FoundHandles {
+    std::vector<Handle> handles;
+    bool exact;
+};
+
+/// Exact pairs where they cost little: of at most 2^26 bytes of samples and 2^17 tunnels; else approximate ones. samples: called for exact
+/// pairs only; the volume that analysis is of. Throws Error: cancelled, what samples() throws. Cost: seconds at most.
+[[nodiscard]] FoundHandles find_handles(const VolumeInfo& info, const Analysis& analysis, double least_persistence,
+                                        const std::function<Volume()>& samples, const Context& context = {});
 
 /// The largest object whose highest voxel is that one: the event just before it merges with a higher object, the root for the highest
 /// voxel of all; -1: the voxel is not the highest of any object. Cost: O(elements + events).

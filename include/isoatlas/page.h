@@ -25,7 +25,7 @@ struct PageReport {
 
 /// Ranks the bright and dark objects of a store, draws them and writes the page. Throws Error: usage (options), input (damaged store),
 /// resource (cannot be written), cancelled. Cost: that of Atlas::hierarchy() and
-/// Atlas::histogram(), and draws objects * frames pictures.
+/// Atlas::histogram(), find_handles() (isoatlas/handles.h), and draws objects * frames pictures.
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

@@ -83,7 +83,8 @@ private:
                                           .measure = b.measure,
                                           .joined = joined[i],
                                           .stands_out = is_essential[i],
-                                          .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{}});
+                                          .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{},
+                                          .top = b.top});
             if (!is_shown[i]) continue;
             for (const std::int64_t event : events_of(analysis_, b.top, b.merges)) branch_of_event_[event] = place[i];
         }

@@ -16,6 +16,11 @@
 
 namespace isoatlas::page {
 
+/// For isovalues in (closes, opens].
+struct PageTunnel {
+    double opens, closes;
+};
+
 /// An object of the volume, as long as it is on its own: for isovalues between appears and merges.
 struct PageBranch {
     bool dark = false;
@@ -30,6 +35,9 @@ struct PageBranch {
     bool stands_out = false;                       ///< noise does not explain it, and it is not tiny beside the largest
     std::vector<CountColumn> shape{};              ///< what it is like over its isovalues; empty: not on the page
     std::vector<RecommendedIsovalue> isovalues{};  ///< others that show it well, without an entry
+    std::int64_t top = -1;                         ///< bright: the event at which it begins
+    std::vector<PageTunnel> tunnels{};             ///< that open in it, the longest: page/tunnels.h
+    std::int64_t standing_tunnels = 0;             ///< how many of these noise does not explain
 };
 
 /// A branch at an isovalue that shows it.
@@ -57,6 +65,7 @@ struct PageContents {
     SelectionCurve curve;  ///< of hypervolume, thinned
     std::vector<CountColumn> spectrum;
     Histogram histogram;
+    bool exact_tunnels = false;  ///< the pairs of page/tunnels.h
 };
 
 /// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).

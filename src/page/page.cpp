@@ -7,6 +7,7 @@
 #include "base/atomic_file.h"
 #include "page/page_json.h"
 #include "page/template.h"
+#include "page/tunnels.h"
 
 namespace isoatlas {
 namespace {
@@ -48,6 +49,7 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
                     {.what = "this isoatlas was built without pages", .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
     }
     page::PageContents contents = page::page_contents(atlas, overview_of(atlas, context), options, context);
+    page::add_tunnels(contents, atlas, context);
     page::draw_pictures(contents, atlas, options, context);
     std::string json;
     output::JsonStream stream([&json](std::string_view text) { json += text; });

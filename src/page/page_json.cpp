@@ -184,14 +184,39 @@ private:
             put_columns(branch.shape, false);
         }
         if (!branch.isovalues.empty()) write_isovalues(branch.isovalues);
+        if (!branch.tunnels.empty()) write_tunnels(branch);
         json_.end_object();
+    }
+
+    void write_tunnels(const PageBranch& branch) {
+        json_.key("tunnels").begin_object().key("exact").value(contents_.exact_tunnels);
+        json_.key("standingOut").value(branch.standing_tunnels).key("longest").begin_array();
+        for (const PageTunnel& tunnel : branch.tunnels) {
+            json_.begin_object();
+            put_value("opens", tunnel.opens);
+            put_value("closes", tunnel.closes);
+            json_.end_object();
+        }
+        json_.end_array().end_object();
     }
 
     void write_isovalues(const std::vector<RecommendedIsovalue>& isovalues) {
         json_.key("isovalues").begin_array();
-        for (const RecommendedIsovalue& isovalue : isovalues)
-            json_.begin_object().key("tau").value(scale_.reported(isovalue.tau)).key("why").value(text_of(isovalue.reason)).end_object();
+        for (const RecommendedIsovalue& isovalue : isovalues) {
+            json_.begin_object().key("tau").value(scale_.reported(isovalue.tau)).key("why").value(text_of(isovalue.reason));
+            const std::int64_t cavity = isovalue.reason == IsovalueReason::inner ? cavity_entry(isovalue) : -1;
+            if (cavity >= 0) json_.key("cavity").value(cavity);
+            json_.end_object();
+        }
         json_.end_array();
+    }
+
+    /// The dark entry whose wall it is; -1: that is not on the page.
+    std::int64_t cavity_entry(const RecommendedIsovalue& isovalue) const {
+        const auto entry = std::ranges::find_if(contents_.entries, [&](const PageEntry& e) {
+            return contents_.branches[e.branch].dark && e.id == isovalue.cavity && e.tau == isovalue.tau;
+        });
+        return entry == contents_.entries.end() ? -1 : entry - contents_.entries.begin();
     }
 
     void write_entry(std::size_t i) {

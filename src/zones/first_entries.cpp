@@ -24,7 +24,7 @@ const char* text_of(IsovalueReason reason) {
     switch (reason) {
         case IsovalueReason::steady: return "its size hardly depends on the isovalue here: its boundary is sharp";
         case IsovalueReason::outline: return "everything that is not background";
-        case IsovalueReason::outer: return "its outer boundary alone is sharpest here";
+        case IsovalueReason::outer: return "its outside alone, as if its cavities were filled, is sharpest here";
         case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
         case IsovalueReason::merge: return "as large as it gets before it merges with another object";
         case IsovalueReason::middle: return "the middle of its range; no isovalue stands out";

@@ -8,6 +8,7 @@
 
 #include "isoatlas/error.h"
 #include "isoatlas/handles.h"
+#include "isoatlas/phantom.h"
 #include "oracle/bodies.h"
 #include "oracle/difference.h"
 #include "oracle/finer.h"
@@ -164,6 +165,20 @@ TEST(ExactHandles, RefuseTooMany) {
     ASSERT_GT(isoatlas::pair_handles_exactly(volume, analysis).size(), 3U);
     EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.most = 3}), isoatlas::Error);
     EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.event = analysis.event_count()}), isoatlas::Error);
+}
+
+TEST(ExactHandles, AreFoundWhereTheyCostLittle) {
+    const Volume small = isoatlas::make_phantom("noise", {.size = 12});
+    const Analysis analysis = isoatlas::analyse(small);
+    const isoatlas::FoundHandles found = isoatlas::find_handles(small.info, analysis, 0.1, [&] { return small; });
+    EXPECT_TRUE(found.exact);
+    EXPECT_EQ(pairs_of(found.handles), pairs_of(isoatlas::pair_handles_exactly(small, analysis, {.least_persistence = 0.1})));
+    isoatlas::VolumeInfo large = small.info;
+    large.extent.size = {1024, 1024, 1024};
+    const auto no_samples = []() -> Volume { throw std::logic_error("asked for samples"); };
+    const isoatlas::FoundHandles approximate = isoatlas::find_handles(large, analysis, 0.1, no_samples);
+    EXPECT_FALSE(approximate.exact);
+    EXPECT_EQ(pairs_of(approximate.handles), pairs_of(isoatlas::pair_handles(analysis, 0.1)));
 }
 
 }  // namespace

@@ -239,7 +239,8 @@ std::set<Index> voxels_of(const Analysis& analysis, const BranchInfo& branch) {
     return voxels;
 }
 
-constexpr double kNear = 2;  ///< a factor of the hypervolume: the value at which an object merges moves with the noise
+constexpr double kNear = 1.1;  ///< a factor of the threshold: what is that near to it may change sides
+constexpr double kAlike = 2;   ///< of the hypervolume of one object: the value at which it merges moves with the noise
 
 struct Object {
     std::set<Index> voxels;
@@ -250,7 +251,7 @@ struct Object {
     [[nodiscard]] bool is_like(const Object& other) const {
         const auto shared = std::ranges::count_if(voxels, [&](Index v) { return other.voxels.contains(v); });
         const double ratio = hypervolume / other.hypervolume;
-        return 2 * static_cast<std::size_t>(shared) > std::min(voxels.size(), other.voxels.size()) && ratio < kNear && ratio > 1 / kNear;
+        return 2 * static_cast<std::size_t>(shared) > std::min(voxels.size(), other.voxels.size()) && ratio < kAlike && ratio > 1 / kAlike;
     }
 };
 
@@ -310,11 +311,15 @@ TEST(Simplification, ChangesOnlyNearTheThresholdOnRealVolumes) {
     for (const char* name : {"fuel/fuel.nrrd", "neghip/neghip.nrrd"}) {
         SCOPED_TRACE(name);
         const Volume volume = isoatlas::load_volume((data / name).string());
-        const Bright clean(volume), noisy(with_noise(volume, 7));
+        const Bright clean(volume);
         const double threshold = clean.hierarchy.curves()[0].automatic_threshold;
-        EXPECT_GE(expect_found(clean, noisy, threshold), 1);
-        EXPECT_GE(expect_found(noisy, clean, threshold), 1);
-        EXPECT_NEAR(static_cast<double>(clean.hierarchy.essential().size()), static_cast<double>(noisy.hierarchy.essential().size()), 1);
+        const auto essential = static_cast<double>(clean.hierarchy.essential().size());
+        for (const std::uint32_t seed : {7U, 8U, 9U}) {
+            const Bright noisy(with_noise(volume, seed));
+            EXPECT_GE(expect_found(clean, noisy, threshold), 1);
+            EXPECT_GE(expect_found(noisy, clean, threshold), 1);
+            EXPECT_NEAR(essential, static_cast<double>(noisy.hierarchy.essential().size()), 1);
+        }
     }
 }
 

@@ -6,7 +6,7 @@ import { html, svg } from "./dom";
 import { count, plural, value, volume } from "./format";
 import { anchorOf, branchName, contentsOf, describe, entriesOf, isDark, nameOf, rangeOf, shapeOf } from "./names";
 import { rangeBar } from "./overview";
-import { branchOf, entryOf, type Page } from "./page";
+import { branchOf, entryOf, type Advice, type Page } from "./page";
 import { legend } from "./spectrum";
 import { thumbnail, turntable } from "./turntable";
 
@@ -70,6 +70,7 @@ export class Detail {
       rangeBar(page, i),
       html("dl", { class: "facts" }, ...this.facts(i).flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)])),
       this.shape(i) ?? "",
+      this.tunnels(i) ?? "",
       this.merges(i) ?? "",
       html("h3", {}, "Get it"),
       commandList(entry.commands),
@@ -129,7 +130,7 @@ export class Detail {
     const facts: [string, (Node | string)[]][] = [["shown at", [value(entry.tau), entry.why ? `: ${entry.why}` : ""]]];
     if (same.length > 0) facts.push(["the same object", this.links(same, (k) => ` at ${value(entryOf(page, k).tau)}`)]);
     const more = branch.isovalues ?? [];
-    if (more.length > 0) facts.push(["look also at", more.map(({ tau, why }) => html("div", {}, `${value(tau)}: ${why}`))]);
+    if (more.length > 0) facts.push(["look also at", more.map((advice) => this.advice(advice))]);
     facts.push(
       ["on its own", [rangeOf(branch)]],
       ["size", [volume(entry.measure, page.volume.unit), page.volume.unit === null ? "" : `, ${count(entry.voxels)} voxels`]],
@@ -142,6 +143,10 @@ export class Detail {
     if (branch.parent >= 0) facts.push(["merges into", [this.branchLink(branch.parent)]]);
     if (siblings.length > 0) facts.push(["merge into it too", this.links(siblings)]);
     return facts;
+  }
+
+  private advice({ tau, why, cavity }: Advice): HTMLElement {
+    return html("div", {}, `${value(tau)}: ${why}`, ...(cavity === undefined ? [] : [": ", this.link(cavity)]));
   }
 
   /** Tunnels and cavities from where it appears to where it merges. */
@@ -168,6 +173,21 @@ export class Detail {
       svg("line", { class: "needle", x1: x, x2: x, y1: 4, y2: bottom }),
     );
     return html("section", {}, html("h3", {}, "Its tunnels and cavities over its isovalues"), drawing, legend(lines));
+  }
+
+  /** From where to where its longest tunnels are open. */
+  private tunnels(i: number): HTMLElement | null {
+    const tunnels = branchOf(this.page, entryOf(this.page, i).branch).tunnels;
+    if (!tunnels) return null;
+    const rest = tunnels.standingOut - tunnels.longest.length;
+    const pairs = tunnels.exact ? "Each is told exactly." : "Approximate: the tunnel that opened last is taken to close first.";
+    return html(
+      "section",
+      { class: "tunnels" },
+      html("h3", {}, "Tunnels that noise does not explain"),
+      html("ul", { class: "merges" }, ...tunnels.longest.map(({ opens, closes }) => html("li", {}, `opens at ${value(opens)}, closes at ${value(closes)}`))),
+      html("p", { class: "note" }, `${rest > 0 ? `and ${plural(rest, "shorter one")}. ` : ""}${pairs} A tunnel may close only after the object has merged.`),
+    );
   }
 
   /** What merges into this object, from the first on. */

@@ -38,6 +38,24 @@ export interface Spectrum {
   essential: Counts;
 }
 
+/** Tunnels that open in an object and that noise does not explain. */
+export interface Tunnels {
+  /** else: the tunnel that opened last is taken to close first */
+  exact: boolean;
+  /** how many */
+  standingOut: number;
+  /** the first of them, by length */
+  longest: { opens: number; closes: number }[];
+}
+
+/** An isovalue that shows an object well, and why. */
+export interface Advice {
+  tau: number;
+  why: string;
+  /** the entry of the cavity whose wall that is, where it has one */
+  cavity?: number;
+}
+
 /** An object of the volume, on its own between appears and merges. Bright ones by rank, then dark ones by rank. */
 export interface Branch {
   side: Side;
@@ -59,7 +77,8 @@ export interface Branch {
   standsOut: boolean;
   shape?: Shape | null;
   /** others that show it well, without an entry */
-  isovalues?: { tau: number; why: string }[];
+  isovalues?: Advice[];
+  tunnels?: Tunnels;
 }
 
 /** A branch at an isovalue that shows it. */

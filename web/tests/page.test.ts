@@ -130,6 +130,23 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await tab.close();
   });
 
+  it("leads from an isovalue of a wall to the cavity that it is the wall of", async () => {
+    const { tab } = await open(scene, "#object-1");
+    const dialog = tab.locator("dialog");
+    const advice = dialog.locator("dd", { hasText: "45: the wall of one of its cavities" });
+    await advice.getByRole("button", { name: "Dark object 1" }).click();
+    expect(await dialog.locator("h2").textContent()).toBe("Dark object 1");
+    await tab.close();
+  });
+
+  it("tells from where to where tunnels are open, and how sure that is", async () => {
+    const { tab } = await open(scene, "#object-1");
+    const tunnels = tab.locator("dialog .tunnels");
+    expect(await tunnels.locator("li").allTextContents()).toEqual(["opens at 80, closes at 20", "opens at 40, closes at 30"]);
+    expect(await tunnels.locator(".note").textContent()).toContain("and 1 shorter one. Each is told exactly.");
+    await tab.close();
+  });
+
   it("turns pictures by keyboard and pointer", async () => {
     const { tab } = await open(page([branch({})], [entry({ picture: { image: pixel, frames: 4, side: 1 } })]));
     const picture = tab.locator(".card .turntable");

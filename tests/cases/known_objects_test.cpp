@@ -1,0 +1,78 @@
+// Real volumes: what somebody who knows the thing would name has a line, at about the isovalue at which it was seen (design/essential.md).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "isoatlas/dark_objects.h"
+#include "isoatlas/objects.h"
+
+namespace isoatlas {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Range {
+    const char* name;
+    double low, high;  ///< reported values
+};
+
+struct Known {
+    const char* file;
+    std::vector<Range> trunk;  ///< lines of the largest object, in their order
+    std::vector<Range> dark;   ///< lines of dark objects, the first of them by rank
+};
+
+/// The first line of the largest object from `from` on whose isovalue lies in the range; lines.size(): none.
+std::size_t find_line(const std::vector<ObjectEntry>& lines, std::size_t from, const Range& range, const Calibration& scale) {
+    const auto is_there = [&](const ObjectEntry& line) {
+        const double tau = scale.reported(line.best_tau);
+        return line.trunk && range.low <= tau && tau <= range.high;
+    };
+    return static_cast<std::size_t>(std::find_if(lines.begin() + static_cast<std::ptrdiff_t>(from), lines.end(), is_there) - lines.begin());
+}
+
+TEST(KnownObjects, HaveLines) {
+    const fs::path data = fs::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data";
+    if (!fs::exists(data)) GTEST_SKIP() << "no shared data beside the checkout";
+    const std::vector<Known> all{
+        {"tooth/tooth.nrrd", {{"dentine", 550, 680}, {"enamel", 930, 1050}}, {{"pulp", 250, 650}}},
+        {"engine/engine.nrrd", {{"block", 60, 100}, {"inserts", 155, 190}}, {}},
+        {"headsq/headsq.nrrd", {{"skin", 450, 700}, {"skull", 1150, 1450}}, {}},
+        {"bonsai/bonsai.nrrd", {{"leaves without the table", 19, 30}, {"wood and pot", 45, 75}, {"pot", 170, 210}}, {}},
+        {"pet/pet.nrrd", {{"patient", 200, 1100}, {"bladder", 8000, 12000}}, {}},
+    };
+    for (const Known& known : all) {
+        SCOPED_TRACE(known.file);
+        const Volume volume = load_volume((data / known.file).string());
+        const Analysis analysis = analyse(volume);
+        const ObjectTable table = rank_objects(volume, analysis);
+        std::size_t line = 0;
+        for (const Range& range : known.trunk) {
+            line = find_line(table.entries, line, range, volume.info.calibration);
+            EXPECT_LT(line, table.entries.size()) << range.name;
+        }
+        const DarkTable dark = known.dark.empty() ? DarkTable{} : rank_dark_objects(volume, analysis);
+        for (std::size_t i = 0; i < known.dark.size(); ++i) {
+            ASSERT_LT(i, dark.entries.size()) << known.dark[i].name;
+            EXPECT_GE(dark.entries[i].best_tau, known.dark[i].low) << known.dark[i].name;
+            EXPECT_LE(dark.entries[i].best_tau, known.dark[i].high) << known.dark[i].name;
+        }
+    }
+}
+
+// The skin of the average head is sharpest where its cavities begin to open: only with these filled is that seen.
+TEST(KnownObjects, HaveAnOuterBoundaryOfTheirOwn) {
+    const fs::path file = fs::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data" / "avg152T1" / "avg152T1.nrrd";
+    if (!fs::exists(file)) GTEST_SKIP() << "no shared data beside the checkout";
+    const Volume volume = load_volume(file.string());
+    const ObjectTable table = rank_objects(volume, analyse(volume));
+    const auto outer = std::ranges::find(table.isovalues, IsovalueReason::outer, &RecommendedIsovalue::reason);
+    ASSERT_NE(outer, table.isovalues.end());
+    EXPECT_EQ(outer->branch_top, table.entries[0].branch_top);
+    EXPECT_TRUE(35 < outer->tau && outer->tau < 55) << outer->tau;
+    EXPECT_TRUE(std::ranges::any_of(table.isovalues, [](const RecommendedIsovalue& i) { return i.reason == IsovalueReason::inner; }));
+}
+
+}  // namespace
+}  // namespace isoatlas
