@@ -135,6 +135,7 @@ TEST_F(VerifyStore, AFlippedByteIsToldWithItsArray) {
         }
     };
     for (const StoredArray& array : store.contents().arrays) {
+        if (array.bytes() == 0) continue;  // a table of noise has no lines
         const std::string name = array.block == 0 ? "brick " : array.name;
         const auto place = array.chunk > 0 ? static_cast<std::int64_t>(store.index_of(array)[0]) + 10 : array.offset + array.bytes() / 2;
         EXPECT_NE(told(place).find(name), std::string::npos) << array.name;
