@@ -39,6 +39,11 @@ private:
     [[nodiscard]] bool is_bright() const { return tree_.sign > 0; }
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
+    /// Whatever is selected. By rank.
+    [[nodiscard]] std::vector<std::int64_t> standing_out(const NoiseModel& noise) const {
+        return essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
+    }
+
     /// By rank.
     [[nodiscard]] std::vector<std::int64_t> chosen(const NoiseModel& noise, const RankOptions& options) const {
         std::vector<std::int64_t> kept;
@@ -47,7 +52,7 @@ private:
             const BigVector<double> measure = measured ? branch_measures(tree_, branches_, *volume_.info) : BigVector<double>();
             kept = select_branches(branches_, measure, *options.selection);
         } else if (options.gate) {
-            kept = essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
+            kept = standing_out(noise);
         } else {
             kept.resize(branches_.branch.size());
             std::iota(kept.begin(), kept.end(), std::int64_t{0});
@@ -89,7 +94,7 @@ private:
             std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
             std::size_t rows = 1;
             if (k == 0 && is_bright()) {  // the dark trunk is the outside, which has no rows
-                const std::vector<BranchIsovalue> more = before_merges(branches_, chosen, result.histograms[k], own, noise);
+                const std::vector<BranchIsovalue> more = before_merges(branches_, standing_out(noise), result.histograms[k], own, noise);
                 own.insert(std::ranges::find(own, kOutline, &BranchIsovalue::reason), more.begin(), more.end());
                 rows = arrange_trunk_rows(own, volume_.info->extent.voxels());
             }

@@ -5,11 +5,11 @@
 
 namespace isoatlas {
 
-/// Isovalues just above those at which another chosen branch joins the trunk: the last ones that show it without that. Only where the other
-/// one is at least a twentieth of what they become, where the trunk has grown by a third since the next of its isovalues, and where a
-/// standard deviation of the noise more takes at most a tenth of it away. chosen: branches by rank, the trunk first; histogram, own: of the
-/// trunk. Reason merge. Cost: O(chosen + bins).
-[[nodiscard]] std::vector<BranchIsovalue> before_merges(const Branches& branches, const std::vector<std::int64_t>& chosen,
+/// Isovalues just above those at which another branch that stands out joins the trunk: the last ones that show it without that. Only where
+/// the other one is at least a twentieth of what they become, where the trunk has grown by a third since the next of its isovalues, and
+/// where a standard deviation of the noise more takes at most a tenth of it away. standing_out: these branches, by rank; histogram, own: of
+/// the trunk. Reason merge. Cost: O(standing_out + bins).
+[[nodiscard]] std::vector<BranchIsovalue> before_merges(const Branches& branches, const std::vector<std::int64_t>& standing_out,
                                                         const BranchHistogram& histogram, const std::vector<BranchIsovalue>& own,
                                                         const NoiseModel& noise);
 
