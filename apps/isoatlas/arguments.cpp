@@ -158,7 +158,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
             ->check(in_range(1, 65535))
             ->type_name("N");
         app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
-        app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store beside the volume");
+        app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store");
         add_build(app, arguments, typed);
     } else if (verb == "ask") {
         add_output(app, arguments, "what the question gives", false);

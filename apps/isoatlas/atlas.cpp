@@ -1,4 +1,4 @@
-// isoatlas FILE: from a volume to the page that shows what is in it. Builds the store beside it when there is none.
+// isoatlas FILE: from a volume to the page that shows what is in it. Builds the store beside the page when there is none.
 #include "document.h"
 #include "interrupt.h"
 #include "progress.h"

@@ -10,7 +10,7 @@ namespace isoatlas::cli {
 
 class Terminal;
 
-/// Where the store is: arguments.file, or beside that volume.
+/// Where the store is: arguments.file, or in the current folder.
 [[nodiscard]] std::string store_to_view(const Arguments& arguments);
 
 /// Throws Error{usage} unless it is 3D.

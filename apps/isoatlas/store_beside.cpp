@@ -1,5 +1,6 @@
 #include "store_beside.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "terminal.h"
@@ -10,12 +11,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t kCompared = std::int64_t{1} << 30;  ///< bytes of samples: larger volumes are told by their headers and ages
+
+bool is_newer(const std::string& store, const std::string& file) {
+    std::error_code error;
+    return !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) && !error;
+}
+
+bool is_of(const std::string& store, const Arguments& arguments) {
+    const Atlas atlas(store);
+    const VolumeInfo& info = atlas.info();
+    if (arguments.gaussian) return std::abs(info.gaussian - *arguments.gaussian) <= 1e-6 * info.gaussian;
+    const bool is_changed = info.gaussian > 0 || arguments.missing.action != MissingPolicy::Action::error;
+    if (is_changed || info.extent.voxels() * size_of(info.type) > kCompared) return true;
+    return atlas.is_of(*open_volume(arguments.file, arguments.open));
+}
+
 }  // namespace
 
-bool is_fresh(const std::string& store, const std::string& file) {
-    std::error_code error;
-    return is_atlas(store) && !fs::is_directory(file, error) && fs::last_write_time(store, error) > fs::last_write_time(file, error) &&
-           !error;
+bool is_fresh(const std::string& store, const Arguments& arguments) {
+    return is_atlas(store) && is_newer(store, arguments.file) && is_of(store, arguments);
 }
 
 std::string stem_of(const std::string& file) {
@@ -36,7 +51,7 @@ std::string store_beside(const std::string& page) {
 
 std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store) {
     if (is_atlas(arguments.file)) return arguments.file;
-    if (is_fresh(store, arguments.file) && !arguments.restart) {
+    if (is_fresh(store, arguments) && !arguments.restart) {
         terminal.say("note: " + store + " is there already; --restart builds it anew");
         return store;
     }

@@ -149,6 +149,10 @@ public:
     /// Error{usage}. Cost: reads the bricks with samples on both sides of an edge.
     [[nodiscard]] std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context = {}) const;
 
+    /// Was the store made of this volume: as many samples along each axis, and the same? Those that were filtered or replaced when it was
+    /// made are others. Throws as VolumeReader::read(), cancelled. Cost: reads the volume once, unless its header tells; memory: some
+    /// slices.
+    [[nodiscard]] bool is_of(VolumeReader& volume, const Context& context = {}) const;
     /// Of all queries so far.
     [[nodiscard]] AtlasReads reads() const;
     /// Compares every byte that has a checksum with it, and the samples, which it returns, with those the store was made of. Throws

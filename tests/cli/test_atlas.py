@@ -22,6 +22,16 @@ class Atlas(harness.CliTest):
         self.assert_schema(page, "page")
         return text, page
 
+    def test_two_volumes_of_one_name_do_not_share_a_store(self):
+        for folder, seed in (("first", "1"), ("second", "2")):
+            (self.folder / folder).mkdir()
+            self.run_ok("phantom", "noise", "--size", "9", "--seed", seed, "-o", f"{folder}/scan.nrrd", "--quiet")
+        self.run_ok("first/scan.nrrd")
+        self.assertIn("is there already", self.run_ok("first/scan.nrrd").stderr)
+        self.assertNotIn("is there already", self.run_ok("second/scan.nrrd").stderr)
+        held = self.run_json("objects", "scan.atlas", "--all")["objects"]
+        self.assertEqual(held, self.run_json("objects", "second/scan.nrrd", "--all")["objects"])
+
     def test_a_page_from_a_volume(self):
         told = self.run_ok("demo.nrrd")
         self.assertIn("demo.atlas.html", told.stdout)

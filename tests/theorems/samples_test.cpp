@@ -3,7 +3,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "isoatlas/output.h"
 #include "oracle/stores.h"
 
 namespace oracle {
@@ -56,6 +58,23 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheMeansOfCubes, ()) {
         }
         RC_ASSERT(static_cast<double>(coarse.mean[i]) == static_cast<double>(static_cast<float>(sum / count)));
     }
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, KnowTheirVolume, ()) {
+    const Grid grid = arbitrary_volume();
+    Volume volume = to_volume(grid, arbitrary_type(grid));
+    isoatlas::build_atlas(path_, volume);
+    const isoatlas::Atlas atlas(path_);
+    const std::string file = path_ + ".nrrd";
+    const auto is_known = [&] {
+        isoatlas::write_volume(file, volume);
+        return atlas.is_of(*isoatlas::open_volume(file));
+    };
+    RC_ASSERT(is_known());
+    const auto byte = static_cast<std::size_t>(*rc::gen::inRange<Index>(0, static_cast<Index>(volume.bytes.size())));
+    volume.bytes[byte] ^= std::byte{1};
+    RC_ASSERT(!is_known());
+    std::filesystem::remove(file);
 }
 
 TEST_F(Stores, RefuseBoxesThatStickOut) {

@@ -180,13 +180,18 @@ export class Detail {
     const tunnels = branchOf(this.page, entryOf(this.page, i).branch).tunnels;
     if (!tunnels) return null;
     const rest = tunnels.standingOut - tunnels.longest.length;
+    const others = rest > 0 ? `and ${plural(rest, "shorter one")}. ` : "";
     const pairs = tunnels.exact ? "Each is told exactly." : "Approximate: the tunnel that opened last is taken to close first.";
     return html(
       "section",
       { class: "tunnels" },
       html("h3", {}, "Tunnels that noise does not explain"),
-      html("ul", { class: "merges" }, ...tunnels.longest.map(({ opens, closes }) => html("li", {}, `opens at ${value(opens)}, closes at ${value(closes)}`))),
-      html("p", { class: "note" }, `${rest > 0 ? `and ${plural(rest, "shorter one")}. ` : ""}${pairs} A tunnel may close only after the object has merged.`),
+      html(
+        "ul",
+        { class: "merges" },
+        ...tunnels.longest.map(({ opens, closes }) => html("li", {}, `opens at ${value(opens)}, closes at ${value(closes)}`)),
+      ),
+      html("p", { class: "note" }, `${others}${pairs} A tunnel may close only after the object has merged.`),
     );
   }
 

@@ -85,7 +85,21 @@ export function page(branches: Branch[], entries: Entry[]): Page {
 /** A trunk seen at two isovalues, two branches of which the second has no picture, and a cavity of the trunk. */
 export const scene = page(
   [
-    branch({ id: 7, hypervolume: 9000, joined: 41, isovalues: [{ tau: 45, why: "the wall of one of its cavities is sharpest here", cavity: 3 }], tunnels: { exact: true, standingOut: 3, longest: [{ opens: 80, closes: 20 }, { opens: 40, closes: 30 }] }, shape: { edges: [0, 50, 90], tunnels: { most: [2, 0] }, cavities: { most: [0, 1] } } }),
+    branch({
+      id: 7,
+      hypervolume: 9000,
+      joined: 41,
+      isovalues: [{ tau: 45, why: "the wall of one of its cavities is sharpest here", cavity: 3 }],
+      tunnels: {
+        exact: true,
+        standingOut: 3,
+        longest: [
+          { opens: 80, closes: 20 },
+          { opens: 40, closes: 30 },
+        ],
+      },
+      shape: { edges: [0, 50, 90], tunnels: { most: [2, 0] }, cavities: { most: [0, 1] } },
+    }),
     branch({ id: 8, appears: 95, merges: 30, parent: 0, hypervolume: 5000, voxels: 400, measure: 800 }),
     branch({ id: 9, appears: 85, merges: 60, parent: 1, hypervolume: 4000, voxels: 200, measure: 400, standsOut: false }),
     branch({ side: "dark", id: 5, appears: 10, merges: 70, hypervolume: 800, voxels: 120, measure: 240 }),
