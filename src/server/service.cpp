@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
 constexpr int kAtOnce = 2;                                      ///< answers of size
+constexpr std::int64_t kFirstTriangles = 20'000;                ///< what pages ask for first (web/src/viewer/ask/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
@@ -147,7 +148,21 @@ const Known& Service::known(const Question& question) {
 void Service::prepare(const Context& context) {
     Context own = context_;
     own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
-    (void)known_.get(own, [&atlas = atlas()](const Context& shared) { return know(atlas, shared); });
+    const Known& known = known_.get(own, [&atlas = atlas()](const Context& shared) { return know(atlas, shared); });
+    if (known.entries.empty() || known.entries.front().dark || atlas().info().extent.rank != 3) return;
+    const NamedEntry& first = known.entries.front();
+    ExtractOptions options;
+    options.ids = false;
+    options.objects = {first.id};
+    (void)first_.get(own, [&](const Context& shared) { return wire(extract(first.tau, options, shared), kFirstTriangles, shared); });
+}
+
+bool Service::is_first(double tau, const ExtractOptions& options, std::int64_t most) const {
+    const Known* known = known_.there();
+    if (known == nullptr || known->entries.empty() || known->entries.front().dark || most != kFirstTriangles) return false;
+    const NamedEntry& first = known->entries.front();
+    const bool is_alone = options.objects == std::vector{first.id} && options.contours.empty() && options.shell == ShellChoice::all;
+    return is_alone && tau == first.tau && !options.ids;
 }
 
 Answer Service::events_answer(const Question& question) {
@@ -195,7 +210,7 @@ Answer Service::measures_answer(const Question& question) {
     ExtractOptions options;
     options.objects = objects;
     options.normals = false;
-    const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
+    const Surface surface = extract(stored_tau(atlas, tau), options, context_of(*turn));
     return json_answer(measures_json(surface, atlas.active(surface.tau, false, context_of(*turn)), tau));
 }
 
@@ -251,12 +266,14 @@ Answer Service::surface_answer(const Question& question) {
     words.refuse_others();
 
     const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
-    const Surface surface = extract(stored_tau(atlas, tau), options, *turn);
     const Context context = context_of(*turn);
-    if (format)
+    const double stored = stored_tau(atlas, tau);
+    if (format) {
+        const Surface surface = extract(stored, options, context);
         return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }, context));
-    const Vec3& spacing = atlas.info().geometry.spacing;
-    WireMesh mesh = wire_mesh(surface, {.step = std::ranges::min(spacing) / kStepsOfVoxel, .most_triangles = most}, context);
+    }
+    const auto make = [&](const Context& own) { return wire(extract(stored, options, own), most, own); };
+    WireMesh mesh = is_first(stored, options, most) ? first_.get(context, make) : make(context);
     Answer answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
@@ -302,9 +319,14 @@ Context Service::context_of(Turns::Turn& turn) const {
     return context;
 }
 
-Surface Service::extract(double tau, ExtractOptions options, Turns::Turn& turn) const {
+Surface Service::extract(double tau, ExtractOptions options, const Context& context) const {
     options.most_triangles = std::min(memory_ / kTriangleBytes, kMostTriangles);
-    return atlas().extract(tau, options, context_of(turn));
+    return atlas().extract(tau, options, context);
+}
+
+WireMesh Service::wire(const Surface& surface, std::int64_t most, const Context& context) const {
+    const double spacing = std::ranges::min(atlas().info().geometry.spacing);
+    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .most_triangles = most}, context);
 }
 
 }  // namespace isoatlas::server

@@ -31,6 +31,7 @@
 #include "server/opening.h"
 #include "server/question.h"
 #include "server/shared.h"
+#include "server/wire_mesh.h"
 #include "server/words.h"
 
 namespace isoatlas::server {
@@ -42,7 +43,8 @@ public:
 
     /// The store that answers come from, or where it stands; nothing is answered before.
     [[nodiscard]] Opening& opening() { return opening_; }
-    /// Finds what every page asks first, on this thread. Throws Error: as Opening::atlas(), input (damaged store), cancelled.
+    /// Finds what every page asks first, and the surface that it shows first, on this thread. Throws Error: as Opening::atlas(), input
+    /// (damaged store), cancelled.
     void prepare(const Context& context);
     /// Never throws but for want of memory. From many threads.
     [[nodiscard]] Answer answer(const Question& question);
@@ -75,7 +77,10 @@ private:
     /// Of a long call for who holds the turn.
     [[nodiscard]] Context context_of(Turns::Turn& turn) const;
     /// Refuses what would take more memory than one answer may.
-    [[nodiscard]] Surface extract(double tau, ExtractOptions options, Turns::Turn& turn) const;
+    [[nodiscard]] Surface extract(double tau, ExtractOptions options, const Context& context) const;
+    [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t most, const Context& context) const;
+    /// Is it the surface that every page shows first?
+    [[nodiscard]] bool is_first(double tau, const ExtractOptions& options, std::int64_t most) const;
 
     const std::string token_;
     Context context_;
@@ -86,6 +91,7 @@ private:
     EventStreams events_;
     Cards cards_;
     Shared<Known> known_;
+    Shared<WireMesh> first_;  ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;
 };
 

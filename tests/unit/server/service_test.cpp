@@ -348,8 +348,8 @@ TEST_F(ServiceTest, WhatAllAskForIsFoundOnce) {
         answers[static_cast<std::size_t>(asker)] = service_->answer({"/api/atlas", {}, "secret", ""}).bytes;
     });
     for (const std::string& answer : answers) EXPECT_TRUE(answer == answers[0]);
-    const std::int64_t extents = atlas_->reads().extents;
     service_->prepare({});
+    const std::int64_t extents = atlas_->reads().extents;
     EXPECT_TRUE(ask("/api/atlas").bytes == answers[0]);
     EXPECT_EQ(ask("/api/transfer").status, 200);
     EXPECT_EQ(atlas_->reads().extents, extents);
@@ -366,6 +366,27 @@ TEST_F(ServiceTest, WhatIsPreparedIsThere) {
     stopped.cancelled = [] { return true; };
     EXPECT_THROW(other.prepare(stopped), Error);
     EXPECT_NO_THROW(other.prepare({}));
+}
+
+TEST_F(ServiceTest, TheFirstSurfaceIsPrepared) {
+    const auto first = nlohmann::json::parse(ask("/api/atlas").bytes)["entries"][0];
+    const auto surface = [&](Service& service, const char* most) {
+        return service
+            .answer({"/api/surface", {{"object", first["id"].dump()}, {"tau", first["tau"].dump()}, {"most", most}}, "secret", ""})
+            .bytes;
+    };
+    Service prepared("secret", {});
+    prepared.opening().open(*atlas_);
+    prepared.prepare({});
+    atlas_->clear_cache();
+    const std::int64_t bricks = atlas_->reads().bricks;
+    const std::string there = surface(prepared, "20000");
+    EXPECT_EQ(atlas_->reads().bricks, bricks);
+    const std::string other = surface(prepared, "200");
+    EXPECT_GT(atlas_->reads().bricks, bricks);
+    EXPECT_TRUE(there == surface(*service_, "20000"));
+    EXPECT_TRUE(other == surface(*service_, "200"));
+    EXPECT_FALSE(there == other);
 }
 
 TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
