@@ -1,6 +1,4 @@
 // Any question gets an answer: what was asked for, or a refusal that says why.
-#include "server/service.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,28 +11,10 @@
 #include "isoatlas/build.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
-#include "oracle/stores.h"
+#include "unit/server/service_fixture.h"
 
 namespace isoatlas::server {
 namespace {
-
-class ServiceTest : public oracle::Stores {
-protected:
-    void SetUp() override {
-        build_atlas(path_, make_phantom("torus-chain", {.size = 24}));
-        atlas_.emplace(path_);
-        service_.emplace("secret", Context{});
-        service_->opening().open(*atlas_);
-    }
-
-    Answer ask(const std::string& path, std::multimap<std::string, std::string> words = {}, const std::string& token = "secret") {
-        return service_->answer({path, std::move(words), token, "test", left_});
-    }
-
-    std::optional<Atlas> atlas_;
-    std::optional<Service> service_;
-    Left left_;
-};
 
 TEST_F(ServiceTest, NothingWithoutTheToken) {
     for (const char* token : {"", "Secret", "secre", "secret "}) {
@@ -340,53 +320,6 @@ TEST_F(ServiceTest, AnyAnswerIsGivenUpWhenWhoAskedHasLeft) {
         left_ = {};
         EXPECT_EQ(ask(path, words).status, 200) << path;
     }
-}
-
-TEST_F(ServiceTest, WhatAllAskForIsFoundOnce) {
-    std::array<std::string, 4> answers;
-    oracle::ask_at_once([&](int asker, const Context&) {
-        answers[static_cast<std::size_t>(asker)] = service_->answer({"/api/atlas", {}, "secret", ""}).bytes;
-    });
-    for (const std::string& answer : answers) EXPECT_TRUE(answer == answers[0]);
-    service_->prepare({});
-    const std::int64_t extents = atlas_->reads().extents;
-    EXPECT_TRUE(ask("/api/atlas").bytes == answers[0]);
-    EXPECT_EQ(ask("/api/transfer").status, 200);
-    EXPECT_EQ(atlas_->reads().extents, extents);
-}
-
-TEST_F(ServiceTest, WhatIsPreparedIsThere) {
-    service_->prepare({});
-    left_ = [] { return true; };
-    EXPECT_EQ(ask("/api/atlas").status, 200);  // nothing to wait for
-    Service other("secret", {});
-    EXPECT_THROW(other.prepare({}), Error);
-    other.opening().open(*atlas_);
-    Context stopped;
-    stopped.cancelled = [] { return true; };
-    EXPECT_THROW(other.prepare(stopped), Error);
-    EXPECT_NO_THROW(other.prepare({}));
-}
-
-TEST_F(ServiceTest, TheFirstSurfaceIsPrepared) {
-    const auto first = nlohmann::json::parse(ask("/api/atlas").bytes)["entries"][0];
-    const auto surface = [&](Service& service, const char* most) {
-        return service
-            .answer({"/api/surface", {{"object", first["id"].dump()}, {"tau", first["tau"].dump()}, {"most", most}}, "secret", ""})
-            .bytes;
-    };
-    Service prepared("secret", {});
-    prepared.opening().open(*atlas_);
-    prepared.prepare({});
-    atlas_->clear_cache();
-    const std::int64_t bricks = atlas_->reads().bricks;
-    const std::string there = surface(prepared, "20000");
-    EXPECT_EQ(atlas_->reads().bricks, bricks);
-    const std::string other = surface(prepared, "200");
-    EXPECT_GT(atlas_->reads().bricks, bricks);
-    EXPECT_TRUE(there == surface(*service_, "20000"));
-    EXPECT_TRUE(other == surface(*service_, "200"));
-    EXPECT_FALSE(there == other);
 }
 
 TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
