@@ -27,6 +27,11 @@ constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an an
 constexpr std::size_t kMostObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
 
+/// What every page shows first; null: nothing, or a dark object.
+const NamedEntry* first_of(const Known& known) {
+    return known.entries.empty() || known.entries.front().dark ? nullptr : &known.entries.front();
+}
+
 /// The same for every pair of texts of one length: how long it takes says nothing about the token.
 bool is_token(const std::string& given, const std::string& token) {
     if (given.size() != token.size()) return false;
@@ -140,29 +145,32 @@ std::unique_ptr<Turns::Turn> Service::turn_in(Line line, const Question& questio
 
 const Known& Service::known(const Question& question) {
     if (const Known* there = known_.there()) return *there;
-    const Atlas& atlas = this->atlas();
+    (void)atlas();  // refuses before there is one
     const std::unique_ptr<Turns::Turn> turn = turn_in(Line::atlas, question);
-    return known_.get(context_of(*turn), [&atlas](const Context& context) { return know(atlas, context); });
+    return known(context_of(*turn));
+}
+
+const Known& Service::known(const Context& context) {
+    return known_.get(context, [&atlas = atlas()](const Context& shared) { return know(atlas, shared); });
 }
 
 void Service::prepare(const Context& context) {
     Context own = context_;
     own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
-    const Known& known = known_.get(own, [&atlas = atlas()](const Context& shared) { return know(atlas, shared); });
-    if (known.entries.empty() || known.entries.front().dark || atlas().info().extent.rank != 3) return;
-    const NamedEntry& first = known.entries.front();
+    const NamedEntry* first = first_of(known(own));
+    if (first == nullptr || atlas().info().extent.rank != 3) return;
     ExtractOptions options;
     options.ids = false;
-    options.objects = {first.id};
-    (void)first_.get(own, [&](const Context& shared) { return wire(extract(first.tau, options, shared), kFirstTriangles, shared); });
+    options.objects = {first->id};
+    (void)first_.get(own, [&](const Context& shared) { return wire(extract(first->tau, options, shared), kFirstTriangles, shared); });
 }
 
 bool Service::is_first(double tau, const ExtractOptions& options, std::int64_t most) const {
     const Known* known = known_.there();
-    if (known == nullptr || known->entries.empty() || known->entries.front().dark || most != kFirstTriangles) return false;
-    const NamedEntry& first = known->entries.front();
-    const bool is_alone = options.objects == std::vector{first.id} && options.contours.empty() && options.shell == ShellChoice::all;
-    return is_alone && tau == first.tau && !options.ids;
+    const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
+    if (first == nullptr || most != kFirstTriangles) return false;
+    const bool is_alone = options.objects == std::vector{first->id} && options.contours.empty() && options.shell == ShellChoice::all;
+    return is_alone && tau == first->tau && !options.ids;
 }
 
 Answer Service::events_answer(const Question& question) {

@@ -64,6 +64,7 @@ private:
     [[nodiscard]] Answer label_answer(const Question& question);
     /// Waits until it is found, in no line: all wait for the same.
     [[nodiscard]] const Known& known(const Question& question);
+    [[nodiscard]] const Known& known(const Context& context);
     [[nodiscard]] CardSubject card_subject(Words& words, const Known& known) const;
     /// Waits for its turn.
     [[nodiscard]] std::unique_ptr<Turns::Turn> turn_in(Line line, const Question& question);
