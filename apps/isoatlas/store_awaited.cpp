@@ -74,7 +74,7 @@ void check_is_volume(const Arguments& arguments, const VolumeInfo& info) {
 
 bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string& store) {
     if (is_atlas(arguments.file)) return true;
-    if (is_fresh(store, arguments) && !arguments.restart) {
+    if (!arguments.restart && is_fresh(store, arguments)) {
         terminal.say("note: " + store + " is there already" + (arguments.read_only ? "" : "; --restart builds it anew"));
         return true;
     }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "terminal.h"
 #include "verbs.h"
@@ -24,7 +25,9 @@ bool is_of(const std::string& store, const Arguments& arguments) {
     if (arguments.gaussian) return std::abs(info.gaussian - *arguments.gaussian) <= 1e-6 * info.gaussian;
     const bool is_changed = info.gaussian > 0 || arguments.missing.action != MissingPolicy::Action::error;
     if (is_changed || info.extent.voxels() * size_of(info.type) > kCompared) return true;
-    return atlas.is_of(*open_volume(arguments.file, arguments.open));
+    const std::unique_ptr<VolumeReader> volume = open_volume(arguments.file, arguments.open);
+    const bool is_calibrated = volume->info().calibration.slope < 0;  // such samples are stored as they are reported
+    return is_calibrated || atlas.is_of(*volume);
 }
 
 }  // namespace
@@ -51,7 +54,7 @@ std::string store_beside(const std::string& page) {
 
 std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store) {
     if (is_atlas(arguments.file)) return arguments.file;
-    if (is_fresh(store, arguments) && !arguments.restart) {
+    if (!arguments.restart && is_fresh(store, arguments)) {
         terminal.say("note: " + store + " is there already; --restart builds it anew");
         return store;
     }

@@ -1,14 +1,13 @@
 // Samples of a store for those who look at them: boxes, the whole in fewer values, and whether they are those of a file.
 #include "atlas/access.h"
 #include "base/cancel.h"
+#include "io/read_slabs.h"
 #include "isoatlas/atlas.h"
 #include "query/brick_samples.h"
 #include "store/checksum.h"
 
 namespace isoatlas {
 namespace {
-
-constexpr std::int64_t kReadAtOnce = std::int64_t{1} << 24;  ///< bytes of a volume
 
 void check_box(const SampleBox& box, std::int64_t step, const VolumeInfo& info) {
     const auto refuse = [&](const std::string& where, const std::string& what, const std::string& expected) {
@@ -96,17 +95,8 @@ CoarseVolume Atlas::coarse(std::int64_t most, const Context& context) const {
 bool Atlas::is_of(VolumeReader& volume, const Context& context) const {
     const VolumeInfo &own = info(), &other = volume.info();
     if (own.extent != other.extent || own.type != other.type) return false;
-    const std::int64_t slices = other.extent.rank == 3 ? other.extent.size[2] : 1, bytes = other.extent.slice() * size_of(other.type);
-    const std::int64_t at_once = std::clamp<std::int64_t>(kReadAtOnce / bytes, 1, slices);
-    std::vector<std::byte> slab(static_cast<std::size_t>(at_once * bytes));
     store::Checksum sum;
-    for (std::int64_t z = 0; z < slices; z += at_once) {
-        stop_if_cancelled(context);
-        const std::int64_t end = std::min(slices, z + at_once);
-        const std::span<std::byte> part = std::span(slab).first(static_cast<std::size_t>((end - z) * bytes));
-        volume.read(z, end, part);
-        sum.add(part);
-    }
+    io::for_each_slab(volume, context, {}, [&sum](std::int64_t, std::span<std::byte> samples) { sum.add(samples); });
     return sum.sum() == AtlasAccess::store(*this).contents().parameters.samples_checksum;
 }
 

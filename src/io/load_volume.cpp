@@ -5,19 +5,12 @@
 
 #include "io/load_samples.h"
 #include "io/missing.h"
+#include "io/read_slabs.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
 namespace io {
 namespace {
-
-constexpr std::int64_t kSlabBytes = 16 * 1024 * 1024;  // enough for full disk speed, little enough to cancel at once
-
-std::int64_t slab_slices(const VolumeInfo& info, const Context& context) {
-    if (context.slab_slices > 0) return std::min(context.slab_slices, info.extent.size[2]);
-    const std::int64_t slice_bytes = info.extent.slice() * static_cast<std::int64_t>(size_of(info.type));
-    return std::clamp<std::int64_t>(kSlabBytes / slice_bytes, 1, info.extent.size[2]);
-}
 
 [[noreturn]] void not_enough_memory(const VolumeInfo& info, std::size_t bytes) {
     throw Error(ErrorKind::resource, {.file = info.path,
@@ -33,26 +26,6 @@ std::span<std::byte> room_for(std::size_t count, const Allocate& allocate, const
     } catch (const std::length_error&) {
         not_enough_memory(info, count);
     }
-}
-
-/// Calls use(z_begin, z_end, samples) for slab after slab; the samples lie in `whole` when it is given, else in one slab of memory.
-template <class Use>
-void for_each_slab(VolumeReader& reader, const Context& context, std::span<std::byte> whole, const Use& use) {
-    const VolumeInfo& info = reader.info();
-    const std::int64_t slices = info.extent.size[2], step = slab_slices(info, context);
-    const std::size_t slice_bytes = static_cast<std::size_t>(info.extent.slice()) * size_of(info.type);
-    std::vector<std::byte> slab(whole.empty() ? static_cast<std::size_t>(step) * slice_bytes : 0);
-    for (std::int64_t z = 0; z < slices; z += step) {
-        if (context.cancelled && context.cancelled())
-            throw Error(ErrorKind::cancelled, {.file = info.path, .what = "reading was cancelled"});
-        context.report("read", 0, 1, static_cast<double>(z) / static_cast<double>(slices));
-        const std::int64_t end = std::min(slices, z + step);
-        std::byte* begin = whole.empty() ? slab.data() : whole.data() + static_cast<std::size_t>(z) * slice_bytes;
-        const std::span<std::byte> samples(begin, static_cast<std::size_t>(end - z) * slice_bytes);
-        reader.read(z, end, samples);
-        use(z, samples);
-    }
-    context.report("read", 0, 1, 1);
 }
 
 /// Reads with the samples as they are. Missing ones are only looked at here; they are replaced when all are known.
