@@ -16,7 +16,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-constexpr std::size_t kSmall = 8 * kHugePage;  // below: the ordinary heap
+constexpr std::size_t kSmall = kHugePage;  // below: the ordinary heap
 
 std::size_t rounded(std::size_t bytes) { return (bytes + kHugePage - 1) / kHugePage * kHugePage; }
 
@@ -33,6 +33,11 @@ char* map_memory(std::size_t size) {
     return begin + head;
 }
 
+/// Fresh memory at a place that may have been given away.
+void replace_memory(char* at, std::size_t size) {
+    if (mmap(at, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED) throw std::bad_alloc();
+}
+
 /// Memory in use and memory kept for reuse. Their sum never exceeds the most that was ever in use at once: keeping costs nothing.
 class Pool {
 public:
@@ -41,9 +46,10 @@ public:
         char* memory = reuse(size);
         if (memory == nullptr) {
             most_used_ = std::max(most_used_, used_ + size);
-            while (!free_.empty() && used_ + size + kept_ > most_used_) drop_one();
             memory = map_memory(size);
             if (memory == nullptr) throw std::bad_alloc();
+            move_pages(memory, size);
+            while (!free_.empty() && used_ + size + kept_ > most_used_) drop_one();
         }
         used_ += size;
         most_used_ = std::max(most_used_, used_);
@@ -90,6 +96,21 @@ private:
         if (rest > 0) free_.emplace(memory + size, rest);
         kept_ -= size;
         return memory;
+    }
+
+    /// Pages of free pieces, none of which is large enough, to where they are wanted: a page that was in use need not be cleared again.
+    void move_pages(char* to, std::size_t size) {
+        while (size > 0 && !free_.empty()) {
+            const auto piece = std::prev(free_.end());
+            const std::size_t moved = std::min(size, piece->second);
+            char* const from = piece->first + (piece->second - moved);
+            if (mremap(from, moved, moved, MREMAP_MAYMOVE | MREMAP_FIXED, to) == MAP_FAILED) {  // it lies in two mappings, say
+                replace_memory(to, moved);
+                return;
+            }
+            piece->second -= moved, kept_ -= moved, to += moved, size -= moved;
+            if (piece->second == 0) free_.erase(piece);
+        }
     }
 
     void drop_one() {

@@ -7,6 +7,7 @@
 #include "base/sample_types.h"
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
+#include "mesh/wide_cells.h"
 
 namespace isoatlas {
 namespace {
@@ -55,31 +56,18 @@ void write_fan_point(const CellLoops& loops, int loop, const std::int64_t* point
 
 }  // namespace
 
-std::array<PlainCell, 256> plain_cells(SurfaceStyle style, bool tunnels, bool flip) {
-    std::array<PlainCell, 256> plain{};
-    for (int pattern = 1; pattern < 255; ++pattern) {
-        const CellTriangles& cell = cell_triangles(style)[cell_cases().first_case[pattern]];
-        if (cell_cases().split_faces[pattern] != 0 || cell.fans != 0 || (tunnels && may_hold_tunnel(pattern, 0))) continue;
-        PlainCell& entry = plain[static_cast<std::size_t>(pattern)];
-        ISOATLAS_CHECK(3U * cell.triangles <= entry.corner.size());
-        entry.triangles = cell.triangles;
-        std::copy_n(cell.corner.begin(), 3 * cell.triangles, entry.corner.begin());
-        for (std::size_t i = 0; flip && i < entry.triangles; ++i) std::swap(entry.corner[3 * i + 1], entry.corner[3 * i + 2]);
-    }
-    return plain;
+namespace {
+
+/// The first hits of the rows around a row of cells.
+HitCounters first_hits(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t z) {
+    const RowPlace& r00 = layout[domain.row_number(y, z)];
+    const RowPlace& r10 = layout[domain.row_number(y + 1, z)];
+    const RowPlace& r01 = layout[domain.row_number(y, z + 1)];
+    const RowPlace& r11 = layout[domain.row_number(y + 1, z + 1)];
+    return {r00.point, r10.point, r01.point, r11.point, r00.first_y(), r01.first_y(), r00.first_z(), r10.first_z()};
 }
 
-const std::array<std::array<std::int64_t, 8>, 256>& HitCursor::hits_of_patterns() {
-    static const auto kHits = [] {
-        constexpr std::array<int, 8> kEdges{0, 1, 2, 3, 4, 6, 8, 10};
-        std::array<std::array<std::int64_t, 8>, 256> hits{};
-        for (std::size_t pattern = 0; pattern < hits.size(); ++pattern) {
-            for (std::size_t i = 0; i < kEdges.size(); ++i) hits[pattern][i] = cell_cases().hit_edges[pattern] >> kEdges[i] & 1;
-        }
-        return hits;
-    }();
-    return kHits;
-}
+}  // namespace
 
 template <class T>
 bool CellWriter<T>::has_tunnels(std::int64_t y, std::int64_t z) const {
@@ -101,11 +89,7 @@ auto CellWriter<T>::state_of(std::int64_t p, std::int64_t y, std::int64_t z, int
 template <class T>
 void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) const {
     const bool tunnels = has_tunnels(y, z);
-    for_active_cells(cell_row(domain_.high, y, z), domain_.cells, [&](std::int64_t p, int pattern) {
-        if (const int triangles = plain_[static_cast<std::size_t>(pattern)].triangles; triangles != 0) {
-            place.triangle += triangles;
-            return;
-        }
+    const auto count_rest = [&](std::int64_t p, int pattern) {
         const State state = state_of(p, y, z, pattern, tunnels);
         if (state.tunnel) {
             const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
@@ -115,7 +99,8 @@ void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) c
             place.triangle += triangles_[state.number].triangles;
             place.fans += triangles_[state.number].fans;
         }
-    });
+    };
+    place.triangle += count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, count_rest);
 }
 
 // The slope of the interpolant itself: inside a tunnel it has little to do with differences between voxels.
@@ -160,18 +145,17 @@ void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layo
     const std::int64_t row = domain_.row_number(y, z);
     const RowPlace& place = layout[row];
     if (layout[row + 1].triangle == place.triangle) return;
-    HitCursor cursor(domain_, layout, y, z);
-    std::array<std::int64_t, 3>* triangle = surface.triangles.data() + place.triangle;
     std::int64_t fan_point = place.first_fan();
     const bool tunnels = has_tunnels(y, z);
-    for_active_cells(cell_row(domain_.high, y, z), domain_.cells, [&](std::int64_t p, int pattern) {
-        std::int64_t point[20];
-        cursor.points_of(pattern, point);
-        const PlainCell& plain = plain_[static_cast<std::size_t>(pattern)];
-        const std::uint8_t* vertex = plain.corner.data();
-        for (int i = 0; i < plain.triangles; ++i, vertex += 3) *triangle++ = {point[vertex[0]], point[vertex[1]], point[vertex[2]]};
-        if (plain.triangles == 0) write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point, fan_point, triangle, surface);
-    });
+    const auto write_rest = [&](std::int64_t p, int pattern, const HitCounters& before, const HitCounters& after,
+                                std::array<std::int64_t, 3>*& triangle) {
+        std::array<std::int64_t, 20> point;
+        std::ranges::copy(points_of(before, after), point.begin());
+        write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point.data(), fan_point, triangle, surface);
+    };
+    std::array<std::int64_t, 3>* const triangles = surface.triangles.data();
+    write_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, first_hits(domain_, layout, y, z), triangles + place.triangle,
+                      triangles + layout[row + 1].triangle, write_rest);
 }
 
 template <class T>

@@ -5,17 +5,10 @@
 #include "mesh/cell_triangles.h"
 #include "mesh/layout.h"
 #include "mesh/physical_map.h"
+#include "mesh/plain_cells.h"
 #include "mesh/tunnel_cell.h"
 
 namespace isoatlas {
-
-/// A cell whose triangles follow from which of its corners are High: no face is split, and it has no points of its own.
-struct PlainCell {
-    std::uint8_t triangles = 0;             ///< 0: it is none
-    std::array<std::uint8_t, 15> corner{};  ///< as in CellTriangles
-};
-/// One entry per pattern. tunnels: may cells have any?
-[[nodiscard]] std::array<PlainCell, 256> plain_cells(SurfaceStyle style, bool tunnels, bool flip);
 
 template <class T>
 class CellWriter {
@@ -32,7 +25,7 @@ public:
           style_(options.style),
           triangles_(cell_triangles(options.style)),
           flip_(flip),
-          plain_(plain_cells(options.style, tunnels_.finds_any(), flip)) {}
+          plain_(options.style, tunnels_.finds_any(), flip) {}
 
     /// Adds the triangles and articulation points of cell row (y, z) to the counts of its place.
     void count_row(std::int64_t y, std::int64_t z, RowPlace& place) const;
@@ -67,37 +60,7 @@ private:
     SurfaceStyle style_;
     const std::vector<CellTriangles>& triangles_;
     bool flip_;
-    std::array<PlainCell, 256> plain_;
-};
-
-/// The point of every hit edge of a cell, while walking along a row of cells.
-class HitCursor {
-public:
-    HitCursor(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t z) {
-        const RowPlace& r00 = layout[domain.row_number(y, z)];
-        const RowPlace& r10 = layout[domain.row_number(y + 1, z)];
-        const RowPlace& r01 = layout[domain.row_number(y, z + 1)];
-        const RowPlace& r11 = layout[domain.row_number(y + 1, z + 1)];
-        next_ = {r00.point, r10.point, r01.point, r11.point, r00.first_y(), r01.first_y(), r00.first_z(), r10.first_z()};
-    }
-    /// Writes the points of edges 0..11; entries of edges that are not hit mean nothing.
-    void points_of(int pattern, std::int64_t* point) {
-        const std::array<std::int64_t, 8>& hits = hits_of_patterns()[static_cast<std::size_t>(pattern)];
-        std::array<std::int64_t, 8> after;
-        for (std::size_t i = 0; i < 8; ++i) after[i] = next_[i] + hits[i];
-        for (std::size_t i = 0; i < 4; ++i) point[i] = next_[i];  // along x: one row each
-        for (std::size_t i = 4; i < 8; ++i) {  // along y and z: a near and a far edge in one row; the far one is the next cell's near one
-            point[2 * i - 4] = next_[i];
-            point[2 * i - 3] = after[i];
-        }
-        next_ = after;
-    }
-
-private:
-    /// Per pattern: which of the edges 0, 1, 2, 3, 4, 6, 8, 10 are hit?
-    static const std::array<std::array<std::int64_t, 8>, 256>& hits_of_patterns();
-
-    std::array<std::int64_t, 8> next_;
+    PlainCells plain_;
 };
 
 }  // namespace isoatlas

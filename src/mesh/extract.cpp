@@ -115,10 +115,12 @@ private:
 
     void write_hits(Surface& surface) {
         const HitWriter<T> hits(grid_, tau_, map_, domain_, surface);
-        for_rows({"points", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
+        const Phase phase{"points", 2, kPhases};
+        for_each_slab_of(1, context_, phase, hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_); });
+        for_rows(phase, [&](std::int64_t y, std::int64_t z) {
             const RowPlace& place = layout_[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) return;
-            hits.write_row(y, z, place);
+            if (y < 0 || z < 0) hits.write_outside(y, z, place);
             if (components_ != nullptr) write_contours(*components_, domain_, y, z, place, surface);
         });
     }

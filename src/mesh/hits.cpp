@@ -1,19 +1,19 @@
 #include "mesh/hits.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "base/prefetch.h"
 #include "base/sample_types.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kSlicesAhead = 3;  // whose samples are asked for while a row is written: one more than its normals look at
+std::int64_t strips_of(const Extent& extent) { return (extent.size[1] + kBundleSize[1] - 1) / kBundleSize[1]; }
 
 template <class Visit>
-void for_bits(std::int64_t w, std::uint64_t bits, Visit&& visit) {
-    for (; bits != 0; bits &= bits - 1) visit(64 * w + std::countr_zero(bits));
+void for_bits(std::uint64_t bits, Visit&& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
 }  // namespace
@@ -23,67 +23,151 @@ HitWriter<T>::HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap
     : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface) {}
 
 template <class T>
-typename HitWriter<T>::Stencil HitWriter<T>::stencil(std::int64_t y, std::int64_t z) const {
-    const std::array<std::int64_t, 3>& size = grid_.extent.size;
-    if (y < 0 || z < 0 || y >= size[1] || z >= size[2]) return {};
-    const auto row = [this](std::int64_t row_y, std::int64_t row_z) { return grid_.samples + grid_.layout.at(0, row_y, row_z); };
-    return {row(y, z),
-            row(y - (y > 0), z),
-            row(y + (y + 1 < size[1]), z),
-            row(y, z - (z > 0)),
-            row(y, z + (z + 1 < size[2])),
-            static_cast<Real>(map_.inverse_distance(1)[y + grid_.origin[1]]),
-            static_cast<Real>(map_.inverse_distance(2)[z + grid_.origin[2]])};
+std::int64_t HitWriter<T>::bundles() const {
+    return strips_of(grid_.extent) * ((grid_.extent.size[2] + kBundleSize[2] - 1) / kBundleSize[2]);
 }
 
 template <class T>
-inline std::array<typename HitWriter<T>::Real, 3> HitWriter<T>::slope(const Stencil& around, std::int64_t x) const {
-    const AxisLayout& along = grid_.layout.axis[0];
-    const std::int64_t low = along(x - (x > 0)), here = along(x), high = along(x + (x + 1 < grid_.extent.size[0]));
-    return {(static_cast<Real>(around.row[high]) - static_cast<Real>(around.row[low])) *
-                static_cast<Real>(map_.inverse_distance(0)[x + grid_.origin[0]]),
-            (static_cast<Real>(around.y_high[here]) - static_cast<Real>(around.y_low[here])) * around.y_scale,
-            (static_cast<Real>(around.z_high[here]) - static_cast<Real>(around.z_low[here])) * around.z_scale};
-}
-
-template <class T>
-inline void HitWriter<T>::add_inner(const Stencil& from, std::int64_t x, const Stencil& to, std::int64_t other_x, int axis,
-                                    const Vec3& voxel, std::int64_t point, HitBatch<Real>& batch) const {
-    const AxisLayout& along = grid_.layout.axis[0];
-    const std::size_t i = batch.count++;
-    batch.a[i] = static_cast<double>(from.row[along(x)]);
-    batch.b[i] = static_cast<double>(to.row[along(other_x)]);
-    for (std::size_t k = 0; k < 3; ++k) batch.voxel[k][i] = voxel[k];
-    batch.axis[i] = static_cast<std::int8_t>(axis);
-    batch.point[i] = point;
-    if (!surface_.normals.empty()) {
-        const std::array<Real, 3> s = slope(from, x), e = slope(to, other_x);
-        for (std::size_t k = 0; k < 3; ++k) batch.slope[k][i] = s[k], batch.change[k][i] = e[k] - s[k];
+void HitWriter<T>::write(std::int64_t bundle, const Layout& layout) const {
+    const std::int64_t strips = strips_of(grid_.extent), first_y = bundle % strips * kBundleSize[1], first_z = bundle / strips * kBundleSize[2];
+    const std::int64_t end_y = std::min(first_y + kBundleSize[1], grid_.extent.size[1]),
+                       end_z = std::min(first_z + kBundleSize[2], grid_.extent.size[2]);
+    std::optional<Work> work;
+    std::vector<Row> rows;
+    for (std::int64_t z = first_z; z < end_z; ++z) {
+        rows.clear();
+        for (std::int64_t y = first_y; y < end_y; ++y) {
+            const RowPlace& place = layout[domain_.row_number(y, z)];
+            if (place.x_hits + place.y_hits + place.z_hits == 0) continue;
+            rows.push_back({RowHits(domain_, y, z), {place.point, place.first_y(), place.first_z()}, static_cast<std::int32_t>(y - first_y),
+                            static_cast<std::int32_t>(z - first_z)});
+        }
+        if (rows.empty()) continue;
+        if (!work) {
+            work.emplace(Work{BundleSamples<T, Real>(grid_, map_), position(0, first_y, first_z), {}});
+            work->samples.move_to(first_y, first_z);
+        }
+        write_slice(rows, *work);
     }
-    if (batch.count == kLanes) write(batch);
+    if (work) flush(*work);
 }
 
 template <class T>
-void HitWriter<T>::write(HitBatch<Real>& batch) const {
-    const std::size_t count = std::exchange(batch.count, 0);
-    std::array<double, kLanes> t;
-    for (std::size_t i = 0; i < count; ++i) t[i] = hit_fraction(batch.a[i], batch.b[i], tau_);
-    for (std::size_t i = 0; i < count; ++i) batch.voxel[static_cast<std::size_t>(batch.axis[i])][i] += t[i];
-    map_.to_points(count, batch.voxel);
-    for (std::size_t i = 0; i < count; ++i) surface_.points[batch.point[i]] = {batch.voxel[0][i], batch.voxel[1][i], batch.voxel[2][i]};
-    if (surface_.normals.empty()) return;
+void HitWriter<T>::write_slice(std::vector<Row>& rows, Work& work) const {
+    for (std::int64_t i = 0; i < rows.front().hits.busy.size; ++i) {
+        std::uint64_t busy = 0;
+        for (const Row& row : rows) busy |= row.hits.busy.bits[i];
+        for_bits(busy, [&](int bit) {
+            for (Row& row : rows) write_word(64 * i + bit, row, work);
+        });
+    }
+}
+
+template <class T>
+void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
+    const std::array<std::uint64_t, 3> bits{row.hits.x(w), row.hits.y(w), row.hits.z(w)};
+    if ((bits[0] | bits[1] | bits[2]) == 0) return;
+    const std::int64_t y = static_cast<std::int64_t>(work.first[1]) - grid_.origin[1] + row.y,
+                       z = static_cast<std::int64_t>(work.first[2]) - grid_.origin[2] + row.z;
+    work.samples.prefetch_slice(64 * w - 1, bits[0] | bits[1] | bits[2], row.y, row.z);
+    std::uint64_t inner_x = bits[0];
+    if (w == 0 && (inner_x & 1) != 0) {  // between the padding and the first voxel
+        write_border(position(0, y, z), 0, -1, row.next[0]++);
+        inner_x &= ~std::uint64_t{1};
+    }
+    const std::int64_t last = grid_.extent.size[0];  // position of the last voxel
+    const std::uint64_t end_x = w == last / 64 ? inner_x & std::uint64_t{1} << last % 64 : 0;
+    add(w, inner_x ^ end_x, 0, row, work);
+    write_ends(w, end_x, 0, row, work);
+    if (y + 1 < grid_.extent.size[1])
+        add(w, bits[1], 1, row, work);
+    else
+        write_ends(w, bits[1], 1, row, work);
+    if (z + 1 < grid_.extent.size[2])
+        add(w, bits[2], 2, row, work);
+    else
+        write_ends(w, bits[2], 2, row, work);
+}
+
+template <class T>
+std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
+    std::uint64_t ends = w == 0 ? 2 : 0;
+    const std::int64_t last = grid_.extent.size[0];
+    for (const std::int64_t p : {last - 1, last}) ends |= p / 64 == w ? std::uint64_t{1} << p % 64 : 0;
+    return ends;
+}
+
+template <class T>
+void HitWriter<T>::add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const {
+    if (bits == 0) return;
+    HitBatch<Real>& batch = work.batch;
+    const std::uint64_t ends = end_positions(w);
+    const auto before = static_cast<std::int32_t>(64 * w - 1);  // position p is voxel p - 1
+    for_bits(bits, [&](int bit) {
+        const std::size_t i = batch.count;
+        batch.from[0][i] = before + bit, batch.from[1][i] = row.y, batch.from[2][i] = row.z;
+        batch.axis[i] = static_cast<std::int32_t>(axis);
+        batch.point[i] = row.next[axis]++;
+        batch.is_at_end = batch.is_at_end || (ends >> bit & 1) != 0;
+        if (++batch.count == kLanes) flush(work);
+    });
+}
+
+template <class T>
+void HitWriter<T>::gather(Work& work) const {
+    HitBatch<Real>& batch = work.batch;
+    const BundleSamples<T, Real>& samples = work.samples;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const std::int32_t x = batch.from[0][i], y = batch.from[1][i], z = batch.from[2][i], axis = batch.axis[i];
+        const auto from = samples.around(x, y, z), to = samples.around(x + (axis == 0), y + (axis == 1), z + (axis == 2));
+        batch.a[i] = static_cast<double>(from.sample), batch.b[i] = static_cast<double>(to.sample);
+        for (std::size_t k = 0; k < 3; ++k) batch.slope[k][i] = from.difference[k], batch.change[k][i] = to.difference[k];
+    }
+    if (!batch.is_at_end && samples.has_same_scales()) {
+        const std::array<Real, 3> scales = samples.same_scales();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Real scale = scales[k];
+            for (std::size_t i = 0; i < whole_lanes(batch.count); ++i) {
+                batch.slope[k][i] *= scale;
+                batch.change[k][i] = batch.change[k][i] * scale - batch.slope[k][i];
+            }
+        }
+        return;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t i = 0; i < count; ++i) batch.slope[k][i] = batch.slope[k][i] + static_cast<Real>(t[i]) * batch.change[k][i];
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            const std::int32_t at = batch.from[k][i], next = at + (batch.axis[i] == static_cast<std::int32_t>(k));
+            batch.slope[k][i] *= samples.scale(k, at);
+            batch.change[k][i] = batch.change[k][i] * samples.scale(k, next) - batch.slope[k][i];
+        }
     }
-    std::array<bool, kLanes> rare;
-    map_.to_normals(count, batch.slope, rare);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto& [x, y, z] = batch.slope;
+}
+
+template <class T>
+void HitWriter<T>::flush(Work& work) const {
+    HitBatch<Real>& batch = work.batch;
+    const bool normals = !surface_.normals.empty();
+    gather(work);
+    place_hits(batch, tau_, map_, work.first, normals);
+    for (std::size_t i = 0; i < batch.count; ++i)
+        surface_.points[batch.point[i]] = {batch.place[0][i], batch.place[1][i], batch.place[2][i]};
+    const auto& [x, y, z] = batch.slope;
+    for (std::size_t i = 0; normals && i < batch.count; ++i) {
         surface_.normals[batch.point[i]] =
-            rare[i] ? map_.rare_normal({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])}, batch.axis[i],
-                                       batch.a[i] > batch.b[i] ? 1 : -1)
-                    : std::array{static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(z[i])};
+            batch.rare[i] ? map_.rare_normal({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])},
+                                             batch.axis[i], batch.a[i] > batch.b[i] ? 1 : -1)
+                          : std::array{static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(z[i])};
     }
+    batch.count = 0;
+    batch.is_at_end = false;
+}
+
+template <class T>
+void HitWriter<T>::write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const {
+    for_bits(bits, [&](int bit) {
+        const Vec3 at{work.first[0] + static_cast<double>(64 * w + bit - 1), work.first[1] + row.y, work.first[2] + row.z};
+        write_border(at, static_cast<int>(axis), 1, row.next[axis]++);
+    });
 }
 
 template <class T>
@@ -95,55 +179,13 @@ void HitWriter<T>::write_border(const Vec3& position, int axis, double sign, std
 }
 
 template <class T>
-inline void HitWriter<T>::prefetch_samples(const T* row, std::int64_t w, std::uint64_t hits) const {
-    constexpr int kStretch = 16;
-    for (int i = 0; i < 64; i += kStretch) {
-        const std::int64_t x = 64 * w + i;
-        if ((hits >> i & 0xffff) != 0 && x < grid_.extent.size[0]) prefetch(row + grid_.layout.axis[0](x));
-    }
-}
-
-template <class T>
-void HitWriter<T>::write_row(std::int64_t y, std::int64_t z, const RowPlace& place) const {
+void HitWriter<T>::write_outside(std::int64_t y, std::int64_t z, const RowPlace& place) const {
     const RowHits hits(domain_, y, z);
-    const std::array<std::int64_t, 3>& size = grid_.extent.size;
-    const Stencil here = stencil(y, z), next_y = stencil(y + 1, z), next_z = stencil(y, z + 1);
-    const auto fy = static_cast<double>(y + grid_.origin[1]), fz = static_cast<double>(z + grid_.origin[2]);
-    const std::int64_t before = grid_.origin[0] - 1;  // position p is voxel p - 1
-    std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
-    HitBatch<Real> batch;
-    const T* ahead = z + kSlicesAhead < size[2] && here.row != nullptr ? stencil(y, z + kSlicesAhead).row : nullptr;
+    std::int64_t y_point = place.first_y(), z_point = place.first_z();
     hits.busy.for_each([&](std::int64_t w) {
-        if (ahead != nullptr) prefetch_samples(ahead, w, hits.x(w) | hits.y(w) | hits.z(w));
-        for_bits(w, hits.x(w), [&](std::int64_t p) {  // between the voxels p - 1 and p
-            const auto fx = static_cast<double>(p + before);
-            if (p == 0)
-                write_border({fx + 1, fy, fz}, 0, -1, x_point++);
-            else if (p == size[0])
-                write_border({fx, fy, fz}, 0, 1, x_point++);
-            else
-                add_inner(here, p - 1, here, p, 0, {fx, fy, fz}, x_point++, batch);
-        });
-        for_bits(w, hits.y(w), [&](std::int64_t p) {
-            const auto fx = static_cast<double>(p + before);
-            if (here.row == nullptr)
-                write_border({fx, fy + 1, fz}, 1, -1, y_point++);
-            else if (next_y.row == nullptr)
-                write_border({fx, fy, fz}, 1, 1, y_point++);
-            else
-                add_inner(here, p - 1, next_y, p - 1, 1, {fx, fy, fz}, y_point++, batch);
-        });
-        for_bits(w, hits.z(w), [&](std::int64_t p) {
-            const auto fx = static_cast<double>(p + before);
-            if (here.row == nullptr)
-                write_border({fx, fy, fz + 1}, 2, -1, z_point++);
-            else if (next_z.row == nullptr)
-                write_border({fx, fy, fz}, 2, 1, z_point++);
-            else
-                add_inner(here, p - 1, next_z, p - 1, 2, {fx, fy, fz}, z_point++, batch);
-        });
+        for_bits(hits.y(w), [&](int bit) { write_border(position(64 * w + bit - 1, y + 1, z), 1, -1, y_point++); });
+        for_bits(hits.z(w), [&](int bit) { write_border(position(64 * w + bit - 1, y, z + 1), 2, -1, z_point++); });
     });
-    write(batch);
 }
 
 #define ISOATLAS_INSTANTIATE(T) template class HitWriter<T>;

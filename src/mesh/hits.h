@@ -1,63 +1,60 @@
 // The hits: points of the surface on the edges of the grid, with normals.
 #pragma once
 
+#include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "field/sample_grid.h"
+#include "mesh/bundle_samples.h"
 #include "mesh/layout.h"
 #include "mesh/physical_map.h"
+#include "mesh/place_hits.h"
 
 namespace isoatlas {
 
-/// Hits keep this distance (in edge lengths) from the voxels, so that points stay apart when tau equals a sample. A power of two.
-/// A hit between a voxel and the padding lies this far outside the voxel.
-inline constexpr double kHitMargin = 1.0 / 1024;
-
-/// Where the hit lies between two samples a and b, 0..1.
-inline double hit_fraction(double a, double b, double tau) {
-    double t = (tau - a) / (b - a);
-    if (!(t >= kHitMargin)) t = kHitMargin;
-    if (t > 1 - kHitMargin) t = 1 - kHitMargin;
-    return t;
-}
-
-/// Hits of which all is known but where they lie: computed many at once.
-template <class Real>
-struct HitBatch {
-    std::size_t count = 0;
-    std::array<double, kLanes> a, b;         ///< samples at the ends of the edge
-    Lanes<double> voxel;                     ///< its first end
-    Lanes<Real> slope, change;               ///< of the samples at the first end, and what it changes by towards the other one
-    std::array<std::int8_t, kLanes> axis;    ///< of the edge
-    std::array<std::int64_t, kLanes> point;  ///< where the hit is written
-};
-
-/// Writes points (and normals, unless empty) of the hits of row (y, z) of the lattice at their places.
+/// Writes points (and normals, unless empty) of hits at their places, by bundles of rows (mesh/bundle_samples.h): those whose samples lie
+/// near each other, 64 positions of each at a time.
 template <class T>
 class HitWriter {
 public:
     HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface);
-    void write_row(std::int64_t y, std::int64_t z, const RowPlace& place) const;
+    [[nodiscard]] std::int64_t bundles() const;
+    /// The hits on all edges that begin in the rows of a bundle, and on those towards the first voxels of its rows.
+    void write(std::int64_t bundle, const Layout& layout) const;
+    /// The hits on edges that begin in a row outside, in front of the grid.
+    void write_outside(std::int64_t y, std::int64_t z, const RowPlace& place) const;
 
 private:
     /// What normals are computed in: differences of small samples are exact, or good enough, in float.
     using Real = std::conditional_t<(sizeof(T) < 4 || std::is_same_v<T, float>), float, double>;
 
-    /// The samples around the voxels of one row, for central differences (one-sided at the border).
-    struct Stencil {
-        const T *row, *y_low, *y_high, *z_low, *z_high;  ///< at x = 0
-        Real y_scale, z_scale;
+    /// A row on its way; y, z: in the bundle.
+    struct Row {
+        RowHits hits;
+        std::array<std::int64_t, 3> next;  ///< point on its edges along each axis
+        std::int32_t y, z;
     };
-    [[nodiscard]] Stencil stencil(std::int64_t y, std::int64_t z) const;
-    [[nodiscard]] std::array<Real, 3> slope(const Stencil& around, std::int64_t x) const;
-    /// The hit between the voxels at x and other_x of two rows, the first of them at `voxel`.
-    void add_inner(const Stencil& from, std::int64_t x, const Stencil& to, std::int64_t other_x, int axis, const Vec3& voxel,
-                   std::int64_t point, HitBatch<Real>& batch) const;
-    void write(HitBatch<Real>& batch) const;
-    /// Asks for the samples of a row near the hits of word w.
-    void prefetch_samples(const T* row, std::int64_t w, std::uint64_t hits) const;
+    struct Work {
+        BundleSamples<T, Real> samples;
+        Vec3 first;  ///< voxel of the bundle
+        HitBatch<Real> batch;
+    };
+    void write_slice(std::vector<Row>& rows, Work& work) const;
+    void write_word(std::int64_t w, Row& row, Work& work) const;
+    /// `bits`: positions of word w.
+    void add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const;
+    void flush(Work& work) const;
+    void gather(Work& work) const;
+    /// The hits between voxels of a row and the padding behind them along an axis.
+    void write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const;
     /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.
     void write_border(const Vec3& position, int axis, double sign, std::int64_t point) const;
+    /// Positions of word w that are the first voxel of a row, or one of the last two: edges from there look beyond its ends.
+    [[nodiscard]] std::uint64_t end_positions(std::int64_t w) const;
+    [[nodiscard]] Vec3 position(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return {static_cast<double>(x + grid_.origin[0]), static_cast<double>(y + grid_.origin[1]), static_cast<double>(z + grid_.origin[2])};
+    }
 
     SampleGrid<T> grid_;
     double tau_;

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "base/wide.h"
+
 namespace isoatlas {
 
 MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
@@ -23,7 +25,7 @@ MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
     }
 }
 
-void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
+ISOATLAS_WIDE void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
     const RowHits hits(domain, y, z);
     hits.busy.for_each([&](std::int64_t w) {
         place.x_hits += static_cast<std::uint32_t>(std::popcount(hits.x(w)));

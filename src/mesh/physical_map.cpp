@@ -59,42 +59,12 @@ PhysicalMap::PhysicalMap(const Geometry& geometry, const Extent& extent)
     for (int axis = 0; axis < 3; ++axis) inverse_distance_[axis] = inverse_distances(geometry, axis, extent.size[axis]);
 }
 
-void PhysicalMap::to_points(std::size_t count, Lanes<double>& voxel) const {
-    if (rectilinear_) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 point = to_physical(geometry_, {voxel[0][i], voxel[1][i], voxel[2][i]});
-            for (std::size_t axis = 0; axis < 3; ++axis) voxel[axis][i] = point[axis];
-        }
-        return;
-    }
-    const Lanes<double> from = voxel;
-    for (std::size_t row = 0; row < 3; ++row) {
-        const Vec3 m = matrix_[row];
-        const double origin = geometry_.origin[row];
-        for (std::size_t i = 0; i < count; ++i) voxel[row][i] = origin + (m[0] * from[0][i] + m[1] * from[1][i] + m[2] * from[2][i]);
-    }
-}
-
-template <class Real>
-void PhysicalMap::to_normals(std::size_t count, Lanes<Real>& slope, std::array<bool, kLanes>& rare) const {
-    Lanes<Real> g;
-    std::array<Real, kLanes> squared;
-    for (std::size_t row = 0; row < 3; ++row) {
-        const auto a = static_cast<Real>(normals_[row][0]), b = static_cast<Real>(normals_[row][1]),
-                   c = static_cast<Real>(normals_[row][2]);
-        for (std::size_t i = 0; i < count; ++i) g[row][i] = a * slope[0][i] + b * slope[1][i] + c * slope[2][i];
-    }
-    for (std::size_t i = 0; i < count; ++i) squared[i] = g[0][i] * g[0][i] + g[1][i] * g[1][i] + g[2][i] * g[2][i];
-    for (std::size_t i = 0; i < count; ++i) rare[i] = is_rare(squared[i]);
-    for (std::size_t i = 0; i < count; ++i) squared[i] = Real(-1) / std::sqrt(squared[i]);
+void PhysicalMap::to_points_one_by_one(std::size_t count, Lanes<double>& voxel) const {
     for (std::size_t i = 0; i < count; ++i) {
-        if (rare[i]) continue;
-        for (std::size_t row = 0; row < 3; ++row) slope[row][i] = g[row][i] * squared[i];
+        const Vec3 point = to_physical(geometry_, {voxel[0][i], voxel[1][i], voxel[2][i]});
+        for (std::size_t axis = 0; axis < 3; ++axis) voxel[axis][i] = point[axis];
     }
 }
-
-template void PhysicalMap::to_normals<float>(std::size_t, Lanes<float>&, std::array<bool, kLanes>&) const;
-template void PhysicalMap::to_normals<double>(std::size_t, Lanes<double>&, std::array<bool, kLanes>&) const;
 
 std::array<float, 3> PhysicalMap::rare_normal(Vec3 slope, int axis, double sign) const {
     const double largest = std::max({std::abs(slope[0]), std::abs(slope[1]), std::abs(slope[2])});

@@ -14,6 +14,8 @@ namespace isoatlas {
 inline constexpr std::size_t kLanes = 64;
 template <class Real>
 using Lanes = std::array<std::array<Real, kLanes>, 3>;
+/// Loops over lanes run to a whole number of these: what lies behind the last one is computed for nothing.
+[[nodiscard]] constexpr std::size_t whole_lanes(std::size_t count) { return (count + 15) / 16 * 16; }
 
 class PhysicalMap {
 public:
@@ -30,8 +32,16 @@ public:
         return physical;
     }
 
-    /// The same for `count` positions at once.
-    void to_points(std::size_t count, Lanes<double>& voxel) const;
+    /// The same for `count` positions at once, and some behind them up to whole_lanes(count); here and below.
+    [[gnu::always_inline]] void to_points(std::size_t count, Lanes<double>& voxel) const {
+        if (rectilinear_) return to_points_one_by_one(count, voxel);
+        const Mat3 m = matrix_;
+        const Vec3 origin = geometry_.origin;
+        for (std::size_t i = 0; i < whole_lanes(count); ++i) {
+            const double x = voxel[0][i], y = voxel[1][i], z = voxel[2][i];
+            for (std::size_t row = 0; row < 3; ++row) voxel[row][i] = origin[row] + (m[row][0] * x + m[row][1] * y + m[row][2] * z);
+        }
+    }
 
     /// 1 / (distance along the axis between the neighbours of sample i that exist); 0 when there is no neighbour.
     [[nodiscard]] const double* inverse_distance(int axis) const { return inverse_distance_[axis].data(); }
@@ -54,11 +64,26 @@ public:
     /// The same for `count` slopes at once, but for rare ones, which are zero, not finite, or too large or too small to be squared: true in
     /// `rare`.
     template <class Real>
-    void to_normals(std::size_t count, Lanes<Real>& slope, std::array<bool, kLanes>& rare) const;
+    [[gnu::always_inline]] void to_normals(std::size_t count, Lanes<Real>& slope, std::array<bool, kLanes>& rare) const {
+        std::array<std::array<Real, 3>, 3> m;
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t k = 0; k < 3; ++k) m[row][k] = static_cast<Real>(normals_[row][k]);
+        }
+        for (std::size_t i = 0; i < whole_lanes(count); ++i) {
+            std::array<Real, 3> g;
+            for (std::size_t row = 0; row < 3; ++row) g[row] = m[row][0] * slope[0][i] + m[row][1] * slope[1][i] + m[row][2] * slope[2][i];
+            const Real squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+            const bool leave = is_rare(squared);
+            const Real scale = Real(-1) / std::sqrt(squared);
+            rare[i] = leave;
+            for (std::size_t row = 0; row < 3; ++row) slope[row][i] = leave ? slope[row][i] : g[row] * scale;
+        }
+    }
     /// For those.
     [[nodiscard]] std::array<float, 3> rare_normal(Vec3 slope, int axis, double sign) const;
 
 private:
+    void to_points_one_by_one(std::size_t count, Lanes<double>& voxel) const;
     template <class Real>
     [[nodiscard]] static bool is_rare(Real squared) {
         return !(squared > Real(1e-25) && squared < Real(1e25));

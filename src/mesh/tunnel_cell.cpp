@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 #include "critical/body_saddle.h"
-#include "mesh/hits.h"
+#include "mesh/place_hits.h"
 
 namespace isoatlas {
 namespace {

@@ -20,14 +20,41 @@ bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, b
     return (bits & mask) == (high ? mask : 0);
 }
 
-bool is_uniform_around(const BrickGrid& grid, const HighBits& high, std::int64_t brick, bool own) {
+/// Are the bricks at and beside a place along x all of one class? Outside of the grid everything is Low.
+bool is_row_of(BrickClass own, const BrickGrid& grid, const std::vector<BrickClass>& classes, const std::array<std::int64_t, 3>& place) {
+    const bool outside = place[1] < 0 || place[2] < 0 || place[1] >= grid.size[1] || place[2] >= grid.size[2];
+    for (std::int64_t x = place[0] - 1; x <= place[0] + 1; ++x) {
+        const bool is_outside = outside || x < 0 || x >= grid.size[0];
+        if ((is_outside ? BrickClass::low : classes[static_cast<std::size_t>(grid.brick({x, place[1], place[2]}))]) != own) return false;
+    }
+    return true;
+}
+
+/// Rows of samples [begin, end) of an axis that belong to a side of a box: before it, in it, behind it.
+std::array<std::int64_t, 2> side_of(const Box& box, int axis, std::int64_t side) {
+    if (side < 0) return {box.begin[axis] - kSurroundings, box.begin[axis]};
+    return side == 0 ? std::array{box.begin[axis], box.end[axis]} : std::array{box.end[axis], box.end[axis] + kSurroundings};
+}
+
+bool is_uniform_around(const BrickGrid& grid, const HighBits& high, const std::vector<BrickClass>& classes, std::int64_t brick) {
+    const BrickClass own = classes[static_cast<std::size_t>(brick)];
+    const std::array<std::int64_t, 3> place = grid.place(brick);
     const Box box = grid.box(brick);
-    const std::int64_t flat = grid.extent.rank == 2 ? 0 : kSurroundings;
-    for (std::int64_t z = box.begin[2] - flat; z < box.end[2] + flat; ++z) {
-        for (std::int64_t y = box.begin[1] - kSurroundings; y < box.end[1] + kSurroundings; ++y) {
-            const RowPart part = surroundings(box, y, z);  // position p is voxel p - 1
-            const std::int64_t begin = std::max<std::int64_t>(part.begin + 1, 0), end = std::min(part.end + 1, grid.extent.size[0] + 2);
-            if (begin < end && !all_equal(high.row(y, z), begin, end, own)) return false;  // rows outside are Low
+    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
+    const auto is_uniform = [&](std::int64_t y, std::int64_t z) {
+        const RowPart part = surroundings(box, y, z);  // position p is voxel p - 1
+        const std::int64_t begin = std::max<std::int64_t>(part.begin + 1, 0), end = std::min(part.end + 1, grid.extent.size[0] + 2);
+        return begin >= end || all_equal(high.row(y, z), begin, end, own == BrickClass::high);  // rows outside are Low
+    };
+    for (std::int64_t side_z = -flat; side_z <= flat; ++side_z) {
+        for (std::int64_t side_y = -1; side_y <= 1; ++side_y) {
+            if (is_row_of(own, grid, classes, {place[0], place[1] + side_y, place[2] + side_z})) continue;
+            const auto ys = side_of(box, 1, side_y), zs = side_of(box, 2, side_z);
+            for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
+                for (std::int64_t y = ys[0]; y < ys[1]; ++y) {
+                    if (!is_uniform(y, z)) return false;
+                }
+            }
         }
     }
     return true;
@@ -46,15 +73,15 @@ std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vect
     return touching;
 }
 
-bool is_beside_surface(const HighBits& high, const BrickGrid& grid, std::int64_t brick, BrickClass own) {
-    return !is_uniform_around(grid, high, brick, own == BrickClass::high);
+bool is_beside_surface(const HighBits& high, const BrickGrid& grid, const std::vector<BrickClass>& classes, std::int64_t brick) {
+    return !is_uniform_around(grid, high, classes, brick);
 }
 
 std::vector<std::int64_t> beside_surface(const HighBits& high, const BrickGrid& grid, const std::vector<BrickClass>& classes, int threads) {
     std::vector<std::uint8_t> wanted = touching_others(grid, classes);
     for_bricks(grid, threads, [&](std::int64_t b) {
         const auto i = static_cast<std::size_t>(b);
-        if (wanted[i]) wanted[i] = is_beside_surface(high, grid, b, classes[i]);
+        if (wanted[i]) wanted[i] = is_beside_surface(high, grid, classes, b);
     });
     return flagged(wanted);
 }

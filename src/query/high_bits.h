@@ -37,8 +37,10 @@ public:
     }
     [[nodiscard]] std::uint64_t* row(std::int64_t y, std::int64_t z) { return bits_.data() + (y + extent_.size[1] * z) * stride(); }
 
-private:
+    /// Words from one row of a slice to the next.
     [[nodiscard]] std::int64_t stride() const { return words_ + 1; }
+
+private:
     Extent extent_;
     std::int64_t words_;
     BusyWords busy_;

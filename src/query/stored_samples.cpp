@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/prefetch.h"
 #include "isoatlas/error.h"
 #include "query/brick_classes.h"
 #include "query/brick_histogram.h"
@@ -64,7 +65,7 @@ public:
         const std::vector<std::uint8_t> near = with_neighbours(grid_, changed);
         const std::vector<std::uint8_t> touching = touching_others(grid_, bricks.classes);
         for_bricks(grid_, context.threads, [&](std::int64_t b) {
-            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, grid_, b, bricks.classes[b]);
+            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, grid_, bricks.classes, b);
         });
         hold(flagged(kept.beside), context, query);
         return std::count(changed.begin(), changed.end(), std::uint8_t{1});
@@ -313,7 +314,9 @@ private:
                 for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) std::copy(whole.begin(), whole.end(), high.row(y, z));
             }
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-                if (classes[first + i] == BrickClass::divided) fill_brick(high, grid.box(first + i), part.number(first + i), least);
+                if (classes[first + i] != BrickClass::divided) continue;
+                if (i + 1 < grid.size[0] && classes[first + i + 1] == BrickClass::divided) prefetch_brick(part.number(first + i + 1));
+                fill_brick(high, grid.box(first + i), part.number(first + i), least);
             }
         });
     }
@@ -323,6 +326,11 @@ private:
         return 0xffff >> (kBrickRow - std::min(kBrickRow, grid.extent.size[0] - i * kBrickRow));
     }
 
+    void prefetch_brick(std::int64_t brick) {
+        constexpr std::int64_t kLine = 64 / static_cast<std::int64_t>(sizeof(T));
+        const T* const place = samples() + layout_.first_sample(brick);
+        for (std::int64_t i = 0; i < layout_.samples_of_brick(); i += kLine) prefetch(place + i);
+    }
     /// box: of the brick in the part that `high` belongs to.
     void fill_brick(HighBits& high, const Box& box, std::int64_t brick, T least) {
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {

@@ -1,0 +1,70 @@
+// Cells whose triangles follow from which of their corners are High: no face is split, and they have no points of their own. Nearly all are.
+//
+// The hits of a cell have consecutive numbers in the rows around it: eight counters, the next hit of edges 0, 1, 2, 3 (along x), 4, 6 (along
+// y), 8, 10 (along z), say where the hits of a cell are written. The far edges 5, 7, 9, 11 belong to the next cell: they are where the near
+// ones are after it. So the hits of a cell are among 16 numbers, eight counters before and after it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "mesh/cell_triangles.h"
+#include "query/active_cells.h"
+
+namespace isoatlas {
+
+inline constexpr std::array<int, 8> kCounterEdges{0, 1, 2, 3, 4, 6, 8, 10};
+
+/// Entries of all patterns.
+struct PlainCells {
+    std::array<std::uint8_t, 256> triangles{};                ///< 0: no plain cell
+    std::array<std::uint8_t, 256> moves{};                    ///< bit i: counter i moves on
+    std::array<std::array<std::uint8_t, 16>, 256> corner{};   ///< 3 per triangle, among the 16 numbers
+
+    /// tunnels: may cells have any? flip: triangles turn the other way round.
+    PlainCells(SurfaceStyle style, bool tunnels, bool flip);
+};
+
+/// The counters of a row of cells.
+using HitCounters = std::array<std::int64_t, 8>;
+
+/// The hits of a cell by edges; those of edges that are not hit mean nothing.
+[[nodiscard]] inline std::array<std::int64_t, 12> points_of(const HitCounters& before, const HitCounters& after) {
+    return {before[0], before[1], before[2], before[3], before[4], after[4], before[5], after[5], before[6], after[6], before[7], after[7]};
+}
+
+/// The triangles of the plain cells of a row. Calls rest(p, pattern) for the others that are active, p ascending.
+template <class Rest>
+std::int64_t count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, Rest&& rest) {
+    std::int64_t triangles = 0;
+    for_active_cells(rows, window, [&](std::int64_t p, int pattern) {
+        const int own = cells.triangles[static_cast<std::size_t>(pattern)];
+        triangles += own;
+        if (own == 0) rest(p, pattern);
+    });
+    return triangles;
+}
+
+/// Writes the triangles of the plain cells of a row from `triangle` on, all before `end`. Calls rest(p, pattern, counters before, counters
+/// after, triangle) for the other active ones, which moves `triangle` on.
+template <class Rest>
+void write_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, HitCounters next,
+                 std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* /*end*/, Rest&& rest) {
+    std::array<std::int64_t, 16> both;
+    for_active_cells(rows, window, [&](std::int64_t p, int pattern) {
+        const auto entry = static_cast<std::size_t>(pattern);
+        HitCounters after;
+        for (std::size_t i = 0; i < 8; ++i) after[i] = next[i] + (cells.moves[entry] >> i & 1);
+        const int count = cells.triangles[entry];
+        if (count == 0) {
+            rest(p, pattern, next, after, triangle);
+        } else {
+            for (std::size_t i = 0; i < 8; ++i) both[i] = next[i], both[8 + i] = after[i];
+            const std::uint8_t* corner = cells.corner[entry].data();
+            for (int i = 0; i < count; ++i, corner += 3) *triangle++ = {both[corner[0]], both[corner[1]], both[corner[2]]};
+        }
+        next = after;
+    });
+}
+
+}  // namespace isoatlas
