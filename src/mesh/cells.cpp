@@ -100,7 +100,7 @@ void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) c
             place.fans += triangles_[state.number].fans;
         }
     };
-    place.triangle += count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, count_rest);
+    place.triangle += count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, place.cell_words, count_rest);
 }
 
 // The slope of the interpolant itself: inside a tunnel it has little to do with differences between voxels.
@@ -154,7 +154,9 @@ void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layo
         write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point.data(), fan_point, triangle, surface);
     };
     std::array<std::int64_t, 3>* const triangles = surface.triangles.data();
-    write_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, first_hits(domain_, layout, y, z), triangles + place.triangle,
+    CellRow<4> cells = cell_row(domain_.high, y, z);
+    cells.busy = words_of(domain_.high, place.cell_words, cells.busy);
+    write_plain_cells(cells, domain_.cells, plain_, first_hits(domain_, layout, y, z), triangles + place.triangle,
                       triangles + layout[row + 1].triangle, write_rest);
 }
 

@@ -39,7 +39,7 @@ void HitWriter<T>::write(std::int64_t bundle, const Layout& layout) const {
         for (std::int64_t y = first_y; y < end_y; ++y) {
             const RowPlace& place = layout[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) continue;
-            rows.push_back({RowHits(domain_, y, z), {place.point, place.first_y(), place.first_z()}, static_cast<std::int32_t>(y - first_y),
+            rows.push_back({RowHits(domain_, y, z, place), {place.point, place.first_y(), place.first_z()}, static_cast<std::int32_t>(y - first_y),
                             static_cast<std::int32_t>(z - first_z)});
         }
         if (rows.empty()) continue;
@@ -58,7 +58,9 @@ void HitWriter<T>::write_slice(std::vector<Row>& rows, Work& work) const {
         std::uint64_t busy = 0;
         for (const Row& row : rows) busy |= row.hits.busy.bits[i];
         for_bits(busy, [&](int bit) {
-            for (Row& row : rows) write_word(64 * i + bit, row, work);
+            for (Row& row : rows) {
+                if ((row.hits.busy.bits[i] >> bit & 1) != 0) write_word(64 * i + bit, row, work);
+            }
         });
     }
 }
@@ -91,8 +93,9 @@ void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
 
 template <class T>
 std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
-    std::uint64_t ends = w == 0 ? 2 : 0;
     const std::int64_t last = grid_.extent.size[0];
+    if (w > 0 && w < (last - 1) / 64) return 0;
+    std::uint64_t ends = w == 0 ? 2 : 0;
     for (const std::int64_t p : {last - 1, last}) ends |= p / 64 == w ? std::uint64_t{1} << p % 64 : 0;
     return ends;
 }
@@ -101,15 +104,17 @@ template <class T>
 void HitWriter<T>::add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const {
     if (bits == 0) return;
     HitBatch<Real>& batch = work.batch;
-    const std::uint64_t ends = end_positions(w);
+    const std::uint64_t ends = bits & end_positions(w);
+    batch.is_at_end = batch.is_at_end || ends != 0;
     const auto before = static_cast<std::int32_t>(64 * w - 1);  // position p is voxel p - 1
     for_bits(bits, [&](int bit) {
         const std::size_t i = batch.count;
         batch.from[0][i] = before + bit, batch.from[1][i] = row.y, batch.from[2][i] = row.z;
         batch.axis[i] = static_cast<std::int32_t>(axis);
         batch.point[i] = row.next[axis]++;
-        batch.is_at_end = batch.is_at_end || (ends >> bit & 1) != 0;
-        if (++batch.count == kLanes) flush(work);
+        if (++batch.count < kLanes) return;
+        flush(work);
+        batch.is_at_end = ends != 0;
     });
 }
 

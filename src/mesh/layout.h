@@ -31,6 +31,25 @@ struct MeshDomain {
     [[nodiscard]] bool has_next_z(std::int64_t z) const { return z < z_end; }
 };
 
+/// RowPlace{} is zeros; a fresh array of them holds anything.
+struct RowPlace {
+    std::int64_t point;     ///< first point of the row
+    std::int64_t triangle;  ///< first triangle (2D: segment)
+    std::uint32_t x_hits, y_hits, z_hits, fans;
+    std::uint64_t hit_words, cell_words;  ///< which words have hits, which have active cells, as bits; if there are no more than 64
+
+    [[nodiscard]] std::int64_t first_y() const { return point + x_hits; }
+    [[nodiscard]] std::int64_t first_z() const { return first_y() + y_hits; }
+    [[nodiscard]] std::int64_t first_fan() const { return first_z() + z_hits; }
+};
+
+/// The words of a row that need be looked at once they have been counted.
+[[nodiscard]] inline WordSet words_of(const HighBits& high, const std::uint64_t& counted, const WordSet& busy) {
+    return high.words() <= 64 ? WordSet{&counted, 1} : busy;
+}
+/// For counting.
+inline void mark_word(std::uint64_t& words, std::int64_t w) { words |= std::uint64_t{1} << w % 64; }
+
 /// The edges of a row that are hit, 64 positions at a time.
 struct RowHits {
     const std::uint64_t *row, *next_y, *next_z;
@@ -46,27 +65,20 @@ struct RowHits {
           window(domain.cells),
           y_edges(domain.has_next_y(y)),
           z_edges(domain.has_next_z(z)) {}
+    /// Of a row that has been counted.
+    RowHits(const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowPlace& place) : RowHits(domain, y, z) {
+        busy = words_of(domain.high, place.hit_words, busy);
+    }
     /// Bit p: the edge between the positions p and p + 1 is hit.
     [[nodiscard]] std::uint64_t x(std::int64_t w) const { return (row[w] ^ bits_after(row, w)) & window.mask(w); }
     [[nodiscard]] std::uint64_t y(std::int64_t w) const { return y_edges ? row[w] ^ next_y[w] : 0; }
     [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
 };
 
-/// RowPlace{} is zeros; a fresh array of them holds anything.
-struct RowPlace {
-    std::int64_t point;     ///< first point of the row
-    std::int64_t triangle;  ///< first triangle (2D: segment)
-    std::uint32_t x_hits, y_hits, z_hits, fans;
-
-    [[nodiscard]] std::int64_t first_y() const { return point + x_hits; }
-    [[nodiscard]] std::int64_t first_z() const { return first_y() + y_hits; }
-    [[nodiscard]] std::int64_t first_fan() const { return first_z() + z_hits; }
-};
-
 /// Places of all rows; the last entry holds the totals.
 using Layout = BigVector<RowPlace>;
 
-/// Counts hits per row; triangles and articulation points are added by the caller, then turned into places.
+/// Counts hits per row and marks their words; triangles and articulation points are added by the caller, then turned into places.
 void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place);
 /// RowPlace::triangle holds counts before, first numbers after.
 void turn_counts_into_places(Layout& layout);

@@ -33,11 +33,12 @@ using HitCounters = std::array<std::int64_t, 8>;
     return {before[0], before[1], before[2], before[3], before[4], after[4], before[5], after[5], before[6], after[6], before[7], after[7]};
 }
 
-/// The triangles of the plain cells of a row. Calls rest(p, pattern) for the others that are active, p ascending.
+/// The triangles of the plain cells of a row; marks words with active cells. Calls rest(p, pattern) for the other ones, p ascending.
 template <class Rest>
-std::int64_t count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, Rest&& rest) {
+std::int64_t count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words, Rest&& rest) {
     std::int64_t triangles = 0;
     for_active_cells(rows, window, [&](std::int64_t p, int pattern) {
+        words |= std::uint64_t{1} << p / 64 % 64;
         const int own = cells.triangles[static_cast<std::size_t>(pattern)];
         triangles += own;
         if (own == 0) rest(p, pattern);

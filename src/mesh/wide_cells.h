@@ -44,7 +44,8 @@ ISOATLAS_WIDE_CELLS [[gnu::always_inline]] inline __m512i wide_patterns(const Ce
 
 /// count_plain().
 template <class Rest>
-ISOATLAS_WIDE_CELLS std::int64_t count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, Rest&& rest) {
+ISOATLAS_WIDE_CELLS std::int64_t count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words,
+                                            Rest&& rest) {
     std::array<__m512i, 4> table;
     for (std::size_t i = 0; i < 4; ++i) table[i] = _mm512_loadu_si512(cells.triangles.data() + 64 * i);
     __m512i sums = _mm512_setzero_si512();
@@ -53,6 +54,7 @@ ISOATLAS_WIDE_CELLS std::int64_t count_wide(const CellRow<4>& rows, const CellWi
             const std::int64_t w = 64 * i + std::countr_zero(busy);
             const std::uint64_t active = active_cells(rows, w) & window.mask(w);
             if (active == 0) continue;
+            words |= std::uint64_t{1} << w % 64;
             const __m512i patterns = wide_patterns(rows, w);
             const __m512i low = _mm512_permutex2var_epi8(table[0], patterns, table[1]);
             const __m512i high = _mm512_permutex2var_epi8(table[2], patterns, table[3]);
@@ -125,11 +127,11 @@ namespace isoatlas {
 
 /// count_plain(), as fast as it gets here.
 template <class Rest>
-std::int64_t count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, Rest&& rest) {
+std::int64_t count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words, Rest&& rest) {
 #if ISOATLAS_HAS_WIDE_CELLS
-    if (has_wide_cells()) return count_wide(rows, window, cells, rest);
+    if (has_wide_cells()) return count_wide(rows, window, cells, words, rest);
 #endif
-    return count_plain(rows, window, cells, rest);
+    return count_plain(rows, window, cells, words, rest);
 }
 
 /// write_plain(), as fast as it gets here.
