@@ -43,6 +43,7 @@ public:
           context_(context),
           components_(components),
           domain_(level.high, options.boundary),
+          groups_(domain_),
           map_(level.info().geometry, level.window ? level.window->whole : level.info().extent),
           flip_(is_mirrored(level.info())),
           cells_(grid_, level.tau, domain_, map_, options, flip_) {}
@@ -57,21 +58,28 @@ public:
     }
 
 private:
-    /// Calls visit(y, z) for all rows of points: slab by slab, and in a slab by bundles of rows whose samples lie near each other.
+    /// Calls visit(group, z) for all groups of rows of points: slab by slab, and in a slab those whose samples lie near each other.
     template <class Visit>
-    void for_rows(const Phase& phase, Visit&& visit) {
+    void for_groups(const Phase& phase, const Visit& visit) {
         if (domain_.is_2d()) {
-            const Extent rows{2, {grid_.extent.size[0], domain_.rows_y(), 1}};
-            for_each_row(context_, phase, rows, [&](std::int64_t y, std::int64_t) { visit(domain_.y_begin + y, domain_.z_begin); });
+            for_each_slab(context_, phase, {groups_.end() - groups_.begin(), RowGroups::kSide * grid_.extent.size[0]}, [&](const Slab& slab) {
+                for (std::int64_t i = slab.z_begin; i < slab.z_end; ++i) visit(groups_.begin() + i, domain_.z_begin);
+            });
             return;
         }
-        const std::int64_t rows_y = domain_.rows_y(), side = store::kBrickSize[1];
         for_each_slab(context_, phase, {domain_.rows_z(), grid_.extent.slice()}, [&](const Slab& slab) {
-            for (std::int64_t first = 0; first < rows_y; first += side) {
-                for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-                    for (std::int64_t y = first; y < std::min(first + side, rows_y); ++y) visit(domain_.y_begin + y, domain_.z_begin + z);
-                }
+            for (std::int64_t group = groups_.begin(); group < groups_.end(); ++group) {
+                for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) visit(group, domain_.z_begin + z);
             }
+        });
+    }
+    /// Calls visit(y, z) for the rows of the groups that are used.
+    template <class Visit>
+    void for_used_rows(const Phase& phase, const Visit& visit) {
+        for_groups(phase, [&](std::int64_t group, std::int64_t z) {
+            if (!groups_.is_used(group, z)) return;
+            const auto [begin, end] = RowGroups::rows(domain_, group);
+            for (std::int64_t y = begin; y < end; ++y) visit(y, z);
         });
     }
     [[nodiscard]] bool has_cells(std::int64_t y, std::int64_t z) const {
@@ -80,19 +88,28 @@ private:
 
     void count() {
         resize_fresh(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
-        for_rows({"count", 1, kPhases}, [&](std::int64_t y, std::int64_t z) {
-            RowPlace& place = layout_[domain_.row_number(y, z)];
-            place = {};
-            if (domain_.high.busy(y, z).empty()) return;
-            count_hits(domain_, y, z, place);
-            if (!has_cells(y, z)) return;
+        for_groups({"count", 1, kPhases}, [&](std::int64_t group, std::int64_t z) {
+            const auto [begin, end] = RowGroups::rows(domain_, group);
+            bool used = false;
+            for (std::int64_t y = begin; y < end; ++y) used |= count_row(y, z);
+            if (used) groups_.use(group, z);
+        });
+        layout_.back() = {};
+        turn_counts_into_places(layout_);
+    }
+    /// Does the row have anything?
+    bool count_row(std::int64_t y, std::int64_t z) {
+        RowPlace& place = layout_[domain_.row_number(y, z)];
+        place = {};
+        if (domain_.high.busy(y, z).empty()) return false;
+        count_hits(domain_, y, z, place);
+        if (has_cells(y, z)) {
             if (domain_.is_2d())
                 place.triangle = count_segments(domain_, y);
             else
                 cells_.count_row(y, z, place);
-        });
-        layout_.back() = {};
-        turn_counts_into_places(layout_);
+        }
+        return place.x_hits + place.y_hits + place.z_hits + place.triangle > 0;
     }
 
     void check_size() const {
@@ -116,8 +133,8 @@ private:
     void write_hits(Surface& surface) {
         const HitWriter<T> hits(grid_, tau_, map_, domain_, surface);
         const Phase phase{"points", 2, kPhases};
-        for_each_slab_of(1, context_, phase, hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_); });
-        for_rows(phase, [&](std::int64_t y, std::int64_t z) {
+        for_each_slab_of(1, context_, phase, hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });
+        for_used_rows(phase, [&](std::int64_t y, std::int64_t z) {
             const RowPlace& place = layout_[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) return;
             if (y < 0 || z < 0) hits.write_outside(y, z, place);
@@ -126,7 +143,7 @@ private:
     }
 
     void write_cells(Surface& surface) {
-        for_rows({"triangles", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
+        for_used_rows({"triangles", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
             if (!has_cells(y, z)) return;
             if (domain_.is_2d())
                 write_segments(grid_, tau_, domain_, y, layout_, flip_, surface);
@@ -141,6 +158,7 @@ private:
     const Context& context_;
     const Components* components_;
     MeshDomain domain_;
+    RowGroups groups_;
     PhysicalMap map_;
     bool flip_;
     CellWriter<T> cells_;

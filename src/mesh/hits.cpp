@@ -28,19 +28,20 @@ std::int64_t HitWriter<T>::bundles() const {
 }
 
 template <class T>
-void HitWriter<T>::write(std::int64_t bundle, const Layout& layout) const {
+void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGroups& groups) const {
     const std::int64_t strips = strips_of(grid_.extent), first_y = bundle % strips * kBundleSize[1], first_z = bundle / strips * kBundleSize[2];
     const std::int64_t end_y = std::min(first_y + kBundleSize[1], grid_.extent.size[1]),
                        end_z = std::min(first_z + kBundleSize[2], grid_.extent.size[2]);
     std::optional<Work> work;
     std::vector<Row> rows;
     for (std::int64_t z = first_z; z < end_z; ++z) {
+        if (!groups.is_used(RowGroups::group_of(first_y), z)) continue;
         rows.clear();
         for (std::int64_t y = first_y; y < end_y; ++y) {
             const RowPlace& place = layout[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) continue;
             rows.push_back({RowHits(domain_, y, z, place), {place.point, place.first_y(), place.first_z()}, static_cast<std::int32_t>(y - first_y),
-                            static_cast<std::int32_t>(z - first_z)});
+                            static_cast<std::int32_t>(z - first_z), y + 1 == grid_.extent.size[1], z + 1 == grid_.extent.size[2]});
         }
         if (rows.empty()) continue;
         if (!work) {
@@ -69,26 +70,20 @@ template <class T>
 void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
     const std::array<std::uint64_t, 3> bits{row.hits.x(w), row.hits.y(w), row.hits.z(w)};
     if ((bits[0] | bits[1] | bits[2]) == 0) return;
-    const std::int64_t y = static_cast<std::int64_t>(work.first[1]) - grid_.origin[1] + row.y,
-                       z = static_cast<std::int64_t>(work.first[2]) - grid_.origin[2] + row.z;
     work.samples.prefetch_slice(64 * w - 1, bits[0] | bits[1] | bits[2], row.y, row.z);
     std::uint64_t inner_x = bits[0];
     if (w == 0 && (inner_x & 1) != 0) {  // between the padding and the first voxel
-        write_border(position(0, y, z), 0, -1, row.next[0]++);
+        write_border({work.first[0], work.first[1] + row.y, work.first[2] + row.z}, 0, -1, row.next[0]++);
         inner_x &= ~std::uint64_t{1};
     }
     const std::int64_t last = grid_.extent.size[0];  // position of the last voxel
-    const std::uint64_t end_x = w == last / 64 ? inner_x & std::uint64_t{1} << last % 64 : 0;
-    add(w, inner_x ^ end_x, 0, row, work);
-    write_ends(w, end_x, 0, row, work);
-    if (y + 1 < grid_.extent.size[1])
-        add(w, bits[1], 1, row, work);
-    else
-        write_ends(w, bits[1], 1, row, work);
-    if (z + 1 < grid_.extent.size[2])
-        add(w, bits[2], 2, row, work);
-    else
-        write_ends(w, bits[2], 2, row, work);
+    const std::array<std::uint64_t, 3> border{w == last / 64 ? inner_x & std::uint64_t{1} << last % 64 : 0, row.is_last_y ? bits[1] : 0,
+                                              row.is_last_z ? bits[2] : 0};
+    add(w, inner_x ^ border[0], 0, row, work);
+    add(w, bits[1] ^ border[1], 1, row, work);
+    add(w, bits[2] ^ border[2], 2, row, work);
+    if ((border[0] | border[1] | border[2]) == 0) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) write_ends(w, border[axis], axis, row, work);
 }
 
 template <class T>
@@ -101,7 +96,7 @@ std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
 }
 
 template <class T>
-void HitWriter<T>::add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const {
+[[gnu::always_inline]] inline void HitWriter<T>::add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const {
     if (bits == 0) return;
     HitBatch<Real>& batch = work.batch;
     const std::uint64_t ends = bits & end_positions(w);

@@ -21,7 +21,7 @@ public:
     HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface);
     [[nodiscard]] std::int64_t bundles() const;
     /// The hits on all edges that begin in the rows of a bundle, and on those towards the first voxels of its rows.
-    void write(std::int64_t bundle, const Layout& layout) const;
+    void write(std::int64_t bundle, const Layout& layout, const RowGroups& groups) const;
     /// The hits on edges that begin in a row outside, in front of the grid.
     void write_outside(std::int64_t y, std::int64_t z, const RowPlace& place) const;
 
@@ -34,6 +34,7 @@ private:
         RowHits hits;
         std::array<std::int64_t, 3> next;  ///< point on its edges along each axis
         std::int32_t y, z;
+        bool is_last_y, is_last_z;  ///< of the grid: what follows is padding
     };
     struct Work {
         BundleSamples<T, Real> samples;

@@ -7,6 +7,10 @@
 
 #include <cstdint>
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "base/big_vector.h"
 #include "isoatlas/surface.h"
 #include "query/active_cells.h"
@@ -73,6 +77,36 @@ struct RowHits {
     [[nodiscard]] std::uint64_t x(std::int64_t w) const { return (row[w] ^ bits_after(row, w)) & window.mask(w); }
     [[nodiscard]] std::uint64_t y(std::int64_t w) const { return y_edges ? row[w] ^ next_y[w] : 0; }
     [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
+};
+
+/// Rows in groups that lie beside each other: those of a brick. Which groups have hits or active cells?
+class RowGroups {
+public:
+    static constexpr std::int64_t kSide = store::kBrickSize[1];
+
+    explicit RowGroups(const MeshDomain& domain)
+        : first_(group_of(domain.y_begin)),
+          count_(group_of(domain.y_end) - first_ + 1),
+          z_begin_(domain.z_begin),
+          used_(static_cast<std::size_t>(count_ * domain.rows_z())) {}
+    /// Of y from -1 on: row -1 is one of its own.
+    [[nodiscard]] static std::int64_t group_of(std::int64_t y) { return (y + kSide) / kSide; }
+    [[nodiscard]] std::int64_t begin() const { return first_; }
+    [[nodiscard]] std::int64_t end() const { return first_ + count_; }
+    /// Rows [begin, end) of a group.
+    [[nodiscard]] static std::array<std::int64_t, 2> rows(const MeshDomain& domain, std::int64_t group) {
+        return {std::max(domain.y_begin, kSide * (group - 1)), std::min(domain.y_end + 1, kSide * group)};
+    }
+    /// Groups of different slices may be used by several threads.
+    void use(std::int64_t group, std::int64_t z) { used_[place(group, z)] = 1; }
+    [[nodiscard]] bool is_used(std::int64_t group, std::int64_t z) const { return used_[place(group, z)] != 0; }
+
+private:
+    [[nodiscard]] std::size_t place(std::int64_t group, std::int64_t z) const {
+        return static_cast<std::size_t>(group - first_ + count_ * (z - z_begin_));
+    }
+    std::int64_t first_, count_, z_begin_;
+    std::vector<std::uint8_t> used_;
 };
 
 /// Places of all rows; the last entry holds the totals.

@@ -80,7 +80,8 @@ ISOATLAS_WIDE_CELLS void write_wide(const CellRow<4>& rows, const CellWindow& wi
                                     std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
     constexpr std::ptrdiff_t kWritten = 6;  // triangles, the last one not whole: what two vectors overwrite
     const __m512i one = _mm512_set1_epi64(1);
-    __m512i next = _mm512_loadu_si512(first.data());
+    // One by one: a vector cannot be loaded while the numbers that it is made of are being stored.
+    __m512i next = _mm512_set_epi64(first[7], first[6], first[5], first[4], first[3], first[2], first[1], first[0]);
     alignas(64) std::array<std::uint8_t, 64> patterns;
     for (std::int64_t i = 0; i < rows.busy.size; ++i) {
         for (std::uint64_t busy = rows.busy.bits[i]; busy != 0; busy &= busy - 1) {
