@@ -1,10 +1,32 @@
-// Functions that are compiled for the widest vectors of the processor too, and chosen when the program starts. Results are the same bytes:
-// every operation rounds as it does alone (contraction is off, cmake/warnings.cmake).
+// Functions for the widest vectors of the processor, chosen when the program runs. Results are the same bytes: every operation rounds as it
+// does alone (contraction is off, cmake/warnings.cmake).
 #pragma once
 
-/// Before the definition of a function, no template. What it calls must be inlined into it to gain anything.
+/// Compiled for several processors, the best one chosen when the program starts. Before the definition of a function, or of a template that
+/// is instantiated explicitly. What it calls must be inlined into it to gain anything.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define ISOATLAS_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define ISOATLAS_WIDE
+#endif
+
+/// Functions written for vectors of 512 bits: ISOATLAS_WIDE_512 before them, called only where has_wide_512().
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#define ISOATLAS_HAS_WIDE_512 1
+#define ISOATLAS_WIDE_512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi,bmi,bmi2,lzcnt,popcnt")))
+
+namespace isoatlas {
+
+[[nodiscard]] inline bool has_wide_512() {
+    static const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi") &&
+                            __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("popcnt");
+    return has;
+}
+
+}  // namespace isoatlas
+
+#else
+#define ISOATLAS_HAS_WIDE_512 0
 #endif

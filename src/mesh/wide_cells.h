@@ -2,25 +2,15 @@
 // permutations of the 16 numbers that its hits are among.
 #pragma once
 
+#include "base/wide.h"
 #include "mesh/plain_cells.h"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#include <immintrin.h>
-#define ISOATLAS_HAS_WIDE_CELLS 1
-#define ISOATLAS_WIDE_CELLS __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi,bmi,bmi2,lzcnt,popcnt")))
+#if ISOATLAS_HAS_WIDE_512
 
 namespace isoatlas {
 
-/// Can this processor run the functions below?
-[[nodiscard]] inline bool has_wide_cells() {
-    static const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-                            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi") &&
-                            __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
-    return has;
-}
-
 /// The patterns of the 64 cells of word w.
-ISOATLAS_WIDE_CELLS [[gnu::always_inline]] inline __m512i wide_patterns(const CellRow<4>& rows, std::int64_t w) {
+ISOATLAS_WIDE_512 [[gnu::always_inline]] inline __m512i wide_patterns(const CellRow<4>& rows, std::int64_t w) {
     __m512i patterns = _mm512_setzero_si512();
     for (int r = 0; r < 4; ++r) {
         const std::uint64_t* bits = rows.row[static_cast<std::size_t>(r)];
@@ -44,7 +34,7 @@ ISOATLAS_WIDE_CELLS [[gnu::always_inline]] inline __m512i wide_patterns(const Ce
 
 /// count_plain().
 template <class Rest>
-ISOATLAS_WIDE_CELLS std::int64_t count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words,
+ISOATLAS_WIDE_512 std::int64_t count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words,
                                             Rest&& rest) {
     std::array<__m512i, 4> table;
     for (std::size_t i = 0; i < 4; ++i) table[i] = _mm512_loadu_si512(cells.triangles.data() + 64 * i);
@@ -76,7 +66,7 @@ ISOATLAS_WIDE_CELLS std::int64_t count_wide(const CellRow<4>& rows, const CellWi
 
 /// write_plain().
 template <class Rest>
-ISOATLAS_WIDE_CELLS void write_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
+ISOATLAS_WIDE_512 void write_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
                                     std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
     constexpr std::ptrdiff_t kWritten = 6;  // triangles, the last one not whole: what two vectors overwrite
     const __m512i one = _mm512_set1_epi64(1);
@@ -129,8 +119,8 @@ namespace isoatlas {
 /// count_plain(), as fast as it gets here.
 template <class Rest>
 std::int64_t count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words, Rest&& rest) {
-#if ISOATLAS_HAS_WIDE_CELLS
-    if (has_wide_cells()) return count_wide(rows, window, cells, words, rest);
+#if ISOATLAS_HAS_WIDE_512
+    if (has_wide_512()) return count_wide(rows, window, cells, words, rest);
 #endif
     return count_plain(rows, window, cells, words, rest);
 }
@@ -139,8 +129,8 @@ std::int64_t count_plain_cells(const CellRow<4>& rows, const CellWindow& window,
 template <class Rest>
 void write_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
                        std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
-#if ISOATLAS_HAS_WIDE_CELLS
-    if (has_wide_cells()) return write_wide(rows, window, cells, first, triangle, end, rest);
+#if ISOATLAS_HAS_WIDE_512
+    if (has_wide_512()) return write_wide(rows, window, cells, first, triangle, end, rest);
 #endif
     write_plain(rows, window, cells, first, triangle, end, rest);
 }

@@ -184,9 +184,26 @@ private:
         throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
     }
 
+    /// Of bricks in ascending order, for those that lie side by side at once.
+    void take_memory(const std::vector<std::int64_t>& bricks, int threads) {
+        constexpr std::int64_t kTogether = 1024;
+        const auto count = static_cast<std::int64_t>(bricks.size());
+        for_each_block(threads, (count + kTogether - 1) / kTogether, [&](std::int64_t block) {
+            const std::int64_t end = std::min((block + 1) * kTogether, count);
+            for (std::int64_t i = block * kTogether; i < end;) {
+                std::int64_t next = i + 1;
+                while (next < end && bricks[next] == bricks[next - 1] + 1) ++next;
+                array_.take(static_cast<std::size_t>(layout_.first_sample(bricks[i])) * sizeof(T),
+                            static_cast<std::size_t>(layout_.first_sample(next - i)) * sizeof(T));
+                i = next;
+            }
+        });
+    }
+
     /// Makes bricks present; the query holds them.
     void load(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
         const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
+        take_memory(missing, context.threads);
         try {
             query += bricks_.read(missing, context, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
         } catch (...) {

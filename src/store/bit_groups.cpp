@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <numeric>
+
+#include "base/wide.h"
 
 namespace isoatlas::store {
 namespace {
@@ -17,7 +20,7 @@ struct Widths {
 };
 
 /// Rows and columns of 8 x 8 bits change places (Warren, Hacker's Delight, 7-3).
-std::uint64_t transposed(std::uint64_t bits) {
+[[gnu::always_inline]] inline std::uint64_t transposed(std::uint64_t bits) {
     std::uint64_t change = (bits ^ bits >> 7) & 0x00aa00aa00aa00aa;
     bits ^= change ^ change << 7;
     change = (bits ^ bits >> 14) & 0x0000cccc0000cccc;
@@ -79,30 +82,74 @@ std::uint64_t word_at(const std::byte* from) {
 
 /// Reads one group without a branch.
 template <class N>
-void read_group(const std::byte* from, int width, N* group) {
+[[gnu::always_inline]] inline void read_group(const std::byte* from, int width, N* group) {
     const int whole = width / 8, left = width % 8;
     std::array<std::uint64_t, sizeof(N) + 1> words;  // bytes k of the 8 numbers
     for (int k = 0; k < static_cast<int>(sizeof(N)); ++k) words[static_cast<std::size_t>(k)] = k < whole ? word_at(from + 8 * k) : 0;
     words[static_cast<std::size_t>(whole)] = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words.data());
+    std::array<N, kGroup> numbers{};
+    for (std::size_t k = 0; k < sizeof(N); ++k) {
+        for (std::size_t i = 0; i < kGroup; ++i) numbers[i] |= static_cast<N>(static_cast<N>(bytes[8 * k + i]) << 8 * k);
+    }
+    std::copy(numbers.begin(), numbers.end(), group);
+}
+
+#if ISOATLAS_HAS_WIDE_512
+/// Byte j of the numbers of a group is byte order[j] of the bytes of the group.
+template <class N>
+constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
+    std::array<std::uint8_t, 64> order{};
     for (std::size_t i = 0; i < kGroup; ++i) {
-        N number = 0;
-        for (std::size_t k = 0; k < sizeof(N); ++k) number |= static_cast<N>(static_cast<N>(bytes[8 * k + i]) << 8 * k);
-        group[i] = number;
+        for (std::size_t k = 0; k < sizeof(N); ++k) order[i * sizeof(N) + k] = static_cast<std::uint8_t>(8 * k + i);
+    }
+    return order;
+}();
+
+/// The same in one permutation.
+template <class N>
+ISOATLAS_WIDE_512 [[gnu::always_inline]] inline void read_group_wide(const std::byte* from, int width, N* group) {
+    const int whole = width / 8, left = width % 8;
+    const auto low_bytes = [](int words) { return words >= 8 ? ~__mmask64{0} : (__mmask64{1} << 8 * words) - 1; };
+    __m512i words = _mm512_maskz_loadu_epi8(low_bytes(whole), from);
+    const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
+    words = _mm512_mask_set1_epi64(words, static_cast<__mmask8>(1U << whole), static_cast<long long>(bits));
+    const __m512i numbers = _mm512_permutexvar_epi8(_mm512_loadu_si512(kByteOrder<N>.data()), words);
+    _mm512_mask_storeu_epi8(group, low_bytes(sizeof(N)), numbers);
+}
+
+template <class N>
+ISOATLAS_WIDE_512 void read_groups_wide(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+    for (const int width : widths) {
+        read_group_wide(from, width, numbers);
+        from += width, numbers += kGroup;
+    }
+}
+#endif
+
+/// Groups one behind the other; kLookedAt bytes may be read from the start of the last one on.
+template <class N>
+void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+#if ISOATLAS_HAS_WIDE_512
+    if (has_wide_512()) return read_groups_wide(from, widths, numbers);
+#endif
+    for (const int width : widths) {
+        read_group(from, width, numbers);
+        from += width, numbers += kGroup;
     }
 }
 
-/// Reads one group of the width that it has; false where it ends too early.
+/// Reads groups of the widths that they have; false where they end too early.
 template <class N>
-bool take_group(std::span<const std::byte>& packed, int width, N* group) {
-    const auto size = static_cast<std::size_t>(width);
-    if (packed.size() >= kLookedAt<N>) {
-        read_group(packed.data(), width, group);
+bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_t> widths, N* numbers) {
+    const std::size_t size = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
+    if (packed.size() < size) return false;
+    if (packed.size() >= size + kLookedAt<N>) {
+        read_groups(packed.data(), widths, numbers);
     } else {
-        if (packed.size() < size) return false;
-        std::array<std::byte, kLookedAt<N>> padded{};
-        std::copy_n(packed.begin(), size, padded.begin());
-        read_group(padded.data(), width, group);
+        std::vector<std::byte> padded(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
+        padded.resize(size + kLookedAt<N>);
+        read_groups(padded.data(), widths, numbers);
     }
     packed = packed.subspan(size);
     return true;
@@ -111,7 +158,7 @@ bool take_group(std::span<const std::byte>& packed, int width, N* group) {
 }  // namespace
 
 template <class N>
-std::int64_t group_bytes(std::span<const N> numbers) {
+ISOATLAS_WIDE std::int64_t group_bytes(std::span<const N> numbers) {
     return best_widths(numbers).bytes;
 }
 
@@ -139,12 +186,16 @@ bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
     if (more > 7 || static_cast<std::int64_t>(packed.size()) < size) return false;
     std::span<const std::byte> widths = packed.first(static_cast<std::size_t>(size));
     packed = packed.subspan(widths.size());
-    std::array<std::uint8_t, kGroup> above{};
-    for (std::size_t i = 0; i < numbers.size(); i += kGroup) {
-        const std::size_t k = i / kGroup % 8;
-        if (k == 0 && !take_group(widths, more, above.data())) return false;
-        const int width = least + above[k];
-        if (width > static_cast<int>(8 * sizeof(N)) || !take_group(packed, width, numbers.data() + i)) return false;
+    std::array<std::uint8_t, kGroup> group{};
+    for (std::size_t i = 0; i < numbers.size(); i += 8 * kGroup) {
+        const std::array<std::uint8_t, 1> width_of_widths{static_cast<std::uint8_t>(more)};
+        if (!take_groups<std::uint8_t>(widths, width_of_widths, group.data())) return false;
+        for (std::uint8_t& width : group) {
+            if (least + width > static_cast<int>(8 * sizeof(N))) return false;
+            width = static_cast<std::uint8_t>(width + least);
+        }
+        const std::size_t count = std::min<std::size_t>(8, (numbers.size() - i) / kGroup);
+        if (!take_groups<N>(packed, std::span(group).first(count), numbers.data() + i)) return false;
     }
     return true;
 }

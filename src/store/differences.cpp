@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "base/wide.h"
+
 namespace isoatlas::store {
 namespace {
 
@@ -29,7 +31,7 @@ void subtract(N* numbers, const Lines& shape, std::int64_t first) {
 
 /// Inverse: running sums.
 template <class N>
-void add(N* numbers, const Lines& shape, std::int64_t first) {
+[[gnu::always_inline]] inline void add(N* numbers, const Lines& shape, std::int64_t first) {
     for (std::int64_t block = 0; block < shape.blocks; ++block, numbers += shape.lines * shape.length) {
         for (std::int64_t line = first; line < shape.lines; ++line) {
             N* to = numbers + line * shape.length;
@@ -40,7 +42,7 @@ void add(N* numbers, const Lines& shape, std::int64_t first) {
 
 /// The same for both orders along x, where a line is one number.
 template <class N>
-void add_along_rows(N* numbers, std::int64_t rows, std::int64_t length, int order) {
+[[gnu::always_inline]] inline void add_along_rows(N* numbers, std::int64_t rows, std::int64_t length, int order) {
     for (std::int64_t row = 0; row < rows; ++row, numbers += length) {
         N sum = numbers[0], slope = order == 2 && length > 1 ? numbers[1] : N{0};
         if (order == 1) {
@@ -85,7 +87,7 @@ std::span<const Stretch> stretches(std::int64_t size, int order, std::array<Stre
 
 /// Calls visit(first number, length) for every part of a row in the order in which they are stored.
 template <class Visit>
-void for_each_part(const BoxSize& size, const Orders& orders, const Visit& visit) {
+[[gnu::always_inline]] inline void for_each_part(const BoxSize& size, const Orders& orders, const Visit& visit) {
     std::array<Stretch, 3> along_x, along_y;
     for (const Stretch& xs : stretches(size[0], orders[0], along_x)) {
         for (const Stretch& ys : stretches(size[1], orders[1], along_y)) {
@@ -99,14 +101,14 @@ void for_each_part(const BoxSize& size, const Orders& orders, const Visit& visit
 }  // namespace
 
 template <class N>
-void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
+ISOATLAS_WIDE void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int order = 1; order <= orders[axis]; ++order) subtract(numbers.data(), lines_of(size, axis), order);
     }
 }
 
 template <class N>
-void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
+ISOATLAS_WIDE void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
     for (int axis = 2; axis >= 0; --axis) {
         if (axis == 0 && orders[0] > 0) add_along_rows(numbers.data(), size[1] * size[2], size[0], orders[0]);
         for (int order = axis == 0 ? 0 : orders[axis]; order >= 1; --order) add(numbers.data(), lines_of(size, axis), order);
@@ -114,14 +116,14 @@ void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& o
 }
 
 template <class N>
-void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out) {
+ISOATLAS_WIDE void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out) {
     N* to = out.data();
     for_each_part(size, orders, [&](std::int64_t first, std::int64_t length) { to = std::copy_n(differences.data() + first, length, to); });
     if (are_signed(orders)) std::transform(out.begin(), out.end(), out.begin(), without_sign<N>);
 }
 
 template <class N>
-void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out) {
+ISOATLAS_WIDE void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out) {
     if (are_signed(orders)) std::transform(arranged.begin(), arranged.end(), arranged.begin(), with_sign<N>);
     const N* from = arranged.data();
     for_each_part(size, orders, [&](std::int64_t first, std::int64_t length) {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
+#include "base/wide.h"
 #include "base/check.h"
 #include "store/brick_grid.h"
 
@@ -74,7 +76,14 @@ public:
         position_ += static_cast<std::size_t>(bits);
         return word;
     }
-    [[nodiscard]] bool is_at_end() const { return (position_ + 7) / 8 == size_; }
+    /// `bits` (at most 56) from a position on.
+    [[nodiscard]] std::uint64_t at(std::size_t position, int bits) const {
+        std::uint64_t word;
+        std::memcpy(&word, bytes_.data() + position / 8, 8);
+        return word >> position % 8 & ((std::uint64_t{1} << bits) - 1);
+    }
+    [[nodiscard]] bool is_at_end() const { return ends_at(position_); }
+    [[nodiscard]] bool ends_at(std::size_t position) const { return (position + 7) / 8 == size_; }
 
 private:
     static constexpr std::size_t kLookedAt = 8;  ///< bytes behind the end
@@ -94,6 +103,18 @@ T take_small(BitReader& reader) {
     Key<T> bits = 0;
     for (std::size_t i = 0; i < sizeof(T); i += 4) bits |= static_cast<Key<T>>(reader.take(32)) << 8 * i;
     return std::bit_cast<T>(bits);
+}
+
+/// join_tails() where no sample is of 0 units: where each tail lies is known before any is read.
+template <class T>
+[[gnu::always_inline]] inline bool join_each(const BitReader& reader, std::span<const std::int8_t> bits, std::span<T> samples) {
+    std::array<std::uint32_t, kBrickSamples> position;
+    std::uint32_t end = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) position[i] = std::exchange(end, end + static_cast<std::uint32_t>(bits[i]));
+    if (!reader.ends_at(end)) return false;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(samples[i]) | reader.at(position[i], bits[i])));
+    return true;
 }
 
 template <class T>
@@ -128,7 +149,7 @@ Key<T> in_units(T sample, const Units& units) {
 }
 
 template <class T>
-void from_units(std::span<const Key<T>> numbers, const Units& units, std::span<T> samples) {
+ISOATLAS_WIDE void from_units(std::span<const Key<T>> numbers, const Units& units, std::span<T> samples) {
     const T unit = power_of_2<T>(units.exponent);
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i] = static_cast<T>(static_cast<std::make_signed_t<Key<T>>>(numbers[i])) * unit;
@@ -153,7 +174,7 @@ void append_tails(std::span<const T> samples, const Units& units, std::vector<st
 }
 
 template <class T>
-bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
+ISOATLAS_WIDE bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
     if (units.exponent < kLeastPlace<T> || units.exponent >= std::numeric_limits<T>::max_exponent) return false;
     if (tails.size() > BitReader::kMost || samples.size() > static_cast<std::size_t>(kBrickSamples)) return false;
     from_units(numbers, units, samples);
@@ -161,6 +182,8 @@ bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tail
     for (std::size_t i = 0; i < samples.size(); ++i)
         bits[i] = static_cast<std::int8_t>(std::clamp(units.exponent - Parts<T>(samples[i]).place, 0, 56));
     BitReader reader(tails);
+    if (std::none_of(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(samples.size()), [](Key<T> n) { return n == 0; }))
+        return join_each(reader, std::span(bits).first(samples.size()), samples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (numbers[i] == 0) {
             samples[i] = take_small<T>(reader);
