@@ -100,7 +100,7 @@ void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) c
             place.fans += triangles_[state.number].fans;
         }
     };
-    place.triangle += count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, place.cell_words, count_rest);
+    count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, place, count_rest);
 }
 
 // The slope of the interpolant itself: inside a tunnel it has little to do with differences between voxels.

@@ -27,7 +27,7 @@ public:
           flip_(flip),
           plain_(options.style, tunnels_.finds_any(), flip) {}
 
-    /// Adds the triangles and articulation points of cell row (y, z) to the counts of its place.
+    /// Counts the hits of row (y, z), and the triangles and articulation points of its cells.
     void count_row(std::int64_t y, std::int64_t z, RowPlace& place) const;
     /// Writes triangles and articulation points (with normals and contours when the surface has them). All hits are already written.
     void write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const;

@@ -102,12 +102,11 @@ private:
         RowPlace& place = layout_[domain_.row_number(y, z)];
         place = {};
         if (domain_.high.busy(y, z).empty()) return false;
-        count_hits(domain_, y, z, place);
-        if (has_cells(y, z)) {
-            if (domain_.is_2d())
-                place.triangle = count_segments(domain_, y);
-            else
-                cells_.count_row(y, z, place);
+        if (domain_.is_2d() || !has_cells(y, z)) {
+            count_hits(domain_, y, z, place);
+            if (has_cells(y, z)) place.triangle = count_segments(domain_, y);
+        } else {
+            cells_.count_row(y, z, place);
         }
         return place.x_hits + place.y_hits + place.z_hits + place.triangle > 0;
     }

@@ -20,7 +20,10 @@ void for_bits(std::uint64_t bits, Visit&& visit) {
 
 template <class T>
 HitWriter<T>::HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface)
-    : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface) {}
+    : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface) {
+    for (int axis = 0; axis < 3; ++axis)
+        border_normal_[axis] = {map.normal(Vec3{0, 0, 0}, axis, -1), map.normal(Vec3{0, 0, 0}, axis, 1)};
+}
 
 template <class T>
 std::int64_t HitWriter<T>::bundles() const {
@@ -79,9 +82,15 @@ void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
     const std::int64_t last = grid_.extent.size[0];  // position of the last voxel
     const std::array<std::uint64_t, 3> border{w == last / 64 ? inner_x & std::uint64_t{1} << last % 64 : 0, row.is_last_y ? bits[1] : 0,
                                               row.is_last_z ? bits[2] : 0};
-    add(w, inner_x ^ border[0], 0, row, work);
-    add(w, bits[1] ^ border[1], 1, row, work);
-    add(w, bits[2] ^ border[2], 2, row, work);
+    const std::array<std::uint64_t, 3> inner{inner_x ^ border[0], bits[1] ^ border[1], bits[2] ^ border[2]};
+    HitBatch<Real>& batch = work.batch;
+    const bool is_at_end = ((inner[0] | inner[1] | inner[2]) & end_positions(w)) != 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (batch.is_full()) flush(work);
+        batch.is_at_end = batch.is_at_end || is_at_end;
+        row.next[axis] += append({static_cast<std::int32_t>(64 * w - 1), row.y, row.z, static_cast<std::int32_t>(axis), row.next[axis]},
+                                 inner[axis], batch);
+    }
     if ((border[0] | border[1] | border[2]) == 0) return;
     for (std::size_t axis = 0; axis < 3; ++axis) write_ends(w, border[axis], axis, row, work);
 }
@@ -93,24 +102,6 @@ std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
     std::uint64_t ends = w == 0 ? 2 : 0;
     for (const std::int64_t p : {last - 1, last}) ends |= p / 64 == w ? std::uint64_t{1} << p % 64 : 0;
     return ends;
-}
-
-template <class T>
-[[gnu::always_inline]] inline void HitWriter<T>::add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const {
-    if (bits == 0) return;
-    HitBatch<Real>& batch = work.batch;
-    const std::uint64_t ends = bits & end_positions(w);
-    batch.is_at_end = batch.is_at_end || ends != 0;
-    const auto before = static_cast<std::int32_t>(64 * w - 1);  // position p is voxel p - 1
-    for_bits(bits, [&](int bit) {
-        const std::size_t i = batch.count;
-        batch.from[0][i] = before + bit, batch.from[1][i] = row.y, batch.from[2][i] = row.z;
-        batch.axis[i] = static_cast<std::int32_t>(axis);
-        batch.point[i] = row.next[axis]++;
-        if (++batch.count < kLanes) return;
-        flush(work);
-        batch.is_at_end = ends != 0;
-    });
 }
 
 template <class T>
@@ -175,7 +166,7 @@ void HitWriter<T>::write_border(const Vec3& position, int axis, double sign, std
     Vec3 outside = position;
     outside[axis] += sign * kHitMargin;
     surface_.points[point] = map_.point(outside);
-    if (!surface_.normals.empty()) surface_.normals[point] = map_.normal(Vec3{0, 0, 0}, axis, sign);
+    if (!surface_.normals.empty()) surface_.normals[point] = border_normal_[axis][sign > 0 ? 1 : 0];
 }
 
 template <class T>

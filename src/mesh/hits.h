@@ -43,11 +43,9 @@ private:
     };
     void write_slice(std::vector<Row>& rows, Work& work) const;
     void write_word(std::int64_t w, Row& row, Work& work) const;
-    /// `bits`: positions of word w.
-    void add(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, Work& work) const;
     void flush(Work& work) const;
     void gather(Work& work) const;
-    /// The hits between voxels of a row and the padding behind them along an axis.
+    /// The hits between voxels of a row, at positions of word w, and the padding behind them along an axis.
     void write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const;
     /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.
     void write_border(const Vec3& position, int axis, double sign, std::int64_t point) const;
@@ -62,6 +60,7 @@ private:
     const PhysicalMap& map_;
     const MeshDomain& domain_;
     Surface& surface_;
+    std::array<std::array<std::array<float, 3>, 2>, 3> border_normal_{};  ///< by axis and side: before or behind the grid
 };
 
 }  // namespace isoatlas

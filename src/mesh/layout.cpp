@@ -1,7 +1,5 @@
 #include "mesh/layout.h"
 
-#include <bit>
-
 #include "base/wide.h"
 
 namespace isoatlas {
@@ -27,14 +25,7 @@ MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
 
 ISOATLAS_WIDE void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
     const RowHits hits(domain, y, z);
-    hits.busy.for_each([&](std::int64_t w) {
-        const std::uint64_t along_x = hits.x(w), along_y = hits.y(w), along_z = hits.z(w);
-        if ((along_x | along_y | along_z) == 0) return;
-        place.x_hits += static_cast<std::uint32_t>(std::popcount(along_x));
-        place.y_hits += static_cast<std::uint32_t>(std::popcount(along_y));
-        place.z_hits += static_cast<std::uint32_t>(std::popcount(along_z));
-        mark_word(place.hit_words, w);
-    });
+    hits.busy.for_each([&](std::int64_t w) { count_hits(w, hits.x(w), hits.y(w), hits.z(w), place); });
 }
 
 void turn_counts_into_places(Layout& layout) {

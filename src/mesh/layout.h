@@ -5,10 +5,10 @@
 // row (y + 1, z), on those to (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
 #pragma once
 
-#include <cstdint>
-
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "base/big_vector.h"
@@ -112,7 +112,15 @@ private:
 /// Places of all rows; the last entry holds the totals.
 using Layout = BigVector<RowPlace>;
 
-/// Counts hits per row and marks their words; triangles and articulation points are added by the caller, then turned into places.
+/// Adds the hits of word w of a row to its counts, along each axis, and marks the word.
+[[gnu::always_inline]] inline void count_hits(std::int64_t w, std::uint64_t x, std::uint64_t y, std::uint64_t z, RowPlace& place) {
+    if ((x | y | z) == 0) return;
+    place.x_hits += static_cast<std::uint32_t>(std::popcount(x));
+    place.y_hits += static_cast<std::uint32_t>(std::popcount(y));
+    place.z_hits += static_cast<std::uint32_t>(std::popcount(z));
+    mark_word(place.hit_words, w);
+}
+/// The same for a whole row; triangles and articulation points are added by the caller, then turned into places.
 void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place);
 /// RowPlace::triangle holds counts before, first numbers after.
 void turn_counts_into_places(Layout& layout);

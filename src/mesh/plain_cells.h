@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "mesh/cell_triangles.h"
+#include "mesh/layout.h"
 #include "query/active_cells.h"
 
 namespace isoatlas {
@@ -33,17 +34,20 @@ using HitCounters = std::array<std::int64_t, 8>;
     return {before[0], before[1], before[2], before[3], before[4], after[4], before[5], after[5], before[6], after[6], before[7], after[7]};
 }
 
-/// The triangles of the plain cells of a row; marks words with active cells. Calls rest(p, pattern) for the other ones, p ascending.
+/// Counts the hits on the edges that begin in the first of the rows, and the triangles of the plain cells; marks their words. Calls
+/// rest(p, pattern) for the other active cells, p ascending.
 template <class Rest>
-std::int64_t count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words, Rest&& rest) {
-    std::int64_t triangles = 0;
+void count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowPlace& place, Rest&& rest) {
+    rows.busy.for_each([&](std::int64_t w) {
+        count_hits(w, (rows.row[0][w] ^ bits_after(rows.row[0], w)) & window.mask(w), rows.row[0][w] ^ rows.row[1][w],
+                   rows.row[0][w] ^ rows.row[2][w], place);
+    });
     for_active_cells(rows, window, [&](std::int64_t p, int pattern) {
-        words |= std::uint64_t{1} << p / 64 % 64;
+        mark_word(place.cell_words, p / 64);
         const int own = cells.triangles[static_cast<std::size_t>(pattern)];
-        triangles += own;
+        place.triangle += own;
         if (own == 0) rest(p, pattern);
     });
-    return triangles;
 }
 
 /// Writes the triangles of the plain cells of a row from `triangle` on, all before `end`. Calls rest(p, pattern, counters before, counters

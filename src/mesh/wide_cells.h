@@ -34,17 +34,17 @@ ISOATLAS_WIDE_512 [[gnu::always_inline]] inline __m512i wide_patterns(const Cell
 
 /// count_plain().
 template <class Rest>
-ISOATLAS_WIDE_512 std::int64_t count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words,
-                                            Rest&& rest) {
+ISOATLAS_WIDE_512 void count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowPlace& place, Rest&& rest) {
     std::array<__m512i, 4> table;
     for (std::size_t i = 0; i < 4; ++i) table[i] = _mm512_loadu_si512(cells.triangles.data() + 64 * i);
     __m512i sums = _mm512_setzero_si512();
     for (std::int64_t i = 0; i < rows.busy.size; ++i) {
         for (std::uint64_t busy = rows.busy.bits[i]; busy != 0; busy &= busy - 1) {
             const std::int64_t w = 64 * i + std::countr_zero(busy);
-            const std::uint64_t active = active_cells(rows, w) & window.mask(w);
+            const std::uint64_t active = active_cells(rows, w) & window.mask(w), here = rows.row[0][w];
+            count_hits(w, (here ^ bits_after(rows.row[0], w)) & window.mask(w), here ^ rows.row[1][w], here ^ rows.row[2][w], place);
             if (active == 0) continue;
-            words |= std::uint64_t{1} << w % 64;
+            mark_word(place.cell_words, w);
             const __m512i patterns = wide_patterns(rows, w);
             const __m512i low = _mm512_permutex2var_epi8(table[0], patterns, table[1]);
             const __m512i high = _mm512_permutex2var_epi8(table[2], patterns, table[3]);
@@ -61,7 +61,7 @@ ISOATLAS_WIDE_512 std::int64_t count_wide(const CellRow<4>& rows, const CellWind
             }
         }
     }
-    return _mm512_reduce_add_epi64(sums);
+    place.triangle += _mm512_reduce_add_epi64(sums);
 }
 
 /// write_plain().
@@ -118,11 +118,11 @@ namespace isoatlas {
 
 /// count_plain(), as fast as it gets here.
 template <class Rest>
-std::int64_t count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, std::uint64_t& words, Rest&& rest) {
+void count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowPlace& place, Rest&& rest) {
 #if ISOATLAS_HAS_WIDE_512
-    if (has_wide_512()) return count_wide(rows, window, cells, words, rest);
+    if (kHasWide512) return count_wide(rows, window, cells, place, rest);
 #endif
-    return count_plain(rows, window, cells, words, rest);
+    count_plain(rows, window, cells, place, rest);
 }
 
 /// write_plain(), as fast as it gets here.
@@ -130,7 +130,7 @@ template <class Rest>
 void write_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
                        std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
 #if ISOATLAS_HAS_WIDE_512
-    if (has_wide_512()) return write_wide(rows, window, cells, first, triangle, end, rest);
+    if (kHasWide512) return write_wide(rows, window, cells, first, triangle, end, rest);
 #endif
     write_plain(rows, window, cells, first, triangle, end, rest);
 }

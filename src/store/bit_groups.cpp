@@ -131,7 +131,7 @@ ISOATLAS_WIDE_512 void read_groups_wide(const std::byte* from, std::span<const s
 template <class N>
 void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
 #if ISOATLAS_HAS_WIDE_512
-    if (has_wide_512()) return read_groups_wide(from, widths, numbers);
+    if (kHasWide512) return read_groups_wide(from, widths, numbers);
 #endif
     for (const int width : widths) {
         read_group(from, width, numbers);
