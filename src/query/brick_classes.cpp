@@ -20,44 +20,28 @@ bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, b
     return (bits & mask) == (high ? mask : 0);
 }
 
-/// Are the bricks at and beside a place along x all of one class? Outside of the grid everything is Low.
-bool is_row_of(BrickClass own, const BrickGrid& grid, const std::vector<BrickClass>& classes, const std::array<std::int64_t, 3>& place) {
-    const bool outside = place[1] < 0 || place[2] < 0 || place[1] >= grid.size[1] || place[2] >= grid.size[2];
-    for (std::int64_t x = place[0] - 1; x <= place[0] + 1; ++x) {
-        const bool is_outside = outside || x < 0 || x >= grid.size[0];
-        if ((is_outside ? BrickClass::low : classes[static_cast<std::size_t>(grid.brick({x, place[1], place[2]}))]) != own) return false;
-    }
-    return true;
+/// Samples of a box that face one in direction d along an axis: the first one before it, all of them, the first one behind it.
+std::array<std::int64_t, 2> facing(const Box& box, int axis, std::int64_t d) {
+    if (d < 0) return {box.begin[axis] - 1, box.begin[axis]};
+    return d == 0 ? std::array{box.begin[axis], box.end[axis]} : std::array{box.end[axis], box.end[axis] + 1};
 }
 
-/// Rows of samples [begin, end) of an axis that belong to a side of a box: before it, in it, behind it.
-std::array<std::int64_t, 2> side_of(const Box& box, int axis, std::int64_t side) {
-    if (side < 0) return {box.begin[axis] - kSurroundings, box.begin[axis]};
-    return side == 0 ? std::array{box.begin[axis], box.end[axis]} : std::array{box.end[axis], box.end[axis] + kSurroundings};
-}
-
-bool is_uniform_around(const BrickGrid& grid, const HighBits& high, const std::vector<BrickClass>& classes, std::int64_t brick) {
-    const BrickClass own = classes[static_cast<std::size_t>(brick)];
-    const std::array<std::int64_t, 3> place = grid.place(brick);
-    const Box box = grid.box(brick);
-    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
-    const auto is_uniform = [&](std::int64_t y, std::int64_t z) {
-        const RowPart part = surroundings(box, y, z);  // position p is voxel p - 1
-        const std::int64_t begin = std::max<std::int64_t>(part.begin + 1, 0), end = std::min(part.end + 1, grid.extent.size[0] + 2);
-        return begin >= end || all_equal(high.row(y, z), begin, end, own == BrickClass::high);  // rows outside are Low
-    };
-    for (std::int64_t side_z = -flat; side_z <= flat; ++side_z) {
-        for (std::int64_t side_y = -1; side_y <= 1; ++side_y) {
-            if (is_row_of(own, grid, classes, {place[0], place[1] + side_y, place[2] + side_z})) continue;
-            const auto ys = side_of(box, 1, side_y), zs = side_of(box, 2, side_z);
-            for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
-                for (std::int64_t y = ys[0]; y < ys[1]; ++y) {
-                    if (!is_uniform(y, z)) return false;
-                }
-            }
+/// Are there samples of the other class among those of a divided brick that lie in a cell with one of a brick, which it touches along an edge
+/// or in a corner?
+bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::array<std::int64_t, 3>& d) {
+    const auto xs = facing(box, 0, d[0]), ys = facing(box, 1, d[1]), zs = facing(box, 2, d[2]);
+    for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
+        for (std::int64_t y = ys[0]; y < ys[1]; ++y) {
+            if (!all_equal(high.row(y, z), xs[0] + 1, xs[1] + 1, own)) return true;  // position p is voxel p - 1
         }
     }
-    return true;
+    return false;
+}
+
+/// Layers of a brick, as bits, that lie at most `steps` from what lies in direction -d of it.
+std::uint16_t near_layers(std::size_t axis, std::int64_t d, int steps) {
+    const int first = (1 << steps) - 1;
+    return static_cast<std::uint16_t>(d > 0 ? first : first << (store::kBrickSize[axis] - steps));
 }
 
 }  // namespace
@@ -73,15 +57,44 @@ std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vect
     return touching;
 }
 
-bool is_beside_surface(const HighBits& high, const BrickGrid& grid, const std::vector<BrickClass>& classes, std::int64_t brick) {
-    return !is_uniform_around(grid, high, classes, brick);
+bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides, std::int64_t brick) {
+    const BrickGrid& grid = bricks.grid;
+    const BrickClass own = bricks.classes[static_cast<std::size_t>(brick)];
+    const std::array<std::int64_t, 3> place = grid.place(brick);
+    const Box box = grid.box(brick);
+    const auto is_beside = [&](const std::array<std::int64_t, 3>& d) {
+        std::array<std::int64_t, 3> at;
+        int axes = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[axis] = place[axis] + d[axis];
+            axes += d[axis] != 0;
+            if (at[axis] < 0 || at[axis] >= grid.size[axis]) return own == BrickClass::high;  // outside is Low
+        }
+        const auto other = static_cast<std::size_t>(grid.brick(at));
+        if (bricks.classes[other] != BrickClass::divided) return bricks.classes[other] != own;
+        const auto& layers = own == BrickClass::high ? sides[other].low : sides[other].high;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int steps = axes == 1 ? static_cast<int>(kSurroundings) : 1;
+            if (d[axis] != 0 && (layers[axis] & near_layers(axis, d[axis], steps)) == 0) return false;
+        }
+        return axes == 1 || meets_in_cell(high, box, own == BrickClass::high, d);
+    };
+    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
+    for (std::int64_t z = -flat; z <= flat; ++z) {
+        for (std::int64_t y = -1; y <= 1; ++y) {
+            for (std::int64_t x = -1; x <= 1; ++x) {
+                if ((x != 0 || y != 0 || z != 0) && is_beside({x, y, z})) return true;
+            }
+        }
+    }
+    return false;
 }
 
-std::vector<std::int64_t> beside_surface(const HighBits& high, const BrickGrid& grid, const std::vector<BrickClass>& classes, int threads) {
-    std::vector<std::uint8_t> wanted = touching_others(grid, classes);
-    for_bricks(grid, threads, [&](std::int64_t b) {
+std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides, int threads) {
+    std::vector<std::uint8_t> wanted = touching_others(bricks.grid, bricks.classes);
+    for_bricks(bricks.grid, threads, [&](std::int64_t b) {
         const auto i = static_cast<std::size_t>(b);
-        if (wanted[i]) wanted[i] = is_beside_surface(high, grid, classes, b);
+        if (wanted[i]) wanted[i] = is_beside_surface(high, bricks, sides, b);
     });
     return flagged(wanted);
 }

@@ -54,6 +54,7 @@ public:
             kept.beside.assign(all.level.bricks.classes.size(), 0);
             for (const std::int64_t b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
             kept.level = std::move(all.level);
+            kept.sides = std::move(all.sides);
             return grid_.count();
         }
         auto& [high, bricks] = *kept.level;
@@ -61,11 +62,11 @@ public:
         high.set_busy(bricks);
         hold(divided_bricks(BrickPart(grid_), bricks), context, query);
         const std::vector<std::uint8_t> changed = bricks_between(threshold_for<T>(*before), threshold);
-        refill(high, changed, bricks.classes, threshold.least, context.threads);
+        refill(changed, bricks.classes, threshold.least, context.threads, kept);
         const std::vector<std::uint8_t> near = with_neighbours(grid_, changed);
         const std::vector<std::uint8_t> touching = touching_others(grid_, bricks.classes);
         for_bricks(grid_, context.threads, [&](std::int64_t b) {
-            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, grid_, bricks.classes, b);
+            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, bricks, kept.sides, b);
         });
         hold(flagged(kept.beside), context, query);
         return std::count(changed.begin(), changed.end(), std::uint8_t{1});
@@ -225,18 +226,19 @@ private:
 
     struct Classified {
         StoredLevel level;
+        std::vector<BrickSides> sides;     ///< of the divided bricks
         std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
     };
 
     Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
         LevelBricks around = bricks_of(part, threshold, context.threads);
         HighBits bits(around);
-        Classified result{{std::move(bits), std::move(around)}, {}};
+        Classified result{{std::move(bits), std::move(around)}, std::vector<BrickSides>(static_cast<std::size_t>(part.grid.count())), {}};
         auto& [high, bricks] = result.level;
         result.needed = divided_bricks(part, bricks);
         hold(result.needed, context, query);
-        fill(high, part, bricks.classes, threshold.least, context.threads);
-        std::vector<std::int64_t> beside = beside_surface(high, part.grid, bricks.classes, context.threads);
+        fill(high, part, bricks.classes, threshold.least, context.threads, result.sides);
+        std::vector<std::int64_t> beside = beside_surface(high, bricks, result.sides, context.threads);
         for (std::int64_t& b : beside) b = part.number(b);
         hold(beside, context, query);
         result.needed.insert(result.needed.end(), beside.begin(), beside.end());
@@ -262,24 +264,23 @@ private:
         return between;
     }
 
-    void refill(HighBits& high, const std::vector<std::uint8_t>& changed, const std::vector<BrickClass>& classes, T least, int threads) {
+    void refill(const std::vector<std::uint8_t>& changed, const std::vector<BrickClass>& classes, T least, int threads, KeptLevel& kept) {
+        HighBits& high = kept.level->high;
         for_each_block(threads, grid_.size[1] * grid_.size[2], [&](std::int64_t row_of_bricks) {
             for (std::int64_t b = row_of_bricks * grid_.size[0]; b < (row_of_bricks + 1) * grid_.size[0]; ++b) {
-                if (changed[b]) refill_brick(high, b, classes[b], least);
+                if (!changed[b]) continue;
+                const Box box = grid_.box(b);
+                if (classes[b] == BrickClass::divided)
+                    kept.sides[b] = fill_brick(high, box, b, least);
+                else
+                    put_brick(classes[b] == BrickClass::high ? all_high(box) : BrickBits{}, box, high);
             }
         });
     }
-    void refill_brick(HighBits& high, std::int64_t brick, BrickClass own, T least) {
-        const Box box = grid_.box(brick);
-        const std::int64_t count = box.size(0);
-        const std::uint64_t whole = own == BrickClass::high ? 0xffff >> (kBrickRow - count) : 0;
-        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-                const T* values = samples() + layout_.row(brick, y - box.begin[1], z - box.begin[2]);
-                replace_bits(high.row(y, z), box.begin[0] + 1, count,
-                             own == BrickClass::divided ? bits_of_samples(values, count, least) : whole);
-            }
-        }
+    static BrickBits all_high(const Box& box) {
+        BrickBits bits;
+        bits.fill(static_cast<std::uint16_t>(0xffff >> (kBrickRow - box.size(0))));
+        return bits;
     }
 
     /// What the numbers of the bricks say.
@@ -318,7 +319,8 @@ private:
         }
     }
 
-    void fill(HighBits& high, const BrickPart& part, const std::vector<BrickClass>& classes, T least, int threads) {
+    void fill(HighBits& high, const BrickPart& part, const std::vector<BrickClass>& classes, T least, int threads,
+              std::vector<BrickSides>& sides) {
         const BrickGrid& grid = part.grid;
         for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
             const std::int64_t first = row_of_bricks * grid.size[0];
@@ -333,7 +335,7 @@ private:
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
                 if (classes[first + i] != BrickClass::divided) continue;
                 if (i + 1 < grid.size[0] && classes[first + i + 1] == BrickClass::divided) prefetch_brick(part.number(first + i + 1));
-                fill_brick(high, grid.box(first + i), part.number(first + i), least);
+                sides[first + i] = fill_brick(high, grid.box(first + i), part.number(first + i), least);
             }
         });
     }
@@ -349,13 +351,10 @@ private:
         for (std::int64_t i = 0; i < layout_.samples_of_brick(); i += kLine) prefetch(place + i);
     }
     /// box: of the brick in the part that `high` belongs to.
-    void fill_brick(HighBits& high, const Box& box, std::int64_t brick, T least) {
-        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-                const T* values = samples() + layout_.row(brick, y - box.begin[1], z - box.begin[2]);
-                put_bits(high.row(y, z), box.begin[0] + 1, bits_of_samples(values, box.size(0), least));  // position p is voxel p - 1
-            }
-        }
+    BrickSides fill_brick(HighBits& high, const Box& box, std::int64_t brick, T least) {
+        const BrickBits bits = bits_of_brick(samples() + layout_.first_sample(brick), box.size(), least);
+        put_brick(bits, box, high);
+        return sides_of(bits, box.size());
     }
 
     VolumeInfo info_;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 
+#include "query/brick_bits.h"
 #include "query/brick_cache.h"
 #include "query/tau_level.h"
 #include "store/brick_reader.h"
@@ -38,6 +39,7 @@ struct KeptLevel {
     std::optional<StoredLevel> level{};  ///< nothing yet
     std::optional<double> tau{};
     std::vector<std::uint8_t> beside{};  ///< per brick: not divided, but its samples are needed
+    std::vector<BrickSides> sides{};     ///< of the divided bricks
 };
 
 /// A question while it is being answered: what it has cost, and the bricks that stay present for it.
