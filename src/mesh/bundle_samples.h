@@ -22,7 +22,9 @@ inline constexpr std::array<std::int64_t, 3> kBundleSize{0, store::kBrickSize[1]
 template <class T, class Real>
 class BundleSamples {
 public:
-    explicit BundleSamples(const SampleGrid<T>& grid, const PhysicalMap& map) : grid_(grid), map_(map) { add_axis(0, 0, grid.extent.size[0]); }
+    explicit BundleSamples(const SampleGrid<T>& grid, const PhysicalMap& map) : grid_(grid), map_(map) {
+        add_axis(0, 0, grid.extent.size[0]);
+    }
 
     /// y, z: the first row.
     void move_to(std::int64_t y, std::int64_t z) {
@@ -43,10 +45,11 @@ public:
                  difference(samples + *at_x + *at_y, at_z)}};
     }
 
-    /// Asks for samples that later slices look at: some slices behind row (y, z), where bits say, from sample x on. Also those of rows beside
-    /// the bundle.
+    /// Asks for samples that later slices look at: some slices behind row (y, z), where bits say, from sample x on. Also those of rows
+    /// beside the bundle.
     void prefetch_slice(std::int64_t x, std::uint64_t bits, std::int32_t y, std::int32_t z) const {
-        const std::int64_t at_z = *offset(2, static_cast<std::int32_t>(std::min<std::int64_t>(z + kSlicesAhead, kBundleSize[2] + kBehind - 1)));
+        const std::int64_t at_z =
+            *offset(2, static_cast<std::int32_t>(std::min<std::int64_t>(z + kSlicesAhead, kBundleSize[2] + kBehind - 1)));
         for (int i = 0; i < 64; i += kStretch) {
             if ((bits >> i & 0xffff) == 0) continue;
             const std::int64_t at_x = std::clamp<std::int64_t>(x + i + kStretch / 2, 0, grid_.extent.size[0] - 1);
@@ -58,9 +61,7 @@ public:
     }
 
     /// 1 / (distance of the neighbours) of a sample along an axis.
-    [[nodiscard]] Real scale(std::size_t axis, std::int32_t at) const {
-        return axes_[axis].scale[static_cast<std::size_t>(at)];
-    }
+    [[nodiscard]] Real scale(std::size_t axis, std::int32_t at) const { return axes_[axis].scale[static_cast<std::size_t>(at)]; }
     /// Are they the same for all samples of the bundle that have two neighbours along x?
     [[nodiscard]] bool has_same_scales() const { return axes_[0].is_even && axes_[1].is_even && axes_[2].is_even; }
     [[nodiscard]] std::array<Real, 3> same_scales() const {
@@ -87,11 +88,15 @@ private:
         for (std::int64_t i = -kBefore; i < size + kBehind; ++i)
             axis.offset[static_cast<std::size_t>(i + kBefore)] = grid_.layout.axis[number](std::clamp<std::int64_t>(begin + i, 0, last));
         const double* scales = map_.inverse_distance(static_cast<int>(number)) + grid_.origin[number];
-        for (std::int64_t i = 0; i <= size; ++i) axis.scale[static_cast<std::size_t>(i)] = static_cast<Real>(scales[std::min(begin + i, last)]);
-        const auto first = axis.scale.begin() + (number == 0 && size > 1 ? 1 : 0), end = axis.scale.end() - (number == 0 && size > 2 ? 2 : 0);
+        for (std::int64_t i = 0; i <= size; ++i)
+            axis.scale[static_cast<std::size_t>(i)] = static_cast<Real>(scales[std::min(begin + i, last)]);
+        const auto first = axis.scale.begin() + (number == 0 && size > 1 ? 1 : 0),
+                   end = axis.scale.end() - (number == 0 && size > 2 ? 2 : 0);
         axis.is_even = std::all_of(first, end, [&](Real scale) { return scale == *first; });
     }
-    [[nodiscard]] const std::int64_t* offset(std::size_t axis, std::int32_t local) const { return axes_[axis].offset.data() + kBefore + local; }
+    [[nodiscard]] const std::int64_t* offset(std::size_t axis, std::int32_t local) const {
+        return axes_[axis].offset.data() + kBefore + local;
+    }
     [[nodiscard]] static Real difference(const T* origin, const std::int64_t* at) {
         return static_cast<Real>(origin[at[1]]) - static_cast<Real>(origin[at[-1]]);
     }

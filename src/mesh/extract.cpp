@@ -62,9 +62,10 @@ private:
     template <class Visit>
     void for_groups(const Phase& phase, const Visit& visit) {
         if (domain_.is_2d()) {
-            for_each_slab(context_, phase, {groups_.end() - groups_.begin(), RowGroups::kSide * grid_.extent.size[0]}, [&](const Slab& slab) {
-                for (std::int64_t i = slab.z_begin; i < slab.z_end; ++i) visit(groups_.begin() + i, domain_.z_begin);
-            });
+            for_each_slab(context_, phase, {groups_.end() - groups_.begin(), RowGroups::kSide * grid_.extent.size[0]},
+                          [&](const Slab& slab) {
+                              for (std::int64_t i = slab.z_begin; i < slab.z_end; ++i) visit(groups_.begin() + i, domain_.z_begin);
+                          });
             return;
         }
         for_each_slab(context_, phase, {domain_.rows_z(), grid_.extent.slice()}, [&](const Slab& slab) {

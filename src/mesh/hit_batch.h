@@ -30,7 +30,7 @@ struct HitBatch {
 
 /// Where the hits of a run lie: on edges along an axis from samples of a row.
 struct HitRun {
-    std::int32_t x;        ///< sample of bit 0
+    std::int32_t x;  ///< sample of bit 0
     std::int32_t y, z, axis;
     std::int64_t point;  ///< of the first hit
 };
@@ -63,7 +63,8 @@ ISOATLAS_WIDE_512 std::int64_t append_wide(const HitRun& run, std::uint64_t bits
     __m512i point = _mm512_add_epi64(_mm512_set1_epi64(run.point), _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0));
     std::size_t i = batch.count;
     do {
-        const __m512i x = _mm512_add_epi32(_mm512_set1_epi32(run.x), _mm512_cvtepu8_epi32(_mm512_castsi512_si128(positions)));
+        const __m512i x = _mm512_add_epi32(_mm512_set1_epi32(run.x),
+                                           _mm512_maskz_cvtepu8_epi32(0xffff, _mm512_maskz_extracti32x4_epi32(0xf, positions, 0)));
         _mm512_storeu_si512(batch.from[0].data() + i, x);
         _mm512_storeu_si512(batch.from[1].data() + i, _mm512_set1_epi32(run.y));
         _mm512_storeu_si512(batch.from[2].data() + i, _mm512_set1_epi32(run.z));
@@ -72,7 +73,7 @@ ISOATLAS_WIDE_512 std::int64_t append_wide(const HitRun& run, std::uint64_t bits
         point = _mm512_add_epi64(point, _mm512_set1_epi64(8));
         _mm512_storeu_si512(batch.point.data() + i + 8, point);
         point = _mm512_add_epi64(point, _mm512_set1_epi64(8));
-        positions = _mm512_alignr_epi32(_mm512_setzero_si512(), positions, 4);
+        positions = _mm512_maskz_alignr_epi32(0xffff, _mm512_setzero_si512(), positions, 4);
         i += 16;
     } while (i < end);
     batch.count = end;

@@ -21,8 +21,7 @@ void for_bits(std::uint64_t bits, Visit&& visit) {
 template <class T>
 HitWriter<T>::HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface)
     : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface) {
-    for (int axis = 0; axis < 3; ++axis)
-        border_normal_[axis] = {map.normal(Vec3{0, 0, 0}, axis, -1), map.normal(Vec3{0, 0, 0}, axis, 1)};
+    for (int axis = 0; axis < 3; ++axis) border_normal_[axis] = {map.normal(Vec3{0, 0, 0}, axis, -1), map.normal(Vec3{0, 0, 0}, axis, 1)};
 }
 
 template <class T>
@@ -32,7 +31,8 @@ std::int64_t HitWriter<T>::bundles() const {
 
 template <class T>
 void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGroups& groups) const {
-    const std::int64_t strips = strips_of(grid_.extent), first_y = bundle % strips * kBundleSize[1], first_z = bundle / strips * kBundleSize[2];
+    const std::int64_t strips = strips_of(grid_.extent), first_y = bundle % strips * kBundleSize[1],
+                       first_z = bundle / strips * kBundleSize[2];
     const std::int64_t end_y = std::min(first_y + kBundleSize[1], grid_.extent.size[1]),
                        end_z = std::min(first_z + kBundleSize[2], grid_.extent.size[2]);
     std::optional<Work> work;
@@ -43,8 +43,12 @@ void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGro
         for (std::int64_t y = first_y; y < end_y; ++y) {
             const RowPlace& place = layout[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) continue;
-            rows.push_back({RowHits(domain_, y, z, place), {place.point, place.first_y(), place.first_z()}, static_cast<std::int32_t>(y - first_y),
-                            static_cast<std::int32_t>(z - first_z), y + 1 == grid_.extent.size[1], z + 1 == grid_.extent.size[2]});
+            rows.push_back({RowHits(domain_, y, z, place),
+                            {place.point, place.first_y(), place.first_z()},
+                            static_cast<std::int32_t>(y - first_y),
+                            static_cast<std::int32_t>(z - first_z),
+                            y + 1 == grid_.extent.size[1],
+                            z + 1 == grid_.extent.size[2]});
         }
         if (rows.empty()) continue;
         if (!work) {

@@ -52,7 +52,8 @@ private:
     /// Positions of word w that are the first voxel of a row, or one of the last two: edges from there look beyond its ends.
     [[nodiscard]] std::uint64_t end_positions(std::int64_t w) const;
     [[nodiscard]] Vec3 position(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return {static_cast<double>(x + grid_.origin[0]), static_cast<double>(y + grid_.origin[1]), static_cast<double>(z + grid_.origin[2])};
+        return {static_cast<double>(x + grid_.origin[0]), static_cast<double>(y + grid_.origin[1]),
+                static_cast<double>(z + grid_.origin[2])};
     }
 
     SampleGrid<T> grid_;

@@ -1,8 +1,9 @@
-// Cells whose triangles follow from which of their corners are High: no face is split, and they have no points of their own. Nearly all are.
+// Cells whose triangles follow from which of their corners are High: no face is split, and they have no points of their own. Nearly all
+// are.
 //
-// The hits of a cell have consecutive numbers in the rows around it: eight counters, the next hit of edges 0, 1, 2, 3 (along x), 4, 6 (along
-// y), 8, 10 (along z), say where the hits of a cell are written. The far edges 5, 7, 9, 11 belong to the next cell: they are where the near
-// ones are after it. So the hits of a cell are among 16 numbers, eight counters before and after it.
+// The hits of a cell have consecutive numbers in the rows around it: eight counters, the next hit of edges 0, 1, 2, 3 (along x), 4, 6
+// (along y), 8, 10 (along z), say where the hits of a cell are written. The far edges 5, 7, 9, 11 belong to the next cell: they are where
+// the near ones are after it. So the hits of a cell are among 16 numbers, eight counters before and after it.
 #pragma once
 
 #include <array>
@@ -18,9 +19,9 @@ inline constexpr std::array<int, 8> kCounterEdges{0, 1, 2, 3, 4, 6, 8, 10};
 
 /// Entries of all patterns.
 struct PlainCells {
-    std::array<std::uint8_t, 256> triangles{};                ///< 0: no plain cell
-    std::array<std::uint8_t, 256> moves{};                    ///< bit i: counter i moves on
-    std::array<std::array<std::uint8_t, 16>, 256> corner{};   ///< 3 per triangle, among the 16 numbers
+    std::array<std::uint8_t, 256> triangles{};               ///< 0: no plain cell
+    std::array<std::uint8_t, 256> moves{};                   ///< bit i: counter i moves on
+    std::array<std::array<std::uint8_t, 16>, 256> corner{};  ///< 3 per triangle, among the 16 numbers
 
     /// tunnels: may cells have any? flip: triangles turn the other way round.
     PlainCells(SurfaceStyle style, bool tunnels, bool flip);

@@ -10,7 +10,7 @@
 namespace isoatlas {
 
 /// The patterns of the 64 cells of word w.
-ISOATLAS_WIDE_512 [[gnu::always_inline]] inline __m512i wide_patterns(const CellRow<4>& rows, std::int64_t w) {
+[[gnu::always_inline]] ISOATLAS_WIDE_512 inline __m512i wide_patterns(const CellRow<4>& rows, std::int64_t w) {
     __m512i patterns = _mm512_setzero_si512();
     for (int r = 0; r < 4; ++r) {
         const std::uint64_t* bits = rows.row[static_cast<std::size_t>(r)];
@@ -21,33 +21,23 @@ ISOATLAS_WIDE_512 [[gnu::always_inline]] inline __m512i wide_patterns(const Cell
     return patterns;
 }
 
-/// Which of the cells of a word are active?
-[[gnu::always_inline]] inline std::uint64_t active_cells(const CellRow<4>& rows, std::int64_t w) {
-    std::uint64_t any = 0, all = ~std::uint64_t{0};
-    for (const std::uint64_t* bits : rows.row) {
-        const std::uint64_t here = bits[w], after = bits[w] >> 1 | bits[w + 1] << 63;
-        any |= here | after;
-        all &= here & after;
-    }
-    return any & ~all;
-}
-
 /// count_plain().
 template <class Rest>
 ISOATLAS_WIDE_512 void count_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowPlace& place, Rest&& rest) {
-    std::array<__m512i, 4> table;
-    for (std::size_t i = 0; i < 4; ++i) table[i] = _mm512_loadu_si512(cells.triangles.data() + 64 * i);
+    const std::uint8_t* const table = cells.triangles.data();
+    const __m512i first = _mm512_loadu_si512(table), second = _mm512_loadu_si512(table + 64), third = _mm512_loadu_si512(table + 128),
+                  fourth = _mm512_loadu_si512(table + 192);
     __m512i sums = _mm512_setzero_si512();
     for (std::int64_t i = 0; i < rows.busy.size; ++i) {
         for (std::uint64_t busy = rows.busy.bits[i]; busy != 0; busy &= busy - 1) {
             const std::int64_t w = 64 * i + std::countr_zero(busy);
-            const std::uint64_t active = active_cells(rows, w) & window.mask(w), here = rows.row[0][w];
+            const std::uint64_t active = rows.active(w) & window.mask(w), here = rows.row[0][w];
             count_hits(w, (here ^ bits_after(rows.row[0], w)) & window.mask(w), here ^ rows.row[1][w], here ^ rows.row[2][w], place);
             if (active == 0) continue;
             mark_word(place.cell_words, w);
             const __m512i patterns = wide_patterns(rows, w);
-            const __m512i low = _mm512_permutex2var_epi8(table[0], patterns, table[1]);
-            const __m512i high = _mm512_permutex2var_epi8(table[2], patterns, table[3]);
+            const __m512i low = _mm512_permutex2var_epi8(first, patterns, second);
+            const __m512i high = _mm512_permutex2var_epi8(third, patterns, fourth);
             const __m512i triangles = _mm512_maskz_mov_epi8(active, _mm512_mask_blend_epi8(_mm512_movepi8_mask(patterns), low, high));
             sums = _mm512_add_epi64(sums, _mm512_sad_epu8(triangles, _mm512_setzero_si512()));
             for (std::uint64_t others = active & ~_mm512_test_epi8_mask(triangles, triangles); others != 0; others &= others - 1) {
@@ -61,13 +51,15 @@ ISOATLAS_WIDE_512 void count_wide(const CellRow<4>& rows, const CellWindow& wind
             }
         }
     }
-    place.triangle += _mm512_reduce_add_epi64(sums);
+    alignas(64) std::array<std::int64_t, 8> parts;
+    _mm512_store_si512(parts.data(), sums);
+    for (const std::int64_t part : parts) place.triangle += part;
 }
 
 /// write_plain().
 template <class Rest>
 ISOATLAS_WIDE_512 void write_wide(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
-                                    std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
+                                  std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
     constexpr std::ptrdiff_t kWritten = 6;  // triangles, the last one not whole: what two vectors overwrite
     const __m512i one = _mm512_set1_epi64(1);
     // One by one: a vector cannot be loaded while the numbers that it is made of are being stored.
@@ -76,7 +68,7 @@ ISOATLAS_WIDE_512 void write_wide(const CellRow<4>& rows, const CellWindow& wind
     for (std::int64_t i = 0; i < rows.busy.size; ++i) {
         for (std::uint64_t busy = rows.busy.bits[i]; busy != 0; busy &= busy - 1) {
             const std::int64_t w = 64 * i + std::countr_zero(busy);
-            std::uint64_t active = active_cells(rows, w) & window.mask(w);
+            std::uint64_t active = rows.active(w) & window.mask(w);
             if (active == 0) continue;
             _mm512_store_si512(patterns.data(), wide_patterns(rows, w));
             for (; active != 0; active &= active - 1) {
@@ -92,8 +84,9 @@ ISOATLAS_WIDE_512 void write_wide(const CellRow<4>& rows, const CellWindow& wind
                 } else {
                     const auto* corner = reinterpret_cast<const __m128i*>(cells.corner[pattern].data());
                     const __m128i corners = _mm_loadu_si128(corner);
-                    const __m512i head = _mm512_permutex2var_epi64(next, _mm512_cvtepu8_epi64(corners), after);
-                    const __m512i tail = _mm512_permutex2var_epi64(next, _mm512_cvtepu8_epi64(_mm_bsrli_si128(corners, 8)), after);
+                    const __m512i head = _mm512_permutex2var_epi64(next, _mm512_maskz_cvtepu8_epi64(0xff, corners), after);
+                    const __m512i tail =
+                        _mm512_permutex2var_epi64(next, _mm512_maskz_cvtepu8_epi64(0xff, _mm_bsrli_si128(corners, 8)), after);
                     if (end - triangle >= kWritten) {
                         _mm512_storeu_si512(triangle, head);
                         _mm512_storeu_si512(reinterpret_cast<std::int64_t*>(triangle) + 8, tail);

@@ -19,7 +19,7 @@ constexpr std::int64_t kRow = store::kBrickRow, kSide = store::kBrickSize[1];
 template <class T>
 std::uint16_t bits_of_row(const T* samples, T least) {
     typedef T Vector __attribute__((vector_size(16)));  // NOLINT(modernize-use-using): an alias template would lose the attribute
-    std::array<__m128i, sizeof(T)> masks;               // one, two, four or eight times 16 bytes of samples
+    __m128i masks[sizeof(T)];                           // one, two, four or eight times 16 bytes of samples
     for (std::size_t i = 0; i < sizeof(T); ++i) {
         Vector vector;
         std::memcpy(&vector, samples + i * 16 / sizeof(T), 16);

@@ -14,8 +14,8 @@ inline constexpr std::int64_t kBrickRows = store::kBrickSize[1] * store::kBrickS
 /// Bit x of row y + 8 z: is the sample High? Beyond the size of a smaller brick: zeros.
 using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)>;
 
-/// samples: of the place of a brick (query/brick_layout.h), row after row, all slices that bricks of the grid have. least: of the Highs. T: a
-/// sample type.
+/// samples: of the place of a brick (query/brick_layout.h), row after row, all slices that bricks of the grid have. least: of the Highs. T:
+/// a sample type.
 template <class T>
 [[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T least);
 

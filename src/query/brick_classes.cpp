@@ -26,8 +26,8 @@ std::array<std::int64_t, 2> facing(const Box& box, int axis, std::int64_t d) {
     return d == 0 ? std::array{box.begin[axis], box.end[axis]} : std::array{box.end[axis], box.end[axis] + 1};
 }
 
-/// Are there samples of the other class among those of a divided brick that lie in a cell with one of a brick, which it touches along an edge
-/// or in a corner?
+/// Are there samples of the other class among those of a divided brick that lie in a cell with one of a brick, which it touches along an
+/// edge or in a corner?
 bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::array<std::int64_t, 3>& d) {
     const auto xs = facing(box, 0, d[0]), ys = facing(box, 1, d[1]), zs = facing(box, 2, d[2]);
     for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
@@ -90,7 +90,8 @@ bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const st
     return false;
 }
 
-std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides, int threads) {
+std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
+                                         int threads) {
     std::vector<std::uint8_t> wanted = touching_others(bricks.grid, bricks.classes);
     for_bricks(bricks.grid, threads, [&](std::int64_t b) {
         const auto i = static_cast<std::size_t>(b);

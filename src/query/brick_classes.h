@@ -7,7 +7,6 @@
 #include "query/brick_bits.h"
 #include "query/high_bits.h"
 
-
 namespace isoatlas {
 
 /// Sets bits [p, p + 16) of a row of classes; positions as in HighBits.
@@ -24,8 +23,8 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 [[nodiscard]] bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
                                      std::int64_t brick);
 /// All of these.
-[[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
-                                                       int threads);
+[[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks,
+                                                       const std::vector<BrickSides>& sides, int threads);
 
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
 [[nodiscard]] std::vector<std::uint8_t> with_neighbours(const store::BrickGrid& grid, std::vector<std::uint8_t> flags,

@@ -108,13 +108,13 @@ constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
 
 /// The same in one permutation.
 template <class N>
-ISOATLAS_WIDE_512 [[gnu::always_inline]] inline void read_group_wide(const std::byte* from, int width, N* group) {
+[[gnu::always_inline]] ISOATLAS_WIDE_512 inline void read_group_wide(const std::byte* from, int width, N* group) {
     const int whole = width / 8, left = width % 8;
     const auto low_bytes = [](int words) { return words >= 8 ? ~__mmask64{0} : (__mmask64{1} << 8 * words) - 1; };
     __m512i words = _mm512_maskz_loadu_epi8(low_bytes(whole), from);
     const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
     words = _mm512_mask_set1_epi64(words, static_cast<__mmask8>(1U << whole), static_cast<long long>(bits));
-    const __m512i numbers = _mm512_permutexvar_epi8(_mm512_loadu_si512(kByteOrder<N>.data()), words);
+    const __m512i numbers = _mm512_maskz_permutexvar_epi8(~__mmask64{0}, _mm512_loadu_si512(kByteOrder<N>.data()), words);
     _mm512_mask_storeu_epi8(group, low_bytes(sizeof(N)), numbers);
 }
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "base/wide.h"
 #include "base/check.h"
+#include "base/wide.h"
 #include "store/brick_grid.h"
 
 namespace isoatlas::store {

@@ -1,0 +1,59 @@
+// Large arrays that are gone leave their memory to those that come: also when none of them alone was large enough.
+#include "base/big_vector.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numeric>
+#include <string>
+
+namespace isoatlas {
+namespace {
+
+/// Bytes of this process that are in memory.
+std::int64_t resident() {
+    std::ifstream file("/proc/self/statm");
+    std::int64_t size = 0, pages = 0;
+    file >> size >> pages;
+    return pages * 4096;
+}
+
+TEST(BigVector, PiecesThatAreFreeBecomeOne) {
+    constexpr std::size_t kPart = std::size_t{5} << 20;  // numbers of 8 bytes
+    return_big_memory();
+    {
+        std::vector<BigVector<std::int64_t>> parts;
+        for (int i = 0; i < 4; ++i) parts.emplace_back(kPart, i);
+        parts.erase(parts.begin() + 2);  // not beside each other
+        parts.erase(parts.begin());
+        for (const auto& part : parts)
+            EXPECT_EQ(std::accumulate(part.begin(), part.end(), std::int64_t{0}) % static_cast<std::int64_t>(kPart), 0);
+        const std::int64_t before = resident();
+        BigVector<std::int64_t> whole(2 * kPart, 7);
+        EXPECT_LT(resident() - before, std::int64_t{8} << 20) << "memory that was free was not used";
+        EXPECT_EQ(std::accumulate(whole.begin(), whole.end(), std::int64_t{0}), 14 * static_cast<std::int64_t>(kPart));
+        EXPECT_EQ(parts[0][0], 1);
+        EXPECT_EQ(parts[1].back(), 3);
+    }
+    return_big_memory();
+}
+
+// Many sizes in turn, every number checked: pages must not be in two places.
+TEST(BigVector, HoldsWhatIsWritten) {
+    std::vector<std::pair<BigVector<std::uint64_t>, std::uint64_t>> held;
+    std::uint64_t state = 1;
+    for (int round = 0; round < 60; ++round) {
+        state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+        const std::size_t size = (std::size_t{1} << 18) * (1 + (state >> 33) % 12);
+        if (held.size() > 5) held.erase(held.begin() + static_cast<std::ptrdiff_t>((state >> 40) % held.size()));
+        held.emplace_back(BigVector<std::uint64_t>(size, state), state);
+        for (const auto& [numbers, value] : held) {
+            for (std::size_t i = 0; i < numbers.size(); i += 512) ASSERT_EQ(numbers[i], value);
+        }
+    }
+    held.clear();
+    return_big_memory();
+}
+
+}  // namespace
+}  // namespace isoatlas
