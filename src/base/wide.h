@@ -2,9 +2,12 @@
 // does alone (contraction is off, cmake/warnings.cmake).
 #pragma once
 
+#include <cstdlib>
+
 /// Compiled for several processors, the best one chosen when the program starts. Before the definition of a function, or of a template that
 /// is instantiated explicitly. What it calls must be inlined into it to gain anything.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define ISOATLAS_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define ISOATLAS_WIDE
@@ -13,8 +16,6 @@
 /// Functions written for vectors of 512 bits: ISOATLAS_WIDE_512 before them, called only where kHasWide512.
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
-
-#include <cstdlib>
 
 #define ISOATLAS_HAS_WIDE_512 1
 #define ISOATLAS_WIDE_512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi,avx512vbmi2,bmi,bmi2,lzcnt,popcnt")))
