@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
+#include <string>
 
 #include "base/sample_types.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
+
+constexpr std::int64_t kLongestRow = (std::int64_t{1} << 31) - 128;  // positions in a batch of hits are 32 bits
 
 std::int64_t strips_of(const Extent& extent) { return (extent.size[1] + kBundleSize[1] - 1) / kBundleSize[1]; }
 
@@ -21,6 +24,12 @@ void for_bits(std::uint64_t bits, Visit&& visit) {
 template <class T>
 HitWriter<T>::HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface)
     : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface) {
+    if (grid.extent.size[0] > kLongestRow) {
+        throw Error(ErrorKind::resource, {.where = "axis x",
+                                          .what = "a row has " + std::to_string(grid.extent.size[0]) + " samples",
+                                          .expected = "at most " + std::to_string(kLongestRow) + " for a surface",
+                                          .next = "crop the volume, or let its longest axis be y or z"});
+    }
     for (int axis = 0; axis < 3; ++axis) border_normal_[axis] = {map.normal(Vec3{0, 0, 0}, axis, -1), map.normal(Vec3{0, 0, 0}, axis, 1)};
 }
 
