@@ -100,15 +100,7 @@ describe.skipIf(!canServe)("a ball", () => {
     for (const key of ["m", "e", ...Array<string>(14).fill("5"), "e"]) await tab.keyboard.press(key);
     await expect.poll(() => text(tab)).toEqual(["90°", "7 mm"]);
     await tab.keyboard.press("m");
-    const slice = tab.locator(".slices canvas").nth(2);
-    let box = (await slice.boundingBox())!;
-    const standsStill = async (): Promise<boolean> => {
-      const before = box;
-      await tab.waitForTimeout(200);
-      box = (await slice.boundingBox())!;
-      return box.width === before.width && box.height === before.height && box.y === before.y;
-    };
-    await expect.poll(standsStill).toBe(true); // the list of measures has grown
+    const box = (await tab.locator(".slices canvas").nth(2).boundingBox())!;
     const sample = Math.min(box.width, box.height) / SIDE;
     for (const by of [-10, 10]) await tab.mouse.click(box.x + box.width / 2 + by * sample, box.y + box.height / 2);
     await expect.poll(() => text(tab)).toEqual(["90°", "7 mm", "10 mm"]);
