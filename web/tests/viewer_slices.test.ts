@@ -119,6 +119,27 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.close();
   });
 
+  it("stand still, whatever is said below them", async () => {
+    const { tab, problems } = await served.open();
+    await tab.locator(".objects h1").click();
+    await tab.keyboard.press("k");
+    await expect.poll(() => tab.locator(".slices .held").textContent()).not.toBe("");
+    const heights = await tab.evaluate(() => {
+      const slice = document.querySelector(".slices canvas")!;
+      const height = (): number => slice.getBoundingClientRect().height;
+      const [held, said] = [document.querySelector(".slices .held")!, document.querySelector(".slices .at-crosshair")!];
+      const before = height();
+      held.replaceChildren();
+      said.replaceChildren();
+      const empty = height();
+      for (const of of [held, said]) of.textContent = "a long name ".repeat(40);
+      return [before, empty, height()];
+    });
+    expect(new Set(heights).size).toBe(1);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
   it("stand in the picture, in the brightness one chooses, and a link restores all of it", async () => {
     const { tab, problems } = await served.open();
     await tab.locator(".objects h1").click();

@@ -176,12 +176,12 @@ export class SliceView {
   }
 
   private listen(): void {
-    let pressed: { x: number; y: number; far: boolean } | null = null;
+    let pressed: { x: number; y: number; voxel: Triple; far: boolean } | null = null;
     this.canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       this.canvas.setPointerCapture(event.pointerId);
-      pressed = { x: event.clientX, y: event.clientY, far: false };
-      this.wishes.move(this.voxelAt(event), true);
+      pressed = { x: event.clientX, y: event.clientY, voxel: this.voxelAt(event), far: false };
+      this.wishes.move(pressed.voxel, true);
     });
     this.canvas.addEventListener("pointermove", (event) => {
       if (!pressed) return;
@@ -190,7 +190,7 @@ export class SliceView {
     });
     this.canvas.addEventListener("pointerup", (event) => {
       if (!pressed) return;
-      const voxel = this.voxelAt(event);
+      const voxel = pressed.far ? this.voxelAt(event) : pressed.voxel;
       this.wishes.move(voxel, false);
       if (!pressed.far) this.wishes.choose(voxel);
       pressed = null;

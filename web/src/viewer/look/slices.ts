@@ -95,6 +95,7 @@ export class Slices {
     follow(history, SLICES, (on) => {
       this.element.hidden = !on;
       overlay.classList.toggle("with-slices", on);
+      if (on) this.held.look(crosshairOf(this.desk));
       this.redraw();
     });
     follow(history, PLANES, () => this.redraw());
