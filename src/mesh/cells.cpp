@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/check.h"
 #include "base/sample_types.h"
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
@@ -53,10 +52,6 @@ void write_fan_point(const CellLoops& loops, int loop, const std::int64_t* point
     }
     for (int axis = 0; axis < 3; ++axis) surface.normals[target][axis] = static_cast<float>(normal[axis] / length);
 }
-
-}  // namespace
-
-namespace {
 
 /// The first hits of the rows around a row of cells.
 HitCounters first_hits(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t z) {

@@ -118,15 +118,17 @@ std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
 }
 
 template <class T>
-void HitWriter<T>::gather(Work& work) const {
+void HitWriter<T>::gather(bool normals, Work& work) const {
     HitBatch<Real>& batch = work.batch;
     const BundleSamples<T, Real>& samples = work.samples;
     for (std::size_t i = 0; i < batch.count; ++i) {
         const std::int32_t x = batch.from[0][i], y = batch.from[1][i], z = batch.from[2][i], axis = batch.axis[i];
         const auto from = samples.around(x, y, z), to = samples.around(x + (axis == 0), y + (axis == 1), z + (axis == 2));
         batch.a[i] = static_cast<double>(from.sample), batch.b[i] = static_cast<double>(to.sample);
+        if (!normals) continue;
         for (std::size_t k = 0; k < 3; ++k) batch.slope[k][i] = from.difference[k], batch.change[k][i] = to.difference[k];
     }
+    if (!normals) return;
     if (!batch.is_at_end && samples.has_same_scales()) {
         const std::array<Real, 3> scales = samples.same_scales();
         for (std::size_t k = 0; k < 3; ++k) {
@@ -151,7 +153,7 @@ template <class T>
 void HitWriter<T>::flush(Work& work) const {
     HitBatch<Real>& batch = work.batch;
     const bool normals = !surface_.normals.empty();
-    gather(work);
+    gather(normals, work);
     place_hits(batch, tau_, map_, work.first, normals);
     for (std::size_t i = 0; i < batch.count; ++i)
         surface_.points[batch.point[i]] = {batch.place[0][i], batch.place[1][i], batch.place[2][i]};

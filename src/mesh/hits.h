@@ -44,7 +44,7 @@ private:
     void write_slice(std::vector<Row>& rows, Work& work) const;
     void write_word(std::int64_t w, Row& row, Work& work) const;
     void flush(Work& work) const;
-    void gather(Work& work) const;
+    void gather(bool normals, Work& work) const;
     /// The hits between voxels of a row, at positions of word w, and the padding behind them along an axis.
     void write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const;
     /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.

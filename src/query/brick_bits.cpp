@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "base/sample_types.h"
-#include "base/wide.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>

@@ -37,10 +37,8 @@ public:
     }
     [[nodiscard]] std::uint64_t* row(std::int64_t y, std::int64_t z) { return bits_.data() + (y + extent_.size[1] * z) * stride(); }
 
-    /// Words from one row of a slice to the next.
-    [[nodiscard]] std::int64_t stride() const { return words_ + 1; }
-
 private:
+    [[nodiscard]] std::int64_t stride() const { return words_ + 1; }
     Extent extent_;
     std::int64_t words_;
     BusyWords busy_;

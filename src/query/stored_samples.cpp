@@ -204,8 +204,8 @@ private:
     /// Makes bricks present; the query holds them.
     void load(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
         const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
-        take_memory(missing, context.threads);
         try {
+            take_memory(missing, context.threads);
             query += bricks_.read(missing, context, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
         } catch (...) {
             cache_.abandon(missing);
