@@ -25,6 +25,10 @@ public:
     [[nodiscard]] virtual std::int64_t size() const = 0;
     /// Reads at most out.size() bytes at offset; the number read (0 at the end of the file), or -errno. May be called by several threads.
     [[nodiscard]] virtual std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out);
+    /// read_at(), of what need not be waited for: -EAGAIN where nothing of it is in memory.
+    [[nodiscard]] virtual std::ptrdiff_t read_present(std::int64_t offset, std::span<std::byte> out);
+    /// Says that bytes will be read soon: they may be fetched meanwhile.
+    virtual void expect(std::int64_t offset, std::int64_t bytes);
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
     [[nodiscard]] virtual std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes);
     /// Cuts the file, or lengthens it by zeros. 0 or -errno, as all that follow.

@@ -1,6 +1,7 @@
 // The operating system's files.
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -43,6 +44,15 @@ public:
     std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
         const ::ssize_t done = ::pread(descriptor_, out.data(), out.size(), offset);
         return done < 0 ? -errno : done;
+    }
+    std::ptrdiff_t read_present(std::int64_t offset, std::span<std::byte> out) override {
+        const ::iovec part{out.data(), out.size()};
+        const ::ssize_t done = ::preadv2(descriptor_, &part, 1, offset, RWF_NOWAIT);
+        if (done >= 0) return done;
+        return errno == EAGAIN ? -EAGAIN : read_at(offset, out);  // not every file system can tell
+    }
+    void expect(std::int64_t offset, std::int64_t bytes) override {
+        (void)::posix_fadvise(descriptor_, offset, bytes, POSIX_FADV_WILLNEED);
     }
     std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes) override {
         const ::ssize_t done = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);

@@ -13,6 +13,13 @@ namespace {
     throw Error(ErrorKind::input, {.file = path, .what = std::string("cannot be opened: ") + std::strerror(-error), .next = next});
 }
 
+[[noreturn]] void failed(const std::string& path, std::int64_t offset, std::ptrdiff_t error) {
+    throw Error(ErrorKind::input, {.file = path,
+                                   .where = "offset " + std::to_string(offset),
+                                   .what = std::string("reading failed: ") + std::strerror(static_cast<int>(-error)),
+                                   .next = "check the disk, or copy the file elsewhere and try again"});
+}
+
 }  // namespace
 
 std::unique_ptr<File> open_file(const std::string& path) {
@@ -42,16 +49,17 @@ std::size_t read_available(File& file, const std::string& path, std::int64_t off
         const std::int64_t position = offset + static_cast<std::int64_t>(done);
         const std::ptrdiff_t got = file.read_at(position, out.subspan(done));
         if (got == -EINTR) continue;
-        if (got < 0) {
-            throw Error(ErrorKind::input, {.file = path,
-                                           .where = "offset " + std::to_string(position),
-                                           .what = std::string("reading failed: ") + std::strerror(static_cast<int>(-got)),
-                                           .next = "check the disk, or copy the file elsewhere and try again"});
-        }
+        if (got < 0) failed(path, position, got);
         if (got == 0) break;
         done += static_cast<std::size_t>(got);
     }
     return done;
+}
+
+bool read_if_present(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out) {
+    const std::ptrdiff_t got = file.read_present(offset, out);
+    if (got < 0 && got != -EAGAIN && got != -EINTR) failed(path, offset, got);
+    return got == static_cast<std::ptrdiff_t>(out.size());
 }
 
 void read_fully(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out) {

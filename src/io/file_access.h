@@ -26,5 +26,7 @@ namespace isoatlas::io {
 void read_fully(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
 /// Like read_fully, but stops at the end of the file; the number of bytes read.
 [[nodiscard]] std::size_t read_available(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
+/// Fills all of out if that need not wait for a disk; false: it would, out holds anything. Throws Error{input} when the disk fails.
+[[nodiscard]] bool read_if_present(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
 
 }  // namespace isoatlas::io

@@ -1,6 +1,7 @@
 // Reading bricks of a store: few, long reads; every brick checked before it is used.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <span>
 #include <vector>
@@ -57,6 +58,10 @@ private:
         std::size_t first, last;  ///< of the list
         std::int64_t begin, end;  ///< bytes in volume/data
     };
+    /// Which extents has the disk been asked for?
+    using Expected = std::vector<std::atomic<bool>>;
+    /// A read has to wait: asks for its bytes and those of the next ones.
+    void expect(std::span<const Extent> extents, std::size_t first, Expected& expected) const;
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
     void check_places() const;
     [[nodiscard]] std::vector<std::int64_t> all_bricks() const;

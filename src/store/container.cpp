@@ -154,10 +154,19 @@ void Container::for_each_chunk(const StoredArray& array, const std::function<voi
     for (std::size_t i = 0; i < chunks.size(); ++i) use(read_chunk(array, static_cast<std::int64_t>(i), chunks[i]));
 }
 
-void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
-    const auto size = static_cast<std::int64_t>(out.size());
+void Container::check_inside(const StoredArray& array, std::int64_t first, std::size_t bytes) const {
+    const auto size = static_cast<std::int64_t>(bytes);
     if (first < 0 || first > array.bytes() - size || array.chunk > 0) damaged(array.name, "bytes outside the array are asked for");
+}
+
+void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
+    check_inside(array, first, out.size());
     io::read_fully(*file_, path_, array.offset + first, out);
+}
+
+bool Container::read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
+    check_inside(array, first, out.size());
+    return io::read_if_present(*file_, path_, array.offset + first, out);
 }
 
 void Container::check_all() const {

@@ -43,6 +43,11 @@ public:
     /// Bytes of an array that checks its parts itself; the caller compares the checksum.
     void read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
 
+    /// read_unchecked() of bytes that are in memory; false: they would have to be waited for.
+    [[nodiscard]] bool read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
+    /// Says that bytes of an array will be read soon.
+    void expect(const StoredArray& array, std::int64_t first, std::int64_t bytes) const { file_->expect(array.offset + first, bytes); }
+
     /// The JSON text of the contents as it lies in the file.
     [[nodiscard]] std::string contents_text() const;
     /// What is needed to check and to find the blocks of an array: a checksum each, or the three numbers of a StoredChunk; checked.
@@ -65,6 +70,7 @@ public:
 
 private:
     void read_header();
+    void check_inside(const StoredArray& array, std::int64_t first, std::size_t bytes) const;
     [[nodiscard]] std::vector<std::uint64_t> checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
     [[nodiscard]] std::vector<StoredChunk> chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
     [[nodiscard]] std::vector<std::byte> read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const;
