@@ -11,6 +11,8 @@
 
 #include "base/prefetch.h"
 #include "field/sample_grid.h"
+#include "mesh/hit_batch.h"
+#include "mesh/layout.h"
 #include "mesh/physical_map.h"
 #include "store/brick_grid.h"
 
@@ -32,32 +34,32 @@ public:
         add_axis(2, z, kBundleSize[2]);
     }
 
-    /// A sample, and how much its neighbours along each axis differ.
-    struct Around {
-        T sample;
-        std::array<Real, 3> difference;
-    };
-    [[nodiscard]] Around around(std::int32_t x, std::int32_t y, std::int32_t z) const {
-        const std::int64_t *const at_x = offset(0, x), *const at_y = offset(1, y), *const at_z = offset(2, z);
-        const T* const samples = grid_.samples;
-        return {samples[*at_x + *at_y + *at_z],
-                {difference(samples + *at_y + *at_z, at_x), difference(samples + *at_x + *at_z, at_y),
-                 difference(samples + *at_x + *at_y, at_z)}};
+    /// Samples at the ends of the edges of hits along an axis, and how much their neighbours along each axis differ: into slope at the
+    /// first end, into change at the other one.
+    void gather(const HitBatch& batch, std::size_t axis, bool normals, HitValues<Real>& values) const {
+        if (!normals)
+            gather_ends(batch, axis, values);
+        else if (axis == 0)
+            gather_along(batch, values);
+        else if (axis == 1)
+            gather_across<1>(batch, values);
+        else
+            gather_across<2>(batch, values);
     }
 
-    /// Asks for samples that later slices look at: some slices behind row (y, z), where bits say, from sample x on. Also those of rows
-    /// beside the bundle.
-    void prefetch_slice(std::int64_t x, std::uint64_t bits, std::int32_t y, std::int32_t z) const {
-        const std::int64_t at_z =
-            *offset(2, static_cast<std::int32_t>(std::min<std::int64_t>(z + kSlicesAhead, kBundleSize[2] + kBehind - 1)));
-        for (int i = 0; i < 64; i += kStretch) {
-            if ((bits >> i & 0xffff) == 0) continue;
-            const std::int64_t at_x = std::clamp<std::int64_t>(x + i + kStretch / 2, 0, grid_.extent.size[0] - 1);
-            const T* const column = grid_.samples + *offset(0, static_cast<std::int32_t>(at_x)) + at_z;
-            prefetch(column + *offset(1, y));
-            if (y == 0) prefetch(column + *offset(1, -1));
-            if (y + kBehind >= kBundleSize[1]) prefetch(column + *offset(1, y + static_cast<std::int32_t>(kBehind)));
-        }
+    /// Asks for samples that later slices look at: some slices behind row (y, z), near the first and the last of some samples of it. Also
+    /// those of rows beside the bundle.
+    void prefetch_slice(std::int64_t first, std::int64_t last, std::int32_t y, std::int32_t z) const {
+        const auto ahead = static_cast<std::int32_t>(std::min<std::int64_t>(z + kSlicesAhead, kBundleSize[2] + kBehind - 1));
+        const T* const from = grid_.samples + *offset(2, ahead) + *offset(0, static_cast<std::int32_t>(first));
+        const T* const to = grid_.samples + *offset(2, ahead) + *offset(0, static_cast<std::int32_t>(last));
+        const auto prefetch_row = [&](std::int64_t row) {
+            const std::int64_t at_y = *offset(1, static_cast<std::int32_t>(row));
+            prefetch(from + at_y), prefetch(to + at_y);
+        };
+        prefetch_row(y);
+        if (y == 0) prefetch_row(-1);
+        if (y + kBehind >= kBundleSize[1]) prefetch_row(y + kBehind);
     }
 
     /// 1 / (distance of the neighbours) of a sample along an axis.
@@ -70,8 +72,6 @@ public:
 
 private:
     static constexpr std::int64_t kBefore = 1, kBehind = 2;
-    static constexpr std::int32_t kSlicesAhead = 3;  ///< one more than is looked at
-    static constexpr int kStretch = 16;
 
     /// By local coordinates, offsets from kBefore before the first one on.
     struct Axis {
@@ -97,8 +97,59 @@ private:
     [[nodiscard]] const std::int64_t* offset(std::size_t axis, std::int32_t local) const {
         return axes_[axis].offset.data() + kBefore + local;
     }
-    [[nodiscard]] static Real difference(const T* origin, const std::int64_t* at) {
-        return static_cast<Real>(origin[at[1]]) - static_cast<Real>(origin[at[-1]]);
+    [[nodiscard]] static Real difference(T of, T from) { return static_cast<Real>(of) - static_cast<Real>(from); }
+
+    /// A row by what its coordinates add, as where its samples would lie if x added nothing.
+    [[nodiscard]] const T* row(std::int64_t y_adds, std::int64_t z_adds) const { return grid_.samples + y_adds + z_adds; }
+
+    void gather_ends(const HitBatch& batch, std::size_t axis, HitValues<Real>& values) const {
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            const std::array at{offset(0, batch.from[0][i]), offset(1, batch.from[1][i]), offset(2, batch.from[2][i])};
+            const T* const own = grid_.samples + *at[0] + *at[1] + *at[2];
+            values.a[i] = static_cast<Real>(*own), values.b[i] = static_cast<Real>(own[at[axis][1] - at[axis][0]]);
+        }
+    }
+
+    /// Edges along x.
+    void gather_along(const HitBatch& batch, HitValues<Real>& values) const {
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            const std::int64_t* const x = offset(0, batch.from[0][i]);
+            const std::int64_t* const y = offset(1, batch.from[1][i]);
+            const std::int64_t* const z = offset(2, batch.from[2][i]);
+            const T* const own = row(y[0], z[0]);
+            const std::array<const T*, 2> beside_y{row(y[-1], z[0]), row(y[1], z[0])}, beside_z{row(y[0], z[-1]), row(y[0], z[1])};
+            const std::int64_t here = x[0], next = x[1];
+            const T a = own[here], b = own[next];
+            values.a[i] = static_cast<Real>(a), values.b[i] = static_cast<Real>(b);
+            values.slope[0][i] = difference(b, own[x[-1]]), values.change[0][i] = difference(own[x[2]], a);
+            values.slope[1][i] = difference(beside_y[1][here], beside_y[0][here]);
+            values.change[1][i] = difference(beside_y[1][next], beside_y[0][next]);
+            values.slope[2][i] = difference(beside_z[1][here], beside_z[0][here]);
+            values.change[2][i] = difference(beside_z[1][next], beside_z[0][next]);
+        }
+    }
+
+    /// Edges to the next row along an axis.
+    template <std::size_t axis>
+    void gather_across(const HitBatch& batch, HitValues<Real>& values) const {
+        constexpr std::size_t other = 3 - axis;
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            const std::int64_t* const x = offset(0, batch.from[0][i]);
+            const std::int64_t* const y = offset(1, batch.from[1][i]);
+            const std::int64_t* const z = offset(2, batch.from[2][i]);
+            const std::int64_t* const along = axis == 1 ? y : z;
+            const std::int64_t* const across = axis == 1 ? z : y;
+            const T* const line = grid_.samples + across[0];  // the rows along the axis
+            const std::array<const T*, 2> beside{grid_.samples + across[-1], grid_.samples + across[1]};
+            const std::int64_t here = along[0] + x[0], next = along[1] + x[0];
+            const T a = line[here], b = line[next];
+            values.a[i] = static_cast<Real>(a), values.b[i] = static_cast<Real>(b);
+            values.slope[0][i] = difference(line[along[0] + x[1]], line[along[0] + x[-1]]);
+            values.change[0][i] = difference(line[along[1] + x[1]], line[along[1] + x[-1]]);
+            values.slope[axis][i] = difference(b, line[along[-1] + x[0]]), values.change[axis][i] = difference(line[along[2] + x[0]], a);
+            values.slope[other][i] = difference(beside[1][here], beside[0][here]);
+            values.change[other][i] = difference(beside[1][next], beside[0][next]);
+        }
     }
 
     SampleGrid<T> grid_;

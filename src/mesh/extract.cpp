@@ -58,6 +58,12 @@ public:
     }
 
 private:
+    void prefetch_group(std::int64_t group, std::int64_t z) const {
+        const auto [begin, end] = RowGroups::rows(domain_, group);
+        const std::int64_t end_inside = std::min(end, grid_.extent.size[1]);
+        if (z < domain_.z_end && begin >= 0 && begin < end_inside && !domain_.high.busy(begin, z).empty())
+            prefetch_rows(domain_, layout_, begin, end_inside, z);
+    }
     /// Calls visit(group, z) for all groups of rows of points: slab by slab, and in a slab those whose samples lie near each other.
     template <class Visit>
     void for_groups(const Phase& phase, const Visit& visit) {
@@ -70,7 +76,10 @@ private:
         }
         for_each_slab(context_, phase, {domain_.rows_z(), grid_.extent.slice()}, [&](const Slab& slab) {
             for (std::int64_t group = groups_.begin(); group < groups_.end(); ++group) {
-                for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) visit(group, domain_.z_begin + z);
+                for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
+                    prefetch_group(group, domain_.z_begin + z + kSlicesAhead);
+                    visit(group, domain_.z_begin + z);
+                }
             }
         });
     }

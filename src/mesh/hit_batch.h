@@ -10,39 +10,40 @@
 
 namespace isoatlas {
 
-/// Edges that are hit.
-template <class Real>
+/// Hits on edges along one axis that wait.
 struct HitBatch {
     std::size_t count = 0;
-    Lanes<std::int32_t> from{};                ///< first end, in a bundle of rows (mesh/bundle_samples.h)
-    std::array<std::int32_t, kLanes> axis{};   ///< of the edge
+    Lanes<std::int32_t> from{};                ///< first end of the edge, in a bundle of rows (mesh/bundle_samples.h)
     std::array<std::int64_t, kLanes> point{};  ///< where the hit is written
     bool is_at_end = false;                    ///< does one of them look beyond an end of its row?
-    // What follows is computed.
-    std::array<double, kLanes> a{}, b{};  ///< samples at the ends of the edge
-    Lanes<Real> slope{}, change{};        ///< of the samples at the first end, and what it changes by towards the other one
-    Lanes<double> place{};                ///< of the hit
-    std::array<bool, kLanes> rare{};      ///< PhysicalMap::to_normals
 
     /// Is there no room for a word of hits, and for what a vector writes behind its last one?
     [[nodiscard]] bool is_full() const { return count > kLanes - 64 - 16; }
 };
 
-/// Where the hits of a run lie: on edges along an axis from samples of a row.
+/// What is computed of them.
+template <class Real>
+struct HitValues {
+    std::array<Real, kLanes> a{}, b{};  ///< samples at the ends of the edge
+    Lanes<Real> slope{}, change{};      ///< of the samples at the first end, and what it changes by towards the other one
+    std::array<double, kLanes> t{};     ///< where the hit lies between them
+    Lanes<double> place{};              ///< of the hit
+    std::array<bool, kLanes> rare{};    ///< PhysicalMap::to_normals
+};
+
+/// Where the hits of a run lie: on edges that begin at samples of a row.
 struct HitRun {
     std::int32_t x;  ///< sample of bit 0
-    std::int32_t y, z, axis;
+    std::int32_t y, z;
     std::int64_t point;  ///< of the first hit
 };
 
 /// Adds a hit for every bit; how many?
-template <class Real>
-std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch<Real>& batch) {
+inline std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
     std::int64_t point = run.point;
     for (; bits != 0; bits &= bits - 1) {
         const std::size_t i = batch.count++;
         batch.from[0][i] = run.x + std::countr_zero(bits), batch.from[1][i] = run.y, batch.from[2][i] = run.z;
-        batch.axis[i] = run.axis;
         batch.point[i] = point++;
     }
     return point - run.point;
@@ -50,8 +51,7 @@ std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch<Real>&
 
 #if ISOATLAS_HAS_WIDE_512
 /// The same for 16 hits at a time, without a branch that could not be foreseen.
-template <class Real>
-ISOATLAS_WIDE_512 std::int64_t append_wide(const HitRun& run, std::uint64_t bits, HitBatch<Real>& batch) {
+ISOATLAS_WIDE_512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
     alignas(64) static constexpr std::array<std::uint8_t, 64> kPositions = [] {
         std::array<std::uint8_t, 64> positions{};
         for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = static_cast<std::uint8_t>(i);
@@ -68,7 +68,6 @@ ISOATLAS_WIDE_512 std::int64_t append_wide(const HitRun& run, std::uint64_t bits
         _mm512_storeu_si512(batch.from[0].data() + i, x);
         _mm512_storeu_si512(batch.from[1].data() + i, _mm512_set1_epi32(run.y));
         _mm512_storeu_si512(batch.from[2].data() + i, _mm512_set1_epi32(run.z));
-        _mm512_storeu_si512(batch.axis.data() + i, _mm512_set1_epi32(run.axis));
         _mm512_storeu_si512(batch.point.data() + i, point);
         point = _mm512_add_epi64(point, _mm512_set1_epi64(8));
         _mm512_storeu_si512(batch.point.data() + i + 8, point);
@@ -82,8 +81,7 @@ ISOATLAS_WIDE_512 std::int64_t append_wide(const HitRun& run, std::uint64_t bits
 #endif
 
 /// append_plain(), as fast as it gets here.
-template <class Real>
-std::int64_t append(const HitRun& run, std::uint64_t bits, HitBatch<Real>& batch) {
+inline std::int64_t append(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
 #if ISOATLAS_HAS_WIDE_512
     if (kHasWide512) return append_wide(run, bits, batch);
 #endif

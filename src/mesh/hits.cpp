@@ -23,7 +23,7 @@ void for_bits(std::uint64_t bits, Visit&& visit) {
 
 template <class T>
 HitWriter<T>::HitWriter(const SampleGrid<T>& grid, double tau, const PhysicalMap& map, const MeshDomain& domain, Surface& surface)
-    : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface) {
+    : grid_(grid), tau_(tau), map_(map), domain_(domain), surface_(surface), normals_(!surface.normals.empty()) {
     if (grid.extent.size[0] > kLongestRow) {
         throw Error(ErrorKind::resource, {.where = "axis x",
                                           .what = "a row has " + std::to_string(grid.extent.size[0]) + " samples",
@@ -46,27 +46,26 @@ void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGro
                        end_z = std::min(first_z + kBundleSize[2], grid_.extent.size[2]);
     std::optional<Work> work;
     std::vector<Row> rows;
+    rows.reserve(static_cast<std::size_t>(kBundleSize[1]));
     for (std::int64_t z = first_z; z < end_z; ++z) {
+        if (z + kSlicesAhead < end_z && groups.is_used(RowGroups::group_of(first_y), z + kSlicesAhead))
+            prefetch_rows(domain_, layout, first_y, end_y, z + kSlicesAhead);
         if (!groups.is_used(RowGroups::group_of(first_y), z)) continue;
         rows.clear();
         for (std::int64_t y = first_y; y < end_y; ++y) {
             const RowPlace& place = layout[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) continue;
-            rows.push_back({RowHits(domain_, y, z, place),
-                            {place.point, place.first_y(), place.first_z()},
-                            static_cast<std::int32_t>(y - first_y),
-                            static_cast<std::int32_t>(z - first_z),
-                            y + 1 == grid_.extent.size[1],
-                            z + 1 == grid_.extent.size[2]});
+            rows.emplace_back(RowHits(domain_, y, z, place), place, y - first_y, z - first_z, y + 1 == grid_.extent.size[1],
+                              z + 1 == grid_.extent.size[2]);
         }
         if (rows.empty()) continue;
         if (!work) {
-            work.emplace(Work{BundleSamples<T, Real>(grid_, map_), position(0, first_y, first_z), {}});
+            work.emplace(Work{BundleSamples<T, Real>(grid_, map_), position(0, first_y, first_z), {}, {}});
             work->samples.move_to(first_y, first_z);
         }
         write_slice(rows, *work);
     }
-    if (work) flush(*work);
+    for (std::size_t axis = 0; work && axis < 3; ++axis) flush(axis, *work);
 }
 
 template <class T>
@@ -86,7 +85,8 @@ template <class T>
 void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
     const std::array<std::uint64_t, 3> bits{row.hits.x(w), row.hits.y(w), row.hits.z(w)};
     if ((bits[0] | bits[1] | bits[2]) == 0) return;
-    work.samples.prefetch_slice(64 * w - 1, bits[0] | bits[1] | bits[2], row.y, row.z);
+    const std::uint64_t any = bits[0] | bits[1] | bits[2];
+    work.samples.prefetch_slice(64 * w - 1 + std::countr_zero(any), 64 * w + 62 - std::countl_zero(any), row.y, row.z);
     std::uint64_t inner_x = bits[0];
     if (w == 0 && (inner_x & 1) != 0) {  // between the padding and the first voxel
         write_border({work.first[0], work.first[1] + row.y, work.first[2] + row.z}, 0, -1, row.next[0]++);
@@ -96,13 +96,15 @@ void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
     const std::array<std::uint64_t, 3> border{w == last / 64 ? inner_x & std::uint64_t{1} << last % 64 : 0, row.is_last_y ? bits[1] : 0,
                                               row.is_last_z ? bits[2] : 0};
     const std::array<std::uint64_t, 3> inner{inner_x ^ border[0], bits[1] ^ border[1], bits[2] ^ border[2]};
-    HitBatch<Real>& batch = work.batch;
     const bool is_at_end = ((inner[0] | inner[1] | inner[2]) & end_positions(w)) != 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (batch.is_full()) flush(work);
+        HitBatch& batch = work.batch[axis];
+        if (batch.is_full()) flush(axis, work);
         batch.is_at_end = batch.is_at_end || is_at_end;
-        row.next[axis] += append({static_cast<std::int32_t>(64 * w - 1), row.y, row.z, static_cast<std::int32_t>(axis), row.next[axis]},
-                                 inner[axis], batch);
+        row.next[axis] += append({static_cast<std::int32_t>(64 * w - 1), row.y, row.z, row.next[axis]}, inner[axis], batch);
+        // Where the row's next hits go: what is written is not waited for either.
+        prefetch_to_write(surface_.points.data() + row.next[axis]);
+        if (normals_) prefetch_to_write(surface_.normals.data() + row.next[axis]);
     }
     if ((border[0] | border[1] | border[2]) == 0) return;
     for (std::size_t axis = 0; axis < 3; ++axis) write_ends(w, border[axis], axis, row, work);
@@ -118,51 +120,35 @@ std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
 }
 
 template <class T>
-void HitWriter<T>::gather(bool normals, Work& work) const {
-    HitBatch<Real>& batch = work.batch;
+void HitWriter<T>::turn(std::size_t axis, Work& work) const {
     const BundleSamples<T, Real>& samples = work.samples;
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        const std::int32_t x = batch.from[0][i], y = batch.from[1][i], z = batch.from[2][i], axis = batch.axis[i];
-        const auto from = samples.around(x, y, z), to = samples.around(x + (axis == 0), y + (axis == 1), z + (axis == 2));
-        batch.a[i] = static_cast<double>(from.sample), batch.b[i] = static_cast<double>(to.sample);
-        if (!normals) continue;
-        for (std::size_t k = 0; k < 3; ++k) batch.slope[k][i] = from.difference[k], batch.change[k][i] = to.difference[k];
-    }
-    if (!normals) return;
-    if (!batch.is_at_end && samples.has_same_scales()) {
-        const std::array<Real, 3> scales = samples.same_scales();
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Real scale = scales[k];
-            for (std::size_t i = 0; i < whole_lanes(batch.count); ++i) {
-                batch.slope[k][i] *= scale;
-                batch.change[k][i] = batch.change[k][i] * scale - batch.slope[k][i];
-            }
-        }
-        return;
-    }
+    const HitBatch& batch = work.batch[axis];
+    if (!batch.is_at_end && samples.has_same_scales()) return turn_hits(batch, map_, samples.same_scales(), work.values);
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < batch.count; ++i) {
-            const std::int32_t at = batch.from[k][i], next = at + (batch.axis[i] == static_cast<std::int32_t>(k));
-            batch.slope[k][i] *= samples.scale(k, at);
-            batch.change[k][i] = batch.change[k][i] * samples.scale(k, next) - batch.slope[k][i];
+            const std::int32_t at = batch.from[k][i], next = at + (axis == k);
+            work.values.slope[k][i] *= samples.scale(k, at);
+            work.values.change[k][i] *= samples.scale(k, next);
         }
     }
+    turn_hits(batch, map_, {1, 1, 1}, work.values);
 }
 
 template <class T>
-void HitWriter<T>::flush(Work& work) const {
-    HitBatch<Real>& batch = work.batch;
-    const bool normals = !surface_.normals.empty();
-    gather(normals, work);
-    place_hits(batch, tau_, map_, work.first, normals);
+void HitWriter<T>::flush(std::size_t axis, Work& work) const {
+    HitBatch& batch = work.batch[axis];
+    HitValues<Real>& values = work.values;
+    work.samples.gather(batch, axis, normals_, values);
+    place_hits(batch, axis, tau_, map_, work.first, values);
+    if (normals_) turn(axis, work);
     for (std::size_t i = 0; i < batch.count; ++i)
-        surface_.points[batch.point[i]] = {batch.place[0][i], batch.place[1][i], batch.place[2][i]};
-    const auto& [x, y, z] = batch.slope;
-    for (std::size_t i = 0; normals && i < batch.count; ++i) {
+        surface_.points[batch.point[i]] = {values.place[0][i], values.place[1][i], values.place[2][i]};
+    const auto& [x, y, z] = values.slope;
+    for (std::size_t i = 0; normals_ && i < batch.count; ++i) {
         surface_.normals[batch.point[i]] =
-            batch.rare[i] ? map_.rare_normal({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])},
-                                             batch.axis[i], batch.a[i] > batch.b[i] ? 1 : -1)
-                          : std::array{static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(z[i])};
+            values.rare[i] ? map_.rare_normal({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])},
+                                              static_cast<int>(axis), values.a[i] > values.b[i] ? 1 : -1)
+                           : std::array{static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(z[i])};
     }
     batch.count = 0;
     batch.is_at_end = false;
@@ -181,7 +167,7 @@ void HitWriter<T>::write_border(const Vec3& position, int axis, double sign, std
     Vec3 outside = position;
     outside[axis] += sign * kHitMargin;
     surface_.points[point] = map_.point(outside);
-    if (!surface_.normals.empty()) surface_.normals[point] = border_normal_[axis][sign > 0 ? 1 : 0];
+    if (normals_) surface_.normals[point] = border_normal_[axis][sign > 0 ? 1 : 0];
 }
 
 template <class T>

@@ -35,16 +35,28 @@ private:
         std::array<std::int64_t, 3> next;  ///< point on its edges along each axis
         std::int32_t y, z;
         bool is_last_y, is_last_z;  ///< of the grid: what follows is padding
+
+        /// Made in place: copied, vectors would be loaded while their parts are being stored.
+        Row(const RowHits& of, const RowPlace& place, std::int64_t row_y, std::int64_t row_z, bool last_y, bool last_z)
+            : hits(of),
+              next{place.point, place.first_y(), place.first_z()},
+              y(static_cast<std::int32_t>(row_y)),
+              z(static_cast<std::int32_t>(row_z)),
+              is_last_y(last_y),
+              is_last_z(last_z) {}
     };
     struct Work {
         BundleSamples<T, Real> samples;
-        Vec3 first;  ///< voxel of the bundle
-        HitBatch<Real> batch;
+        Vec3 first;                     ///< voxel of the bundle
+        std::array<HitBatch, 3> batch;  ///< by axis
+        HitValues<Real> values;
     };
     void write_slice(std::vector<Row>& rows, Work& work) const;
     void write_word(std::int64_t w, Row& row, Work& work) const;
-    void flush(Work& work) const;
-    void gather(bool normals, Work& work) const;
+    /// Computes and writes the hits that wait along an axis.
+    void flush(std::size_t axis, Work& work) const;
+    /// From differences of samples to normals.
+    void turn(std::size_t axis, Work& work) const;
     /// The hits between voxels of a row, at positions of word w, and the padding behind them along an axis.
     void write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const;
     /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.
@@ -61,6 +73,7 @@ private:
     const PhysicalMap& map_;
     const MeshDomain& domain_;
     Surface& surface_;
+    bool normals_;                                                        ///< are they wanted?
     std::array<std::array<std::array<float, 3>, 2>, 3> border_normal_{};  ///< by axis and side: before or behind the grid
 };
 

@@ -1,5 +1,6 @@
 #include "mesh/layout.h"
 
+#include "base/prefetch.h"
 #include "base/wide.h"
 
 namespace isoatlas {
@@ -26,6 +27,11 @@ MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
 ISOATLAS_WIDE void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
     const RowHits hits(domain, y, z);
     hits.busy.for_each([&](std::int64_t w) { count_hits(w, hits.x(w), hits.y(w), hits.z(w), place); });
+}
+
+void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t end, std::int64_t z) {
+    prefetch(domain.high.row(y, z), domain.high.row(end - 1, z) + domain.high.words());
+    prefetch(&layout[static_cast<std::size_t>(domain.row_number(y, z))], &layout[static_cast<std::size_t>(domain.row_number(end, z))]);
 }
 
 void turn_counts_into_places(Layout& layout) {

@@ -112,6 +112,12 @@ private:
 /// Places of all rows; the last entry holds the totals.
 using Layout = BigVector<RowPlace>;
 
+/// How many slices ahead of those that are walked over rows are asked for: one more than is looked at.
+inline constexpr std::int64_t kSlicesAhead = 3;
+/// Asks for the bits and the places of rows [y, end) of a slice, inside the grid: slices lie too far from each other for a processor to
+/// guess.
+void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t end, std::int64_t z);
+
 /// Adds the hits of word w of a row to its counts, along each axis, and marks the word.
 [[gnu::always_inline]] inline void count_hits(std::int64_t w, std::uint64_t x, std::uint64_t y, std::uint64_t z, RowPlace& place) {
     if ((x | y | z) == 0) return;

@@ -11,7 +11,7 @@
 namespace isoatlas {
 
 /// Vectors side by side, one array for each component, so that the compiler works on several at once.
-inline constexpr std::size_t kLanes = 128;
+inline constexpr std::size_t kLanes = 256;
 template <class Real>
 using Lanes = std::array<std::array<Real, kLanes>, 3>;
 /// Loops over lanes run to a whole number of these: what lies behind the last one is computed for nothing.

@@ -6,31 +6,48 @@ namespace isoatlas {
 namespace {
 
 template <class Real>
-[[gnu::always_inline]] inline void place(HitBatch<Real>& batch, double tau, const PhysicalMap& map, const Vec3& first, bool normals) {
+[[gnu::always_inline]] inline void place(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
+                                         HitValues<Real>& values) {
     const std::size_t count = whole_lanes(batch.count);
-    std::array<double, kLanes> t;
-    for (std::size_t i = 0; i < count; ++i) t[i] = hit_fraction(batch.a[i], batch.b[i], tau);
-    for (std::int32_t k = 0; k < 3; ++k) {
-        const auto axis = static_cast<std::size_t>(k);
-        for (std::size_t i = 0; i < count; ++i)
-            batch.place[axis][i] = first[axis] + static_cast<double>(batch.from[axis][i]) + (batch.axis[i] == k ? t[i] : 0.0);
-    }
-    map.to_points(batch.count, batch.place);
-    if (!normals) return;
+    for (std::size_t i = 0; i < count; ++i)
+        values.t[i] = hit_fraction(static_cast<double>(values.a[i]), static_cast<double>(values.b[i]), tau);
     for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t i = 0; i < count; ++i) batch.slope[k][i] = batch.slope[k][i] + static_cast<Real>(t[i]) * batch.change[k][i];
+        for (std::size_t i = 0; i < count; ++i) values.place[k][i] = first[k] + static_cast<double>(batch.from[k][i]);
     }
-    map.to_normals(batch.count, batch.slope, batch.rare);
+    for (std::size_t i = 0; i < count; ++i) values.place[axis][i] += values.t[i];
+    map.to_points(batch.count, values.place);
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void turn(const HitBatch& batch, const PhysicalMap& map, const std::array<Real, 3>& scales,
+                                        HitValues<Real>& values) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Real scale = scales[k];
+        for (std::size_t i = 0; i < whole_lanes(batch.count); ++i) {
+            const Real slope = values.slope[k][i] * scale, change = values.change[k][i] * scale - slope;
+            values.slope[k][i] = slope + static_cast<Real>(values.t[i]) * change;
+        }
+    }
+    map.to_normals(batch.count, values.slope, values.rare);
 }
 
 }  // namespace
 
-ISOATLAS_WIDE void place_hits(HitBatch<float>& batch, double tau, const PhysicalMap& map, const Vec3& first, bool normals) {
-    place(batch, tau, map, first, normals);
+ISOATLAS_WIDE void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
+                              HitValues<float>& values) {
+    place(batch, axis, tau, map, first, values);
+}
+ISOATLAS_WIDE void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
+                              HitValues<double>& values) {
+    place(batch, axis, tau, map, first, values);
 }
 
-ISOATLAS_WIDE void place_hits(HitBatch<double>& batch, double tau, const PhysicalMap& map, const Vec3& first, bool normals) {
-    place(batch, tau, map, first, normals);
+ISOATLAS_WIDE void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales, HitValues<float>& values) {
+    turn(batch, map, scales, values);
+}
+ISOATLAS_WIDE void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales,
+                             HitValues<double>& values) {
+    turn(batch, map, scales, values);
 }
 
 }  // namespace isoatlas

@@ -19,8 +19,13 @@ inline double hit_fraction(double a, double b, double tau) {
     return t > 1 - kHitMargin ? 1 - kHitMargin : t;
 }
 
-/// From samples and slopes to points in `place`, and normals in `slope` if they are wanted but for rare ones. first: voxel of the bundle.
-void place_hits(HitBatch<float>& batch, double tau, const PhysicalMap& map, const Vec3& first, bool normals);
-void place_hits(HitBatch<double>& batch, double tau, const PhysicalMap& map, const Vec3& first, bool normals);
+/// Points of hits along an axis in `place`, from samples. first: voxel of the bundle.
+void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first, HitValues<float>& values);
+void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first, HitValues<double>& values);
+
+/// Normals of placed hits in `slope`, but for rare ones. slope and change: differences of samples at the ends of the edges, times scales
+/// where all have the same: slopes.
+void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales, HitValues<float>& values);
+void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales, HitValues<double>& values);
 
 }  // namespace isoatlas
