@@ -109,6 +109,11 @@ def ratio(ours_, theirs):
     return statistics.median(b / a for a, b in zip(ours_, theirs))
 
 
+def steps_ratio(program, store, tau, arguments):
+    result = ours(program, "steps", store, tau, "--threads", arguments.threads, "--repeats", 9)
+    return ratio(result["step"], result["fresh"])
+
+
 def surface_record(program, store, volume, field, image, tau, arguments):
     active = field.active_cells(tau)
     own = {"warm": [], "again": [], "cold": []}
@@ -124,6 +129,7 @@ def surface_record(program, store, volume, field, image, tau, arguments):
             "times faster": ratio(own["warm"], vtk_warm), "again, times faster": ratio(own["again"], vtk_warm),
             "cold, s": statistics.median(own["cold"]), "VTK from the file, s": statistics.median(vtk_cold),
             "cold, times faster": ratio(own["cold"], vtk_cold), "cold disk MB": result["cold_disk_bytes"] / 1e6,
+            "steps, times faster than fresh": steps_ratio(program, store, tau, arguments),
             "bytes an active cell": result["bytes"] / max(active, 1), "reads": result["extents"]}
 
 

@@ -2,16 +2,19 @@
 //
 //   bench_store build VOLUME STORE [--cache FOLDER] [--threads N]     VOLUME: as in bench_engine, e.g. smooth-256
 //   bench_store surface STORE TAU [--threads N] [--repeats N]         the whole isosurface: warm, again, cold
+//   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, up from TAU
 //   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
 //   bench_store check STORE TAU VOLUME [--cache FOLDER]               is the surface that of the volume, byte for byte?
 //
 // Each prints one JSON document. Seconds are those of every repeat:
 //   open   opening the store, the file's pages in memory     warm   the query of an open store that holds no bricks
 //   again  the same query once more                          cold   opening and first query, the file's pages dropped before
+//   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
 // compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
 #include <isoatlas/isoatlas.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -151,6 +154,25 @@ ordered_json surface(const Arguments& arguments) {
     return result;
 }
 
+/// Steps in one direction, as a key that is held down makes them: each meets bricks that none before has read.
+ordered_json measure_steps(const Arguments& arguments) {
+    const isoatlas::ExtractOptions options = without_ids();
+    const Atlas walked(arguments.word(1)), fresh(arguments.word(1));
+    isoatlas::Navigator navigator(walked, options);
+    const std::array<double, 2> range = walked.range();
+    double tau = arguments.tau();
+    navigator.go_to(tau, arguments.context);
+    (void)fresh.extract(tau, options, arguments.context);  // what a store reads once
+    ordered_json result{{"step", ordered_json::array()}, {"fresh", ordered_json::array()}};
+    for (int i = 0; i < arguments.repeats; ++i) {
+        tau += 0.005 * (range[1] - range[0]);
+        result["step"].push_back(seconds_of([&] { navigator.go_to(tau, arguments.context); }));
+        fresh.clear_cache();
+        result["fresh"].push_back(seconds_of([&] { (void)fresh.extract(tau, options, arguments.context); }));
+    }
+    return result;
+}
+
 ordered_json object(const Arguments& arguments) {
     const isoatlas::Cut cut = Atlas(arguments.word(1)).cut(arguments.tau(), {}, arguments.context);
     if (cut.objects.empty()) throw std::runtime_error("there is no object at this isovalue");
@@ -182,6 +204,7 @@ ordered_json run(const Arguments& arguments) {
     const std::string& verb = arguments.word(0);
     if (verb == "build") return build(arguments);
     if (verb == "surface") return surface(arguments);
+    if (verb == "steps") return measure_steps(arguments);
     if (verb == "object") return object(arguments);
     if (verb == "check") return check(arguments);
     throw std::runtime_error("unknown verb " + verb);

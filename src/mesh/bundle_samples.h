@@ -47,19 +47,21 @@ public:
             gather_across<2>(batch, values);
     }
 
-    /// Asks for samples that later slices look at: some slices behind row (y, z), near the first and the last of some samples of it. Also
-    /// those of rows beside the bundle.
-    void prefetch_slice(std::int64_t first, std::int64_t last, std::int32_t y, std::int32_t z) const {
-        const auto ahead = static_cast<std::int32_t>(std::min<std::int64_t>(z + kSlicesAhead, kBundleSize[2] + kBehind - 1));
-        const T* const from = grid_.samples + *offset(2, ahead) + *offset(0, static_cast<std::int32_t>(first));
-        const T* const to = grid_.samples + *offset(2, ahead) + *offset(0, static_cast<std::int32_t>(last));
-        const auto prefetch_row = [&](std::int64_t row) {
-            const std::int64_t at_y = *offset(1, static_cast<std::int32_t>(row));
-            prefetch(from + at_y), prefetch(to + at_y);
+    /// Asks for samples that are looked at for hits of row (y, z), near the first and the last of some samples of it, and for those that
+    /// later slices will look at: some slices behind the row, and where it is the last one, beside the bundle.
+    void prefetch_around(std::int64_t first, std::int64_t last, std::int32_t y, std::int32_t z) const {
+        const T* const from = grid_.samples + *offset(0, static_cast<std::int32_t>(first));
+        const T* const to = grid_.samples + *offset(0, static_cast<std::int32_t>(last));
+        const auto prefetch_row = [&](std::int64_t at_y, std::int64_t at_z) {
+            const std::int64_t row = *offset(1, static_cast<std::int32_t>(at_y)) + *offset(2, static_cast<std::int32_t>(at_z));
+            prefetch(from + row), prefetch(to + row);
         };
-        prefetch_row(y);
-        if (y == 0) prefetch_row(-1);
-        if (y + kBehind >= kBundleSize[1]) prefetch_row(y + kBehind);
+        const std::int64_t ahead = std::min<std::int64_t>(z + kSlicesAhead, kBundleSize[2] + kBehind - 1);
+        prefetch_row(y, ahead);
+        if (y == 0) prefetch_row(-1, ahead);
+        if (y + kBehind >= kBundleSize[1]) prefetch_row(y + kBehind, ahead);
+        prefetch_row(y, z + 1), prefetch_row(y, z + 2);  // a surface that leans comes to lines that nobody has asked for
+        prefetch_row(y - 1, z), prefetch_row(y + 1, z), prefetch_row(y + 2, z);
     }
 
     /// 1 / (distance of the neighbours) of a sample along an axis.

@@ -86,7 +86,7 @@ void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
     const std::array<std::uint64_t, 3> bits{row.hits.x(w), row.hits.y(w), row.hits.z(w)};
     if ((bits[0] | bits[1] | bits[2]) == 0) return;
     const std::uint64_t any = bits[0] | bits[1] | bits[2];
-    work.samples.prefetch_slice(64 * w - 1 + std::countr_zero(any), 64 * w + 62 - std::countl_zero(any), row.y, row.z);
+    work.samples.prefetch_around(64 * w - 1 + std::countr_zero(any), 64 * w + 62 - std::countl_zero(any), row.y, row.z);
     std::uint64_t inner_x = bits[0];
     if (w == 0 && (inner_x & 1) != 0) {  // between the padding and the first voxel
         write_border({work.first[0], work.first[1] + row.y, work.first[2] + row.z}, 0, -1, row.next[0]++);
