@@ -27,7 +27,7 @@ public:
     [[nodiscard]] virtual std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out);
     /// read_at(), of what need not be waited for: -EAGAIN where nothing of it is in memory.
     [[nodiscard]] virtual std::ptrdiff_t read_present(std::int64_t offset, std::span<std::byte> out);
-    /// Says that bytes will be read soon: they may be fetched meanwhile.
+    /// Says that bytes, at least one, will be read soon: they may be fetched meanwhile.
     virtual void expect(std::int64_t offset, std::int64_t bytes);
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
     [[nodiscard]] virtual std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes);

@@ -146,17 +146,20 @@ template <class T>
 void BrickReader<T>::expect(std::span<const Extent> extents, std::size_t first, Expected& expected) const {
     const std::size_t end = std::min(first + kExpectedReads, extents.size());
     const std::int64_t end_byte = extents[first].begin + kExpectedBytes;
-    for (std::size_t i = first; i < end && extents[i].begin < end_byte;) {
-        if (expected[i].exchange(true, std::memory_order_relaxed)) {
-            ++i;
-            continue;
-        }
-        const std::int64_t begin = extents[i].begin;
-        std::int64_t reached = extents[i].end;
-        for (++i; i < end && extents[i].begin - reached <= kExpectedGap && !expected[i].exchange(true, std::memory_order_relaxed); ++i)
-            reached = extents[i].end;
-        store_.expect(data_, begin, reached - begin);
+    std::int64_t begin = 0, reached = 0;  // of what is asked for next, nothing as yet
+    const auto ask = [&] {
+        if (reached > begin) store_.expect(data_, begin, reached - begin);
+        begin = reached = 0;
+    };
+    for (std::size_t i = first; i < end && extents[i].begin < end_byte; ++i) {
+        if (extents[i].end == extents[i].begin) continue;  // bricks of one value have no bytes
+        const bool is_asked = expected[i].exchange(true, std::memory_order_relaxed);
+        if (is_asked || extents[i].begin - reached > kExpectedGap) ask();
+        if (is_asked) continue;
+        if (reached == begin) begin = extents[i].begin;
+        reached = extents[i].end;
     }
+    ask();
 }
 
 template <class T>
