@@ -85,10 +85,14 @@ describe.skipIf(!canServe)("the scene", () => {
     });
     await tab.goto(served.address + scene(2));
     await settled(tab);
-    await tab.waitForTimeout(500);
     const linked = (): Promise<number> => tab.evaluate(() => (window as unknown as { linked: number }).linked);
-    const before = await linked();
-    expect(before).toBeGreaterThan(0);
+    let before = 0; // once all that is drawn at first has been, however slow the machine is
+    const isStill = async (): Promise<boolean> => {
+      const last = before;
+      before = await linked();
+      return before > 0 && before === last;
+    };
+    await expect.poll(isStill, { interval: 500 }).toBe(true);
     for (let i = 0; i < 4; ++i) {
       const asked: string[] = [];
       const hear = (request: { url(): string }): void => {
