@@ -16,6 +16,7 @@ demo|libtbb-dev|threads
 demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
+demo|libboost-dev|integers of any size, where doubles cannot tell two saddles apart (headers only)
 demo|libhdf5-dev|stores
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files

@@ -110,14 +110,9 @@ std::optional<BodyPoint> opening_point(const CellView& cell, const BodySaddle& s
     return std::nullopt;
 }
 
-std::array<double, 8> negated(std::array<double, 8> value) {
-    for (double& v : value) v = -v;
-    return value;
-}
-
 }  // namespace
 
-double side_sign(const std::array<double, 8>& v, int f) {
+int side_sign(const CellValues& v, int f) {
     const std::array<int, 4>& corner = kFaceCorners[f];
     const int across = 1 << kFaceAxes[f / 2].normal;
     const double a = v[corner[0]], b = v[corner[1]], c = v[corner[2]], d = v[corner[3]];
@@ -125,7 +120,11 @@ double side_sign(const std::array<double, 8>& v, int f) {
     const double dc = v[corner[2] ^ across] - c, dd = v[corner[3] ^ across] - d;
     const double at_a = (c - b) * (c - d) * da, at_c = (a - d) * (a - b) * dc;
     const double at_b = (a - d) * (c - d) * db, at_d = (c - b) * (a - b) * dd;
-    return (at_a + at_c) + (at_b + at_d);  // the same bits for a turned or mirrored face
+    const double sum = (at_a + at_c) + (at_b + at_d);
+    const double terms = std::abs(at_a) + std::abs(at_b) + std::abs(at_c) + std::abs(at_d);
+    const bool is_certain = std::abs(sum) > 0x1p-49 * terms && terms > 0x1p-900 && terms < 0x1p1000;
+    if (!is_certain) return exact_side_sign(v, f);
+    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
 }
 
 double tunnel_height_of(Interpolant interpolant, double tunnel_height) {
@@ -136,24 +135,28 @@ double tunnel_height_of(Interpolant interpolant, double tunnel_height) {
     return interpolant == Interpolant::trilinear ? tunnel_height : std::numeric_limits<double>::infinity();
 }
 
-CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height) {
-    unsigned openings = 0, closings = 0;
-    int exponent = 0;
-    const std::array<double, 8> value = scaled(cell.value, exponent);
+DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types) {
+    DisagreeingFaces faces;
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
-        const double sign = side_sign(value, f);
+        const int sign = side_sign(cell.value, f);
         const bool joined = default_types >> f & 1;
-        if (!joined && sign > 0) openings |= 1U << f;
-        if (joined && sign < 0) closings |= 1U << f;
+        if (!joined && sign > 0) faces.openings |= 1U << f;
+        if (joined && sign < 0) faces.closings |= 1U << f;
     }
+    return faces;
+}
+
+CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height) {
     CellBodies bodies;
-    const std::optional<BodySaddle> low = openings != 0 ? body_saddle(cell.value) : std::nullopt;
-    const std::optional<BodySaddle> high = closings != 0 ? body_saddle(negated(cell.value)) : std::nullopt;
+    std::optional<BodySaddle> low, high;
+    if (faces.openings != 0) low = body_saddle(cell.value, SaddleKind::joins_highs);
+    if (faces.closings != 0) high = body_saddle(cell.value, SaddleKind::joins_lows);
     if (!low && !high) return bodies;
+    if (high) high->value = -high->value;
     const CellView upright(cell, false), upside_down(cell, true);
-    if (low) bodies.opening = opening_point(upright, *low, openings);
-    if (high) bodies.closing = opening_point(upside_down, *high, closings);
+    if (low) bodies.opening = opening_point(upright, *low, faces.openings);
+    if (high) bodies.closing = opening_point(upside_down, *high, faces.closings);
     if (bodies.closing) bodies.closing->value = -bodies.closing->value;
     if (bodies.opening && bodies.closing) {
         const bool in_order =

@@ -12,14 +12,14 @@
 #include <array>
 #include <optional>
 
+#include "critical/exact_cell.h"
 #include "critical/faces.h"
 #include "isoatlas/analysis.h"
 
 namespace isoatlas {
 
-/// D^2 times the derivative of the trilinear interpolant into the cell at the saddle of face f; exact for samples of 16 bits. Values of
-/// more than 1e100 overflow: scale them first.
-double side_sign(const std::array<double, 8>& value, int f);
+/// Sign (-1, 0, 1) of the derivative of the trilinear interpolant into the cell at the saddle of its ambiguous face f. Exact.
+int side_sign(const CellValues& value, int f);
 
 struct BodyPoint {
     double value;
@@ -35,9 +35,24 @@ struct CellBodies {
     unsigned exceptional = 0;          ///< bit f: the type of f in this cell is not the default one
 };
 
-/// default_types: of default_face_types. Body points that lie at most tunnel_height from their face are left out: any subset of them
-/// makes a consistent topology (trilinear.md section 3). Cost: O(1); a few flops a face unless a sign disagrees.
-CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height = 0);
+/// Ambiguous faces whose sign disagrees with their default type; bit f.
+struct DisagreeingFaces {
+    unsigned openings = 0;  ///< default Lows, in truth Highs
+    unsigned closings = 0;  ///< default Highs, in truth Lows
+    [[nodiscard]] bool any() const { return (openings | closings) != 0; }
+};
+
+/// default_types: of default_face_types. Reads the corners alone. Cost: a few flops a face.
+DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types);
+
+/// The body points of a cell with face values (find_face_values). Those that lie at most tunnel_height from their face are left out: any
+/// subset of them makes a consistent topology (trilinear.md section 3). Cost: O(1).
+CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height = 0);
+
+/// The same from the default types.
+inline CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height = 0) {
+    return bodies_of_cell(cell, disagreeing_faces(cell, default_types), tunnel_height);
+}
 
 /// The tunnel height that stands for an interpolant: faces only means no tunnel however high. Throws Error{usage} unless it is 0 or more.
 double tunnel_height_of(Interpolant interpolant, double tunnel_height);

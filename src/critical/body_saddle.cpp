@@ -1,120 +1,168 @@
 // f = k0 + k1 x + k2 y + k3 z + k4 xy + k5 xz + k6 yz + k7 xyz. At a critical point X = f_yz, Y = f_xz, Z = f_xy satisfy
-// X = -q/A, Y = -q/B, Z = -q/C with q = +-sqrt(-ABC); XYZ = q > 0 is the saddle of index 1.
+// X = -q/A, Y = -q/B, Z = -q/C with q = +-sqrt(-ABC); XYZ = q > 0 is the saddle at which Highs join.
+//
+// The value is found where f is flat: at a point that lies within `radius` of the saddle f differs from the saddle's value by
+// Z dx dy + Y dx dz + X dy dz + k7 dx dy dz, so a position to 14 digits gives the value to 28 (docs/theory/6-interior.md#rounded-once).
 #include "critical/body_saddle.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "field/error_free.h"
+#include "field/rounding.h"
+
 namespace isoatlas {
 namespace {
 
-using Coefficients = std::array<double, 8>;
+using Vector = std::array<double, 3>;
 
-Coefficients coefficients(const std::array<double, 8>& v) {
-    return {v[0],
-            v[1] - v[0],
-            v[2] - v[0],
-            v[4] - v[0],
-            v[3] - v[1] - v[2] + v[0],
-            v[5] - v[1] - v[4] + v[0],
-            v[6] - v[2] - v[4] + v[0],
-            v[7] - v[6] - v[5] - v[3] + v[4] + v[2] + v[1] - v[0]};
-}
+/// The cell relative to corner 0, upside down for a saddle that joins Lows.
+struct Polynomial {
+    std::array<TwoDoubles, 8> k;  // k[0] is not used
+    double most = 0;              // the greatest |corner - corner 0|
+
+    Polynomial(const CellValues& v, SaddleKind kind) {
+        std::array<TwoDoubles, 8> w;
+        for (int i = 0; i < 8; ++i) {
+            w[i] = kind == SaddleKind::joins_highs ? two_difference(v[i], v[0]) : two_difference(v[0], v[i]);
+            most = std::max(most, std::abs(w[i].high));
+        }
+        const auto minus = [](TwoDoubles a, TwoDoubles b) { return a + TwoDoubles{-b.high, -b.low}; };
+        const TwoDoubles xy = minus(minus(w[3], w[1]), w[2]), xz = minus(minus(w[5], w[1]), w[4]), yz = minus(minus(w[6], w[2]), w[4]);
+        const TwoDoubles xyz = minus(minus(minus(w[7], w[6]), xy), minus(w[5], w[4]));
+        k = {w[0], w[1], w[2], w[4], xy, xz, yz, xyz};
+    }
+};
 
 /// (root - k) / k7 without cancellation: numerator is that of (root^2 - k^2) / k7, which divides by a.
 double coordinate(double root, double k, double k7, double numerator, double a) {
     return root * k <= 0 ? (root - k) / k7 : -numerator / (a * (root + k));
 }
 
-}  // namespace
+enum class Found { no, perhaps, yes };
 
-std::array<double, 8> scaled(const std::array<double, 8>& value, int& exponent) {
-    double most = 0;
-    for (const double v : value) most = std::max(most, std::abs(v));
-    exponent = most == 0 || (most > 1e-30 && most < 1e30) ? 0 : std::ilogb(most);
-    std::array<double, 8> result = value;
-    if (exponent == 0) return result;
-    for (double& v : result) v = std::ldexp(v, -exponent);
-    return result;
+struct FirstGuess {
+    Found found;
+    Vector position;
+};
+
+FirstGuess first_guess(const Polynomial& polynomial) {
+    std::array<double, 8> high{};
+    for (int i = 0; i < 8; ++i) high[i] = polynomial.k[i].high;
+    const auto [k0, k1, k2, k3, k4, k5, k6, k7] = high;
+    const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
+    const double error = 0x1p-46 * polynomial.most * polynomial.most;
+    if (!(std::abs(a) > error && std::abs(b) > error && std::abs(c) > error)) return {Found::perhaps, {}};
+    const double q2 = -(a * b * c);
+    if (!(q2 > 0)) return {Found::no, {}};
+    const double q = std::sqrt(q2);
+    return {Found::yes,
+            {coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
+             coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
+             coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)}};
 }
 
-double interpolate(const std::array<double, 8>& v, const std::array<double, 3>& p) {
+/// A point near the saddle, and a proof of how near (Newton-Kantorovich).
+struct Near {
+    Vector position;
+    double radius;     // the saddle lies within this distance along each axis; negative: not proved
+    double curvature;  // |X| + |Y| + |Z| there
+};
+
+Near newton_step(const Polynomial& polynomial, const Vector& p, Vector& next) {
+    const auto k = [&](int i) { return polynomial.k[i].high; };
+    const auto [x, y, z] = p;
+    const double fyz = k(6) + k(7) * x, fxz = k(5) + k(7) * y, fxy = k(4) + k(7) * z;
+    const Vector slope{k(1) + k(4) * y + k(5) * z + k(7) * y * z, k(2) + k(4) * x + k(6) * z + k(7) * x * z,
+                       k(3) + k(5) * x + k(6) * y + k(7) * x * y};
+    const double error = 0x1p-46 * polynomial.most, least = 0x1p-20 * polynomial.most;  // of slopes; of second derivatives
+    const Vector second{fyz, fxz, fxy};
+    const double all = std::abs(fyz) + std::abs(fxz) + std::abs(fxy);
+    double radius = 0, inverse = 0;  // |step|, |H^-1|
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        const double twice = 2 * second[b] * second[c];
+        next[a] = p[a] + (second[a] * slope[a] - second[b] * slope[b] - second[c] * slope[c]) / twice;
+        double bound = 0;
+        for (int i = 0; i < 3; ++i) bound += std::abs(second[i]) * (std::abs(slope[i]) + error);
+        radius = std::max(radius, bound / std::abs(twice));
+        inverse = std::max(inverse, all / std::abs(twice));
+    }
+    const bool is_safe = fyz * fxz * fxy > 0 && std::min({std::abs(fyz), std::abs(fxz), std::abs(fxy)}) > least &&
+                         inverse * 2 * std::abs(k(7)) * radius < 0.25;
+    return {p, is_safe ? 2.1 * radius : -1, all};
+}
+
+Near close_in(const Polynomial& polynomial, Vector position) {
+    Near near{position, -1, 0};
+    for (int step = 0; step < 4; ++step) {
+        Vector next{};
+        near = newton_step(polynomial, position, next);
+        if (near.radius >= 0 && near.radius < 0x1p-38) break;
+        position = next;
+    }
+    return near;
+}
+
+Found is_inside(const Near& near) {
+    if (!(near.radius >= 0)) return Found::perhaps;
+    const auto [low, high] = std::minmax_element(near.position.begin(), near.position.end());
+    if (*low - near.radius > 0 && *high + near.radius < 1) return Found::yes;
+    return *low + near.radius < 0 || *high - near.radius > 1 ? Found::no : Found::perhaps;
+}
+
+/// f at a point minus corner 0, to twice the precision.
+TwoDoubles rise_at(const Polynomial& polynomial, const Vector& p) {
+    const auto& k = polynomial.k;
+    const auto [x, y, z] = p;
+    const TwoDoubles in_x = k[1] + (k[4] + k[7] * z) * y + k[5] * z;
+    return in_x * x + (k[2] + k[6] * z) * y + k[3] * z;
+}
+
+std::optional<double> rounded_value(const Polynomial& polynomial, const Near& near, double corner, SaddleKind kind) {
+    TwoDoubles rise = rise_at(polynomial, near.position);
+    if (kind == SaddleKind::joins_lows) rise = {-rise.high, -rise.low};
+    const TwoDoubles first = two_sum(corner, rise.high), sum = two_sum(first.high, first.low + rise.low);
+    const double flatness = near.radius * near.radius * (near.curvature + 10 * near.radius * polynomial.most);
+    const double error = 1.5 * flatness + 0x1p-90 * polynomial.most + 0x1p-104 * std::abs(sum.high);
+    return rounded_down_if_certain(sum, error);
+}
+
+double clamped(double x) { return std::isnan(x) ? 0.5 : std::clamp(x, 0x1p-30, 1 - 0x1p-30); }
+
+/// Are products of six values, and rounding errors of them, neither too large nor too small for doubles?
+bool is_moderate(double most, double corner) { return most > 0x1p-120 && most < 0x1p120 && std::abs(corner) < 0x1p500; }
+
+std::optional<BodySaddle> exact_saddle(const CellValues& value, SaddleKind kind, const Vector& guess) {
+    if (!exactly_has_saddle(value, kind)) return std::nullopt;
+    const Vector position{clamped(guess[0]), clamped(guess[1]), clamped(guess[2])};
+    return BodySaddle{exact_saddle_value(value, kind, interpolate(value, position)), position};
+}
+
+}  // namespace
+
+double interpolate(const CellValues& v, const std::array<double, 3>& p) {
     const auto between = [](double low, double high, double t) { return low * (1 - t) + high * t; };
     const double y0 = between(between(v[0], v[1], p[0]), between(v[2], v[3], p[0]), p[1]);
     const double y1 = between(between(v[4], v[5], p[0]), between(v[6], v[7], p[0]), p[1]);
     return between(y0, y1, p[2]);
 }
 
-namespace {
-
-/// A way to look at a cell: corner k of the turned cell is corner image(k), new axis a is old axis order[a], seen from corner `origin`.
-struct Turn {
-    int origin;
-    std::array<int, 3> order;
-
-    [[nodiscard]] int image(int k) const {
-        int corner = origin;
-        for (int a = 0; a < 3; ++a) corner ^= (k >> a & 1) << order[a];
-        return corner;
+std::optional<BodySaddle> body_saddle(const CellValues& value, SaddleKind kind) {
+    const Polynomial polynomial(value, kind);
+    constexpr Vector kMiddle{0.5, 0.5, 0.5};
+    if (!is_moderate(polynomial.most, value[0])) return exact_saddle(value, kind, kMiddle);
+    const FirstGuess guess = first_guess(polynomial);
+    if (guess.found == Found::no) return std::nullopt;
+    if (guess.found == Found::perhaps) return exact_saddle(value, kind, kMiddle);
+    const Near near = close_in(polynomial, guess.position);
+    const Found inside = is_inside(near);
+    if (inside == Found::no) return std::nullopt;
+    if (inside == Found::perhaps) return exact_saddle(value, kind, near.position);
+    if (const std::optional<double> rounded = rounded_value(polynomial, near, value[0], kind)) {
+        return BodySaddle{*rounded, near.position};
     }
-    [[nodiscard]] std::array<double, 8> of(const std::array<double, 8>& value) const {
-        std::array<double, 8> turned;
-        for (int k = 0; k < 8; ++k) turned[k] = value[image(k)];
-        return turned;
-    }
-};
-
-/// The turn after which mirrored and permuted copies of a cell are the same: its highest corner first, then the highest neighbours of that.
-Turn canonical_turn(const std::array<double, 8>& value) {
-    std::optional<Turn> best;
-    std::array<double, 8> most{};
-    const double top = *std::max_element(value.begin(), value.end());
-    for (int origin = 0; origin < 8; ++origin) {
-        if (value[origin] != top) continue;
-        std::array<int, 3> order{0, 1, 2};
-        const auto higher = [&](int a, int b) { return value[origin ^ 1 << a] > value[origin ^ 1 << b]; };
-        do {
-            if (higher(order[1], order[0]) || higher(order[2], order[1])) continue;
-            const Turn turn{origin, order};
-            const std::array<double, 8> turned = turn.of(value);
-            if (!best || turned > most) best = turn, most = turned;
-        } while (std::next_permutation(order.begin(), order.end()));
-    }
-    return *best;
-}
-
-std::optional<std::array<double, 3>> saddle_position(const std::array<double, 8>& value) {
-    const auto [k0, k1, k2, k3, k4, k5, k6, k7] = coefficients(value);
-    const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
-    const double q2 = -(a * b * c);
-    if (!(q2 > 0)) return std::nullopt;
-    const double q = std::sqrt(q2);
-    const std::array<double, 3> position{coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
-                                         coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
-                                         coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)};
-    for (const double x : position) {
-        if (!(x > 0 && x < 1)) return std::nullopt;
-    }
-    return position;
-}
-
-}  // namespace
-
-// Rounding must not depend on how the cell lies: mirrored volumes have the same body values, bit by bit. So the saddle is computed in the
-// turned cell.
-std::optional<BodySaddle> body_saddle(const std::array<double, 8>& value) {
-    int exponent = 0;
-    const std::array<double, 8> at_hand = scaled(value, exponent);
-    const Turn turn = canonical_turn(at_hand);
-    const std::array<double, 8> turned = turn.of(at_hand);
-    const std::optional<std::array<double, 3>> position = saddle_position(turned);
-    if (!position) return std::nullopt;
-    BodySaddle saddle{std::ldexp(interpolate(turned, *position), exponent), {}};
-    for (int a = 0; a < 3; ++a) {
-        const int axis = turn.order[a];
-        saddle.position[axis] = turn.origin >> axis & 1 ? 1 - (*position)[a] : (*position)[a];
-    }
-    return saddle;
+    return BodySaddle{exact_saddle_value(value, kind, interpolate(value, near.position)), near.position};
 }
 
 }  // namespace isoatlas

@@ -55,6 +55,13 @@ bool face_above_face(const CellElements& cell, int g, int f) {
     return g2 != f2 ? g2 > f2 : face_number(cell, g) > face_number(cell, f);
 }
 
+Diagonal highs_of(const CellElements& cell, int f) { return cell.bd_high >> f & 1 ? Diagonal::bd : Diagonal::ac; }
+
+FaceCorners corners_of(const CellElements& cell, int f) {
+    const std::array<int, 4>& c = kFaceCorners[f];
+    return {cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], highs_of(cell, f)};
+}
+
 struct Comparison {
     int above, equal;  // bit k: corner k
 };
@@ -107,13 +114,42 @@ void find_ambiguous_faces(CellElements& cell) {
     cell.ambiguous = cell.bd_high = 0;
     for (int f = 0; f < 6; ++f) {
         const std::array<int, 4>& corner = kFaceCorners[f];
-        const double a = cell.value[corner[0]], b = cell.value[corner[1]], c = cell.value[corner[2]], d = cell.value[corner[3]];
-        const Diagonal highs = high_diagonal(a, b, c, d);
+        const Diagonal highs = high_diagonal(cell.value[corner[0]], cell.value[corner[1]], cell.value[corner[2]], cell.value[corner[3]]);
         if (highs == Diagonal::none) continue;
         cell.ambiguous |= 1U << f;
         cell.bd_high |= unsigned{highs == Diagonal::bd} << f;
-        cell.face_value[f] = disambiguation_value(a, b, c, d, highs);
     }
+    find_face_values(cell);
+}
+
+void find_face_values(CellElements& cell) {
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
+        cell.face_value[f] = rounded_face_value(corners_of(cell, f));
+    }
+}
+
+bool estimate_face_values(CellElements& cell) {
+    std::array<double, 6> error{};
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
+        const ApproximateValue estimate = approximate_face_value(corners_of(cell, f));
+        // Twice: rounding may move the values that are compared by as much.
+        const double most = 2 * estimate.error;
+        bool is_clear = true;
+        for (const double corner : cell.value) is_clear &= std::abs(corner - estimate.value) > most;
+        for (unsigned others = cell.ambiguous & ((1U << f) - 1); others != 0; others &= others - 1) {
+            const int g = std::countr_zero(others);
+            is_clear &= std::abs(cell.face_value[g] - estimate.value) > most + error[g];
+        }
+        if (!is_clear) {
+            find_face_values(cell);
+            return true;
+        }
+        cell.face_value[f] = estimate.value;
+        error[f] = most;
+    }
+    return false;
 }
 
 bool element_below(const CellElements& cell, int element, int other) {

@@ -34,6 +34,13 @@ struct CellElements {
 /// Fills in the ambiguous faces of a cell from its corners.
 void find_ambiguous_faces(CellElements& cell);
 
+/// Face values good enough for the default types, from `value`, `ambiguous` and `bd_high`: exact, or so far from all other values of the
+/// cell that their order with them is the same. Returns whether they are exact.
+bool estimate_face_values(CellElements& cell);
+
+/// Face values rounded down (field/face.h).
+void find_face_values(CellElements& cell);
+
 /// Order of two elements of one cell: corners 0..7, ambiguous face f is 8 + f.
 bool element_below(const CellElements& cell, int element, int other);
 

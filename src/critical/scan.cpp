@@ -70,14 +70,9 @@ private:
         const int mine = faces[i], of_next = next[i], of_y = faces[i + n], of_x = faces[i + 1];
         cell.ambiguous = far(mine | mine >> 1, of_next | of_next >> 1, of_y | of_y >> 1, of_x | of_x >> 1);
         cell.bd_high = far(mine >> 1, of_next >> 1, of_y >> 1, of_x >> 1);
-        for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-            const int f = std::countr_zero(rest);
-            const std::array<int, 4>& c = kFaceCorners[f];
-            const Diagonal highs = cell.bd_high >> f & 1 ? Diagonal::bd : Diagonal::ac;
-            cell.face_value[f] = disambiguation_value(cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], highs);
-        }
+        const bool is_exact = estimate_face_values(cell);
         unsigned types = default_face_types(cell, table_);
-        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types);
+        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types, is_exact);
         high[i] += static_cast<std::uint8_t>(types & 0b010101);
         high_next[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
         high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);
@@ -85,8 +80,11 @@ private:
     }
 
     /// Returns the faces whose type is not the default one.
-    unsigned add_bodies(const CellElements& cell, unsigned types) {
-        const CellBodies found = bodies_of_cell(cell, types, tunnel_height_);
+    unsigned add_bodies(CellElements& cell, unsigned types, bool has_exact_faces) {
+        const DisagreeingFaces faces = disagreeing_faces(cell, types);
+        if (!faces.any()) return 0;
+        if (!has_exact_faces) find_face_values(cell);
+        const CellBodies found = bodies_of_cell(cell, faces, tunnel_height_);
         if (found.exceptional == 0 || bodies_ == nullptr) return found.exceptional;
         for (const CodeKind kind : {CodeKind::body_open, CodeKind::body_close}) {
             const std::optional<BodyPoint>& body = kind == CodeKind::body_open ? found.opening : found.closing;

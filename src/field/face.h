@@ -4,6 +4,11 @@
 // (value, voxel number) become comparisons of values that are strict or not.
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
+#include "field/rounding.h"
+
 namespace isoatlas {
 
 enum class Diagonal : signed char { none = -1, ac = 0, bd = 1 };  ///< which diagonal is High
@@ -16,27 +21,63 @@ constexpr Diagonal high_diagonal(T a, T b, T c, T d) {
     return Diagonal::none;
 }
 
-/// Value of the face point: the saddle of the bilinear interpolant, clamped between the highest Low and the lowest High.
-/// Without contraction, and written so that turning or mirroring the face changes no bit. Exact in order and equality for 8 and 16 bit
-/// samples.
+/// The corners of an ambiguous face by their role.
+struct FaceCorners {
+    double lowest, low, high_1, high_2;  ///< lowest <= low <= high_1, high_2
+
+    FaceCorners(double a, double b, double c, double d, Diagonal highs) {
+        const bool ac = highs == Diagonal::ac;
+        const double low_1 = ac ? b : a, low_2 = ac ? d : c;
+        low = low_1 > low_2 ? low_1 : low_2;
+        lowest = low_1 > low_2 ? low_2 : low_1;
+        high_1 = ac ? a : b;
+        high_2 = ac ? c : d;
+    }
+    [[nodiscard]] double lowest_high() const { return high_1 < high_2 ? high_1 : high_2; }
+};
+
+struct ApproximateValue {
+    double value, error;  ///< error: at most; NaN where a sum overflows, so that no comparison with it is certain
+};
+
+/// s = low + p q / (p + q + r) in plain doubles: no cancellation, whatever the samples have in common
+/// (docs/theory/1-elements-and-order.md#numbers).
+inline ApproximateValue approximate_face_value(const FaceCorners& face) {
+    constexpr double kRelative = 0x1p-49, kLeast = 0x1p-1070;
+    const double p = face.high_1 - face.low, q = face.high_2 - face.low, sum = p + q + (face.low - face.lowest);
+    const double above_low = p * (q / sum);
+    return {face.low + above_low, kRelative * (std::abs(face.low) + above_low) + kLeast + 0 * sum};
+}
+
+/// s rounded down (field/rounding.h). Any finite corners. Cost: about 100 flops; a microsecond where twice the precision does not decide.
+double rounded_face_value(const FaceCorners& face);
+
+/// The same by integers alone. Cost: about a microsecond, a hundred with exponents far apart.
+double exact_face_value(const FaceCorners& face);
+
+/// The same of corners of 8 or 16 bits, as (ac - bd) / (a + c - b - d): numerator and denominator are exact.
+inline double small_face_value(double a, double b, double c, double d) {
+    const double numerator = a * c - b * d, denominator = (a + c) - (b + d), quotient = numerator / denominator;
+    const TwoDoubles whole = two_product(quotient, denominator);
+    const double remainder = (numerator - whole.high) - whole.low;
+    return denominator > 0 ? (remainder < 0 ? next_below(quotient) : quotient + 0.0)
+                           : (remainder > 0 ? next_below(quotient) : quotient + 0.0);
+}
+
+/// Value of the face point: the saddle of the bilinear interpolant, rounded down; between the highest Low and the lowest High.
 template <class T>
-constexpr double disambiguation_value(T corner_a, T corner_b, T corner_c, T corner_d, Diagonal highs) {
-    const double a = static_cast<double>(corner_a), b = static_cast<double>(corner_b);
-    const double c = static_cast<double>(corner_c), d = static_cast<double>(corner_d);
-    const bool ac = highs == Diagonal::ac;
-    const double lows_1 = ac ? b : a, lows_2 = ac ? d : c, highs_1 = ac ? a : b, highs_2 = ac ? c : d;
-    const double low = lows_1 > lows_2 ? lows_1 : lows_2;
-    const double high = highs_1 < highs_2 ? highs_1 : highs_2;
-    double s = (a * c - b * d) / ((a + c) - (b + d));
-    if (!(s >= low)) s = low;
-    if (s > high) s = high;
-    return s;
+inline double disambiguation_value(T a, T b, T c, T d, Diagonal highs) {
+    if constexpr (std::is_integral_v<T> && sizeof(T) <= 2) return small_face_value(a, b, c, d);
+    return rounded_face_value(FaceCorners(a, b, c, d, highs));
 }
 
 /// At isovalue tau: are the two Highs of a 4-hit face joined across it? (tau <= s joins the Highs.)
 /// The corners' classes at tau decide that the face is 4-hit; the diagonal is the High one.
 template <class T>
-constexpr bool highs_are_joined(T a, T b, T c, T d, Diagonal highs, double tau) {
+inline bool highs_are_joined(T a, T b, T c, T d, Diagonal highs, double tau) {
+    const ApproximateValue s = approximate_face_value(FaceCorners(a, b, c, d, highs));
+    if (s.value - tau > s.error) return true;
+    if (tau - s.value > s.error) return false;
     return disambiguation_value(a, b, c, d, highs) >= tau;
 }
 

@@ -104,12 +104,14 @@ std::array<float, 3> CellWriter<T>::normal_at(const std::array<double, 8>& value
                                               const Vec3& position) const {
     const Vec3 corner{static_cast<double>(voxel[0]), static_cast<double>(voxel[1]), static_cast<double>(voxel[2])};
     const Vec3 origin = map_.point(corner);
+    std::array<double, 8> above = value;  // what all samples have in common must not cost digits
+    for (double& v : above) v -= value[0];
     Vec3 slope{};
     for (int axis = 0; axis < 3; ++axis) {
         Vec3 low = position, high = position, next = corner;
         low[axis] = 0, high[axis] = 1, next[axis] += 1;
         const Vec3 step = map_.point(next);
-        slope[axis] = (interpolate(value, high) - interpolate(value, low)) /
+        slope[axis] = (interpolate(above, high) - interpolate(above, low)) /
                       std::hypot(step[0] - origin[0], step[1] - origin[1], step[2] - origin[2]);
     }
     return map_.normal(slope, 0, 1);

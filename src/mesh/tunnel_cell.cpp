@@ -139,6 +139,8 @@ std::array<Vec3, 6> ring_points(const TunnelCell& cell, const OpenTunnel& tunnel
         const bool beside = loops.size(loop) == 3 && !bounds_tunnel(loops, loop, pattern, tunnel);
         if (beside && is_cut_off(centre, loops, loop, value, tau)) centre = {0.5, 0.5, 0.5};
     }
+    std::array<double, 8> above = value;  // what all samples have in common must not cost digits
+    for (double& v : above) v -= tau;
     std::array<Vec3, 6> points{};
     for (int i = 0; i < cell.ring_points; ++i) {
         const int k = cell.ring_corner[i];
@@ -150,7 +152,7 @@ std::array<Vec3, 6> ring_points(const TunnelCell& cell, const OpenTunnel& tunnel
         double inside = 0, outside = 1;
         for (int step = 0; step < 30; ++step) {
             const double r = (inside + outside) / 2;
-            const bool is_high = interpolate(value, along(r)) >= tau;
+            const bool is_high = interpolate(above, along(r)) >= 0;
             (is_high == tunnel.joins_highs ? inside : outside) = r;
         }
         points[i] = along(std::clamp(outside, 0.03, 0.97));

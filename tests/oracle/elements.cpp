@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "oracle/oracle.h"
+#include "oracle/rational.h"
 
 namespace oracle {
 
@@ -22,6 +23,13 @@ namespace {
 constexpr int kAxis1[3] = {0, 0, 1}, kAxis2[3] = {1, 2, 2};  // xy, xz, yz
 
 std::tuple<double, double, double> key(const Element& e) { return {e.value, e.tie[0], e.tie[1]}; }
+
+/// The greatest double at most (ac - bd) / (a + c - b - d); of four equal corners: their value.
+double bilinear_saddle(double a, double b, double c, double d) {
+    if (a == b && b == c && c == d) return a + 0.0;
+    const Rational p(a), q(b), r(c), s(d);
+    return greatest_double_at_most((p * r - q * s) / (p + r - q - s));
+}
 
 Element make_vertex(const Grid& grid, Index v) {
     const std::array<Index, 3> p = grid.voxel(v);
@@ -47,14 +55,8 @@ bool make_face(const Grid& grid, const std::vector<Element>& vertex, Index a, in
     e.high = ac_high ? std::array<Index, 2>{a, c} : std::array<Index, 2>{b, d};
     e.low = ac_high ? std::array<Index, 2>{b, d} : std::array<Index, 2>{a, c};
     const Index highest_low = above(e.low[0], e.low[1]) ? e.low[0] : e.low[1];
-    const Index lowest_high = above(e.high[0], e.high[1]) ? e.high[1] : e.high[0];
-    const double va = grid.value[a], vb = grid.value[b], vc = grid.value[c], vd = grid.value[d];
-    const double lo = grid.value[highest_low], hi = grid.value[lowest_high];
-    double s = (va * vc - vb * vd) / ((va + vc) - (vb + vd));
-    if (!(s >= lo)) s = lo;
-    if (s > hi) s = hi;
-    e.value = s + 0.0;
-    e.tie = {s > lo ? -1.0 : static_cast<double>(highest_low) + 0.5, static_cast<double>(3 * a + orientation)};
+    e.value = bilinear_saddle(grid.value[a], grid.value[b], grid.value[c], grid.value[d]);
+    e.tie = {e.value > grid.value[highest_low] ? -1.0 : static_cast<double>(highest_low) + 0.5, static_cast<double>(3 * a + orientation)};
     e.position = vertex[a].position;
     e.position[axis1] += 0.5;
     e.position[axis2] += 0.5;

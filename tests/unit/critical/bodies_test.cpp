@@ -12,6 +12,7 @@
 
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
+#include "field/rounding.h"
 
 namespace isoatlas {
 namespace {
@@ -56,7 +57,7 @@ TEST_F(Cells, SaddlesAreCriticalPoints) {
     int found = 0;
     for (int i = 0; i < 100000; ++i) {
         const std::array<double, 8> value = uniform();
-        const std::optional<BodySaddle> saddle = body_saddle(value);
+        const std::optional<BodySaddle> saddle = body_saddle(value, SaddleKind::joins_highs);
         if (!saddle) continue;
         ++found;
         for (const double slope : gradient(value, saddle->position)) ASSERT_NEAR(slope, 0, 1e-7);
@@ -77,7 +78,8 @@ TEST_F(Cells, SideSignIsTheSlopeIntoTheCell) {
             std::array<double, 3> at{};
             at[axes.axis1] = (a - d) / sum, at[axes.axis2] = (a - b) / sum, at[axes.normal] = f & 1;
             const double slope = gradient(value, at)[axes.normal] * (f & 1 ? -1 : 1);
-            ASSERT_NEAR(side_sign(value, f) / (sum * sum), slope, 1e-9);
+            if (std::abs(slope) < 1e-9) continue;
+            ASSERT_EQ(side_sign(value, f), slope > 0 ? 1 : -1);
         }
     }
 }
@@ -96,14 +98,15 @@ TEST_F(Cells, BodyPointsAreTheSaddlesInside) {
             wrong |= unsigned{(side_sign(value, f) > 0) != ((types >> f & 1) != 0)} << f;
         }
         ASSERT_EQ(bodies.exceptional, wrong);
-        const std::optional<BodySaddle> low = body_saddle(value), high = body_saddle(negated(value));
+        const std::optional<BodySaddle> low = body_saddle(value, SaddleKind::joins_highs),
+                                        high = body_saddle(value, SaddleKind::joins_lows);
         ASSERT_EQ(bodies.opening.has_value(), low.has_value());
         ASSERT_EQ(bodies.closing.has_value(), high.has_value());
         if (low) {
             ASSERT_EQ(bodies.opening->value, low->value);
         }
         if (high) {
-            ASSERT_EQ(bodies.closing->value, -high->value);
+            ASSERT_EQ(bodies.closing->value, high->value);
         }
         if (low) {
             ASSERT_GT(bodies.opening->value, cell.face_value[bodies.opening->face]);
@@ -139,14 +142,14 @@ TEST_F(Cells, HugeAndTinyValuesAreScaled) {
         const std::array<double, 8> value = uniform();
         const CellElements cell = cell_of(value);
         const CellBodies bodies = bodies_of_cell(cell, default_face_types(cell));
-        for (const int exponent : {150, -150}) {  // times a power of two: nothing is rounded
+        for (const int exponent : {150, -150, 900, -900}) {  // times a power of two: nothing is rounded
             std::array<double, 8> other = value;
             for (double& v : other) v = std::ldexp(v, exponent);
             const CellElements far = cell_of(other);
             const CellBodies found = bodies_of_cell(far, default_face_types(far));
             ASSERT_EQ(found.exceptional, bodies.exceptional);
             if (bodies.opening) {
-                ASSERT_NEAR(std::ldexp(found.opening->value, -exponent), bodies.opening->value, 1e-12);
+                ASSERT_EQ(std::ldexp(found.opening->value, -exponent), bodies.opening->value);
             }
         }
     }
@@ -162,7 +165,8 @@ TEST_F(Cells, NegatedCellsHaveTheOtherBodies) {
         ASSERT_EQ(bodies.exceptional, mirrored.exceptional);
         ASSERT_EQ(bodies.opening.has_value(), mirrored.closing.has_value());
         if (bodies.opening) {
-            ASSERT_EQ(bodies.opening->value, -mirrored.closing->value);
+            const double other_value = -mirrored.closing->value;  // rounded down there is rounded up here
+            ASSERT_TRUE(other_value == bodies.opening->value || bodies.opening->value == next_below(other_value));
         }
         if (bodies.opening) {
             ASSERT_EQ(bodies.opening->face, mirrored.closing->face);
@@ -191,12 +195,12 @@ TEST_F(Cells, TunnelsOccurInExactlyTheCasesOfTheTable) {
         const CellElements cell = cell_of(value);
         const unsigned types = default_face_types(cell);
         for (const bool joins_highs : {true, false}) {
-            const std::optional<BodySaddle> saddle = body_saddle(joins_highs ? value : negated(value));
+            const std::optional<BodySaddle> saddle = body_saddle(value, joins_highs ? SaddleKind::joins_highs : SaddleKind::joins_lows);
             if (!saddle) continue;
             for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
                 const int f = std::countr_zero(rest);
                 if (((types >> f & 1) != 0) == joins_highs || (side_sign(value, f) > 0) != joins_highs) continue;
-                const double body = joins_highs ? saddle->value : -saddle->value;
+                const double body = saddle->value;
                 const double t = std::uniform_real_distribution<>(0.001, 0.999)(random_);
                 const Configuration at(cell, cell.face_value[f] + t * (body - cell.face_value[f]));
                 seen[64 * at.pattern + at.joined] |= joins_highs ? 1 : 2;
