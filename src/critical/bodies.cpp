@@ -148,10 +148,15 @@ DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_ty
 }
 
 CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height) {
-    CellBodies bodies;
     std::optional<BodySaddle> low, high;
     if (faces.openings != 0) low = body_saddle(cell.value, SaddleKind::joins_highs);
     if (faces.closings != 0) high = body_saddle(cell.value, SaddleKind::joins_lows);
+    return bodies_of_saddles(cell, faces, low, high, tunnel_height);
+}
+
+CellBodies bodies_of_saddles(const CellElements& cell, const DisagreeingFaces& faces, const std::optional<BodySaddle>& low,
+                             std::optional<BodySaddle> high, double tunnel_height) {
+    CellBodies bodies;
     if (!low && !high) return bodies;
     if (high) high->value = -high->value;
     const CellView upright(cell, false), upside_down(cell, true);

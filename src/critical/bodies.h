@@ -12,7 +12,7 @@
 #include <array>
 #include <optional>
 
-#include "critical/exact_cell.h"
+#include "critical/body_saddle.h"
 #include "critical/faces.h"
 #include "isoatlas/analysis.h"
 
@@ -48,6 +48,10 @@ DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_ty
 /// The body points of a cell with face values (find_face_values). Those that lie at most tunnel_height from their face are left out: any
 /// subset of them makes a consistent topology (trilinear.md section 3). Cost: O(1).
 CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height = 0);
+
+/// The same where the saddles are known: low joins Highs, high joins Lows.
+CellBodies bodies_of_saddles(const CellElements& cell, const DisagreeingFaces& faces, const std::optional<BodySaddle>& low,
+                             std::optional<BodySaddle> high, double tunnel_height);
 
 /// The same from the default types.
 inline CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height = 0) {

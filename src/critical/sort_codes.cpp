@@ -8,7 +8,6 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
-#include "critical/element_values.h"
 
 namespace isoatlas {
 namespace {
@@ -17,7 +16,8 @@ constexpr std::size_t kChunk = std::size_t{1} << 17;  // large enough not to sta
 
 }  // namespace
 
-bool sort_codes(const VolumeView& volume, double tunnel_height, int threads, BigVector<std::uint64_t>& codes, BigVector<double>& values) {
+bool sort_codes(const VolumeView& volume, double tunnel_height, int threads, BigVector<std::uint64_t>& codes, BigVector<double>& values,
+                SaddleValues saddles) {
     const std::size_t n = codes.size();
     std::vector<BigVector<KeyedElement>> chunks((n + kChunk - 1) / kChunk);
     std::atomic<bool> all_exist = true;
@@ -25,7 +25,7 @@ bool sort_codes(const VolumeView& volume, double tunnel_height, int threads, Big
         const std::size_t first = c * kChunk;
         const std::span<const std::uint64_t> some = std::span(codes).subspan(first, std::min(kChunk, n - first));
         std::vector<double> found(some.size());
-        find_element_values(some, volume, tunnel_height, 1, found);
+        find_element_values(some, volume, tunnel_height, 1, found, saddles);
         if (std::any_of(found.begin(), found.end(), [](double value) { return std::isnan(value); })) all_exist = false;
         chunks[c].resize(some.size());
         for (std::size_t i = 0; i < some.size(); ++i) chunks[c][i] = {found[i], ElementCode{some[i]}};

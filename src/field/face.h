@@ -43,10 +43,10 @@ struct ApproximateValue {
 /// s = low + p q / (p + q + r) in plain doubles: no cancellation, whatever the samples have in common
 /// (docs/theory/1-elements-and-order.md#numbers).
 inline ApproximateValue approximate_face_value(const FaceCorners& face) {
-    constexpr double kRelative = 0x1p-49, kLeast = 0x1p-1070;
+    constexpr double kRelative = 0x1p-49, kLeast = 0x1p-1070;  // the latter: where results are denormal
     const double p = face.high_1 - face.low, q = face.high_2 - face.low, sum = p + q + (face.low - face.lowest);
     const double above_low = p * (q / sum);
-    return {face.low + above_low, kRelative * (std::abs(face.low) + above_low) + kLeast + 0 * sum};
+    return {face.low + above_low, kRelative * (std::abs(face.low) + above_low) + kLeast + p * kLeast + 0 * sum};
 }
 
 /// s rounded down (field/rounding.h). Any finite corners. Cost: about 100 flops; a microsecond where twice the precision does not decide.

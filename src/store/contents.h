@@ -15,6 +15,7 @@
 namespace isoatlas::store {
 
 inline constexpr int kStoreVersion = 2;
+inline constexpr int kFirstExactVersion = 3;  // from here on values of saddles are rounded once (critical/element_values.h)
 
 /// Numbers in a row of bytes, little endian, first index slowest.
 struct StoredArray {

@@ -86,11 +86,16 @@ T rounded(double value) {
     return static_cast<T>(std::is_floating_point_v<T> ? value : std::floor(value));
 }
 
+/// How the values of a store's saddles were computed.
+SaddleValues saddle_values_of(const Container& store) {
+    return store.contents().version < kFirstExactVersion ? SaddleValues::earlier : SaddleValues::exact;
+}
+
 /// Values that were rounded, as they are.
 void restore_values(const Container& store, const VolumeView& volume, double height, int threads, std::span<const std::uint64_t> codes,
                     BigVector<double>& values) {
     values.resize(codes.size());
-    find_element_values(codes, volume, height, threads, values);
+    find_element_values(codes, volume, height, threads, values, saddle_values_of(store));
     visit_type(volume.info->type, [&]<class T>(T) {
         BigVector<T> stored;
         read_array(store, kValue, name_of(volume.info->type), stored);
@@ -164,7 +169,8 @@ void read_elements(const Container& store, const std::byte* samples, const Conte
     const VolumeView volume{contents.volume, samples == nullptr ? own.data() : samples};
     const double height = tunnel_height_of(contents.parameters.interpolant, contents.parameters.tunnel_height);
     if (has_values) return restore_values(store, volume, height, context.threads, codes, values);
-    if (!sort_codes(volume, height, context.threads, codes, values)) contradiction(store, "critical elements are not those of the samples");
+    if (!sort_codes(volume, height, context.threads, codes, values, saddle_values_of(store)))
+        contradiction(store, "critical elements are not those of the samples");
 }
 
 #define ISOATLAS_ELEMENTS(Id)                                                                                                              \

@@ -137,7 +137,7 @@ std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& o
         if (options.full) {
             const Analysis fresh = analyse(*samples, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, context);
             results.push_back(zones_partition_voxels(fresh, *samples));
-            results.push_back(stored_tree_equals_analysis(stored, fresh));
+            results.push_back(stored_tree_equals_analysis(stored, fresh, saddle_tolerance(atlas)));
         }
         (void)readable("queries_are_answered", results, [&] { compare_at_isovalues(atlas, *samples, stored, options, context, results); });
     });

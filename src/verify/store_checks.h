@@ -14,7 +14,11 @@ namespace isoatlas {
 [[nodiscard]] CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples);
 
 /// Every number of the stored trees is that of an analysis of the samples. Names array and place of the first that is not.
-[[nodiscard]] CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& expected);
+/// tolerance: of values (saddle_tolerance).
+[[nodiscard]] CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& expected, double tolerance = 0);
+
+/// How far the values of a store's saddles may be from the exact ones: 0, but for versions of the store that did not round them once.
+[[nodiscard]] double saddle_tolerance(const Atlas& atlas);
 
 /// The stored events, where a store has them, are those that follow from its elements.
 [[nodiscard]] CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored);
