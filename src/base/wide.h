@@ -13,6 +13,27 @@
 #define ISOATLAS_WIDE
 #endif
 
+/// Functions with fused multiply-add, where it gives the same bytes as without: ISOATLAS_FUSED before them, called only where kHasFused.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define ISOATLAS_FUSED __attribute__((target("fma")))
+
+namespace isoatlas {
+
+/// Can this processor run them? No, where ISOATLAS_PLAIN is set.
+inline const bool kHasFused = std::getenv("ISOATLAS_PLAIN") == nullptr && __builtin_cpu_supports("fma");
+
+}  // namespace isoatlas
+
+#else
+#define ISOATLAS_FUSED
+
+namespace isoatlas {
+
+inline constexpr bool kHasFused = false;
+
+}  // namespace isoatlas
+#endif
+
 /// Functions written for vectors of 512 bits: ISOATLAS_WIDE_512 before them, called only where kHasWide512.
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/wide.h"
 #include "field/error_free.h"
 #include "field/rounding.h"
 
@@ -112,15 +113,18 @@ Found is_inside(const Near& near) {
 }
 
 /// f at a point minus corner 0, to twice the precision.
-TwoDoubles rise_at(const Polynomial& polynomial, const Vector& p) {
+template <class Product>
+inline TwoDoubles rise_at(const Polynomial& polynomial, const Vector& p) {
     const auto& k = polynomial.k;
     const auto [x, y, z] = p;
-    const TwoDoubles in_x = k[1] + (k[4] + k[7] * z) * y + k[5] * z;
-    return in_x * x + (k[2] + k[6] * z) * y + k[3] * z;
+    const TwoDoubles in_x = k[1] + times<Product>(k[4] + times<Product>(k[7], z), y) + times<Product>(k[5], z);
+    return times<Product>(in_x, x) + times<Product>(k[2] + times<Product>(k[6], z), y) + times<Product>(k[3], z);
 }
 
+ISOATLAS_FUSED TwoDoubles rise_fused(const Polynomial& polynomial, const Vector& p) { return rise_at<FusedProduct>(polynomial, p); }
+
 std::optional<double> rounded_value(const Polynomial& polynomial, const Near& near, double corner, SaddleKind kind) {
-    TwoDoubles rise = rise_at(polynomial, near.position);
+    TwoDoubles rise = kHasFused ? rise_fused(polynomial, near.position) : rise_at<PlainProduct>(polynomial, near.position);
     if (kind == SaddleKind::joins_lows) rise = {-rise.high, -rise.low};
     const TwoDoubles first = two_sum(corner, rise.high), sum = two_sum(first.high, first.low + rise.low);
     const double flatness = near.radius * near.radius * (near.curvature + 10 * near.radius * polynomial.most);

@@ -55,11 +55,24 @@ bool face_above_face(const CellElements& cell, int g, int f) {
     return g2 != f2 ? g2 > f2 : face_number(cell, g) > face_number(cell, f);
 }
 
-Diagonal highs_of(const CellElements& cell, int f) { return cell.bd_high >> f & 1 ? Diagonal::bd : Diagonal::ac; }
-
 FaceCorners corners_of(const CellElements& cell, int f) {
     const std::array<int, 4>& c = kFaceCorners[f];
-    return {cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]], highs_of(cell, f)};
+    return {{cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]]}, static_cast<int>(cell.bd_high >> f & 1)};
+}
+
+/// Is no corner within a distance of s? False where that is not a number.
+bool are_corners_apart(const std::array<double, 8>& value, double s, double distance) {
+#ifdef __SSE2__
+    const __m128d at = _mm_set1_pd(s), most = _mm_set1_pd(distance), sign = _mm_set1_pd(-0.0);
+    int apart = 3;
+    for (int k = 0; k < 8; k += 2) {
+        const __m128d difference = _mm_andnot_pd(sign, _mm_sub_pd(_mm_load_pd(value.data() + k), at));
+        apart &= _mm_movemask_pd(_mm_cmpgt_pd(difference, most));
+    }
+    return apart == 3;
+#else
+    return std::all_of(value.begin(), value.end(), [=](double v) { return std::abs(v - s) > distance; });
+#endif
 }
 
 struct Comparison {
@@ -136,8 +149,7 @@ bool estimate_face_values(CellElements& cell) {
         const ApproximateValue estimate = approximate_face_value(corners_of(cell, f));
         // Twice: rounding may move the values that are compared by as much.
         const double most = 2 * estimate.error;
-        bool is_clear = true;
-        for (const double corner : cell.value) is_clear &= std::abs(corner - estimate.value) > most;
+        bool is_clear = are_corners_apart(cell.value, estimate.value, most);
         for (unsigned others = cell.ambiguous & ((1U << f) - 1); others != 0; others &= others - 1) {
             const int g = std::countr_zero(others);
             is_clear &= std::abs(cell.face_value[g] - estimate.value) > most + error[g];

@@ -27,13 +27,24 @@ inline TwoDoubles fast_two_sum(double a, double b) {
     return {sum, b - (sum - a)};
 }
 
-inline TwoDoubles two_product(double a, double b) {
-    constexpr double kSplitter = 134217729;  // 2^27 + 1
-    const double product = a * b;
-    const double a_scaled = kSplitter * a, a_high = a_scaled - (a_scaled - a), a_low = a - a_high;
-    const double b_scaled = kSplitter * b, b_high = b_scaled - (b_scaled - b), b_low = b - b_high;
-    return {product, a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)};
-}
+/// Products without fused multiply-add. The bits are those of FusedProduct.
+struct PlainProduct {
+    TwoDoubles operator()(double a, double b) const {
+        constexpr double kSplitter = 134217729;  // 2^27 + 1
+        const double product = a * b;
+        const double a_scaled = kSplitter * a, a_high = a_scaled - (a_scaled - a), a_low = a - a_high;
+        const double b_scaled = kSplitter * b, b_high = b_scaled - (b_scaled - b), b_low = b - b_high;
+        return {product, a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)};
+    }
+};
+
+/// In functions with ISOATLAS_FUSED (base/wide.h): elsewhere slow.
+struct FusedProduct {
+    TwoDoubles operator()(double a, double b) const {
+        const double product = a * b;
+        return {product, __builtin_fma(a, b, -product)};
+    }
+};
 
 // Double-double arithmetic: relative errors below 2^-102 of the operands' magnitudes.
 
@@ -42,8 +53,9 @@ inline TwoDoubles operator+(TwoDoubles a, TwoDoubles b) {
     return fast_two_sum(sum.high, sum.low + (a.low + b.low));
 }
 
-inline TwoDoubles operator*(TwoDoubles a, double b) {
-    const TwoDoubles product = two_product(a.high, b);
+template <class Product>
+inline TwoDoubles times(TwoDoubles a, double b) {
+    const TwoDoubles product = Product()(a.high, b);
     return fast_two_sum(product.high, product.low + a.low * b);
 }
 

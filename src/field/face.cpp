@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/wide.h"
 #include "field/error_free.h"
 #include "field/rounding.h"
 
@@ -18,16 +19,17 @@ struct Saddle {
     double error;
 };
 
-Saddle saddle_of(const FaceCorners& face) {
+template <class Product>
+inline Saddle saddle_of(const FaceCorners& face) {
     const TwoDoubles p = two_difference(face.high_1, face.low), q = two_difference(face.high_2, face.low);
     const TwoDoubles r = two_difference(face.low, face.lowest);
     const TwoDoubles pq_sum = two_sum(p.high, q.high), sum = two_sum(pq_sum.high, r.high);
     const double inputs_low = std::abs(p.low) + std::abs(q.low) + std::abs(r.low) + std::abs(pq_sum.low) + std::abs(sum.low);
     const double sum_low = (pq_sum.low + sum.low) + (p.low + q.low + r.low);
-    const TwoDoubles product = two_product(p.high, q.high);
+    const TwoDoubles product = Product()(p.high, q.high);
     const double product_low = product.low + (p.high * q.low + p.low * q.high);
     const double t = product.high / sum.high;
-    const TwoDoubles whole = two_product(t, sum.high);
+    const TwoDoubles whole = Product()(t, sum.high);
     // product.high - whole.high - whole.low is a double: the remainder of a division.
     const double remainder = ((product.high - whole.high) - whole.low) + (product_low - t * sum_low);
     const TwoDoubles s = two_sum(face.low, t);
@@ -41,13 +43,15 @@ bool is_extreme(const FaceCorners& face, double p, double q) {
     return !(std::min(p, q) >= kLeast && p + q + (face.low - face.lowest) <= kMost && std::abs(face.low) <= kMost);
 }
 
+ISOATLAS_FUSED Saddle saddle_fused(const FaceCorners& face) { return saddle_of<FusedProduct>(face); }
+
 }  // namespace
 
 double rounded_face_value(const FaceCorners& face) {
     const double p = face.high_1 - face.low, q = face.high_2 - face.low;
     if (p == 0 || q == 0) return face.low + 0.0;
     if (is_extreme(face, p, q)) return exact_face_value(face);
-    const Saddle s = saddle_of(face);
+    const Saddle s = kHasFused ? saddle_fused(face) : saddle_of<PlainProduct>(face);
     const std::optional<double> rounded = rounded_down_if_certain(s.sum, s.error);
     return rounded ? *rounded : exact_face_value(face);
 }

@@ -4,6 +4,8 @@
 // (value, voxel number) become comparisons of values that are strict or not.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -25,15 +27,14 @@ constexpr Diagonal high_diagonal(T a, T b, T c, T d) {
 struct FaceCorners {
     double lowest, low, high_1, high_2;  ///< lowest <= low <= high_1, high_2
 
-    FaceCorners(double a, double b, double c, double d, Diagonal highs) {
-        const bool ac = highs == Diagonal::ac;
-        const double low_1 = ac ? b : a, low_2 = ac ? d : c;
-        low = low_1 > low_2 ? low_1 : low_2;
-        lowest = low_1 > low_2 ? low_2 : low_1;
-        high_1 = ac ? a : b;
-        high_2 = ac ? c : d;
-    }
-    [[nodiscard]] double lowest_high() const { return high_1 < high_2 ? high_1 : high_2; }
+    FaceCorners(double a, double b, double c, double d, Diagonal highs) : FaceCorners({a, b, c, d}, highs == Diagonal::bd) {}
+    /// corner: a b c d. Without branches.
+    FaceCorners(const std::array<double, 4>& corner, int first_high)
+        : lowest(std::min(corner[1 - first_high], corner[3 - first_high])),
+          low(std::max(corner[1 - first_high], corner[3 - first_high])),
+          high_1(corner[first_high]),
+          high_2(corner[first_high + 2]) {}
+    [[nodiscard]] double lowest_high() const { return std::min(high_1, high_2); }
 };
 
 struct ApproximateValue {
@@ -58,7 +59,7 @@ double exact_face_value(const FaceCorners& face);
 /// The same of corners of 8 or 16 bits, as (ac - bd) / (a + c - b - d): numerator and denominator are exact.
 inline double small_face_value(double a, double b, double c, double d) {
     const double numerator = a * c - b * d, denominator = (a + c) - (b + d), quotient = numerator / denominator;
-    const TwoDoubles whole = two_product(quotient, denominator);
+    const TwoDoubles whole = PlainProduct()(quotient, denominator);
     const double remainder = (numerator - whole.high) - whole.low;
     return denominator > 0 ? (remainder < 0 ? next_below(quotient) : quotient + 0.0)
                            : (remainder > 0 ? next_below(quotient) : quotient + 0.0);
