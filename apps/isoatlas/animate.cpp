@@ -198,10 +198,7 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
     RenderOptions options = options_of_picture(arguments.picture);
     Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, source, options);
     made.animation.frames_per_second = wanted.frames_per_second;
-    {
-        const WritingGuard guard(arguments.output);
-        write_movie(arguments.output, made.animation);
-    }
+    write_movie(arguments.output, made.animation);
     if (arguments.json) {
         print_json(arguments, terminal, source, made);
     } else {

@@ -36,7 +36,7 @@ void add_talking(CLI::App& app, Arguments& arguments) {
     app.add_flag("-q,--quiet", arguments.quiet, "No progress, no hints")->group("Talking");
     app.add_flag("-v,--verbose", arguments.verbose, "Say more (time, memory)")->group("Talking");
     app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Talking");
-    app.add_option("--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
+    add_number(app, "--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
         ->check(in_range(0, 4096))
         ->type_name("N")
         ->group("Talking");
@@ -49,14 +49,14 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->type_name("T")
         ->group(group);
     app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
-    app.add_option("--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
+    add_number(app, "--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
     app.add_option("--spacing", typed.spacing, "Distance of samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
     app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
-    app.add_option("--time-step", typed.time_step, "Which volume of a 4D file, from 0")->type_name("N")->group(group);
+    add_number(app, "--time-step", typed.time_step, "Which volume of a 4D file, from 0")->type_name("N")->group(group);
     app.add_option("--missing", typed.missing, "Put VALUE for NaN and infinite samples; below: less than every value")
         ->type_name("VALUE|below")
         ->group(group);
-    app.add_option("--no-data", typed.no_data, "Samples of this stored value are missing too (with --missing)")
+    add_number(app, "--no-data", typed.no_data, "Samples of this stored value are missing too (with --missing)")
         ->type_name("VALUE")
         ->group(group);
     app.add_flag("--voxel", arguments.voxel_units, "Lengths in voxels, not in the file's units")->group(group);
@@ -80,11 +80,11 @@ void add_output(CLI::App& app, Arguments& arguments, const std::string& formats,
 }
 
 void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
-    app.add_option("--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
+    add_number(app, "--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
 }
 
 void add_gaussian(CLI::App& app, Typed& typed) {
-    app.add_option("--gaussian", typed.gaussian, "Filter first: a Gaussian of this standard deviation, in the unit of the spacing")
+    add_number(app, "--gaussian", typed.gaussian, "Filter first: a Gaussian of this standard deviation, in the unit of the spacing")
         ->type_name("SIGMA");
 }
 
@@ -122,8 +122,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_flag("--both", arguments.both, "Bright and dark objects")->excludes(dark);
     } else if (verb == "extract") {
         add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
-        app.add_option("--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
-        app.add_option("--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID");
+        add_number(app, "--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
+        add_number(app, "--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID");
         app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
         app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")
             ->type_name("STYLE");
@@ -150,11 +150,11 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_build(app, arguments, typed);
         app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
     } else if (verb == "atlas") {
-        app.add_option("--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
+        add_number(app, "--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
     } else if (verb == "view") {
-        app.add_option("--port", arguments.port, "Listen on this port of 127.0.0.1 (any that is free)")
+        add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (any that is free)")
             ->check(in_range(1, 65535))
             ->type_name("N");
         app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
@@ -164,12 +164,12 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, "what the question gives", false);
     } else if (verb == "handles") {
         app.add_flag("--exact", arguments.exact, "Which tunnel closes where, truly: persistent homology (slower)");
-        app.add_option("--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
+        add_number(app, "--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
         app.add_option("--top", typed.selection.top, "At most N tunnels (24)")->type_name("N");
         app.add_option("--persistence", typed.selection.persistence, "Only tunnels that are open so long, or for P percent of the range")
             ->type_name("H|P%");
     } else if (verb == "spectrum") {
-        app.add_option("--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
+        add_number(app, "--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
             ->check(in_range(std::int64_t{0}, std::int64_t{100000}))
             ->type_name("N");
         add_selection(app, typed.selection, true);
@@ -181,21 +181,21 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".nrrd .npy .raw .mha .nii", true);
     } else if (verb == "phantom") {
         app.add_flag("--list", arguments.list, "List the phantoms");
-        app.add_option("--size", arguments.phantom.size, "Samples per axis")
+        add_number(app, "--size", arguments.phantom.size, "Samples per axis")
             ->check(in_range(std::int64_t{1}, std::int64_t{1} << 20))
             ->type_name("N");
-        app.add_option("--seed", arguments.phantom.seed, "Seed of random phantoms")->type_name("N");
-        app.add_option("--genus", arguments.phantom.genus, "Number of handles (torus-chain)")->type_name("N");
-        app.add_option("--shells", arguments.phantom.shells, "Number of shells (nested-shells)")->type_name("N");
-        app.add_option("--noise", arguments.phantom.noise, "Uniform noise of +- this fraction of the range")->type_name("F");
-        app.add_option("--quantise", arguments.phantom.quantise, "Number of grey levels, 2..65536")->type_name("N");
+        add_number(app, "--seed", arguments.phantom.seed, "Seed of random phantoms")->type_name("N");
+        add_number(app, "--genus", arguments.phantom.genus, "Number of handles (torus-chain)")->type_name("N");
+        add_number(app, "--shells", arguments.phantom.shells, "Number of shells (nested-shells)")->type_name("N");
+        add_number(app, "--noise", arguments.phantom.noise, "Uniform noise of +- this fraction of the range")->type_name("F");
+        add_number(app, "--quantise", arguments.phantom.quantise, "Number of grey levels, 2..65536")->type_name("N");
         add_output(app, arguments, ".nrrd .npy .raw .mha .nii", false);
     } else if (verb == "verify") {
-        app.add_option("--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
+        add_number(app, "--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
             ->check(in_range(1, 100000))
             ->type_name("N");
         app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree made anew from the samples");
-        app.add_option("--seed", arguments.seed, "Stores: draws isovalues and objects (1)")->type_name("N");
+        add_number(app, "--seed", arguments.seed, "Stores: draws isovalues and objects (1)")->type_name("N");
     }
 }
 
@@ -292,6 +292,18 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     usage(message, "isoatlas " + verb + " --help");
 }
 
+/// What an unset variable of a script leaves of a value: no option takes it, and CLI11 would take the next word.
+void refuse_empty_values(const CLI::App& app, const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::size_t sign = words[i].find('=');
+        const std::string name = words[i].substr(0, sign);
+        const CLI::Option* option = name.starts_with('-') ? app.get_option_no_throw(name) : nullptr;
+        if (option == nullptr || option->get_items_expected_max() == 0) continue;
+        const bool is_empty = sign == std::string::npos ? i + 1 < words.size() && words[i + 1].empty() : sign + 1 == words[i].size();
+        if (is_empty) usage(name + " has an empty value", "give it a value, or leave it out");
+    }
+}
+
 [[noreturn]] void unknown_verb(const std::string& word) {
     std::vector<std::string> names{"help"};
     for (const Verb& verb : verbs()) names.push_back(verb.name);
@@ -304,7 +316,9 @@ std::string take_verb(std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (words[i] == "--threads") {
             ++i;
-        } else if (words[i].empty() || words[i][0] != '-') {
+        } else if (words[i].empty()) {
+            usage("where the verb or the file should be is an empty word", "isoatlas --help");
+        } else if (words[i][0] != '-') {
             const std::string verb = words[i];
             std::vector<std::string> before(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i));
             words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -360,6 +374,7 @@ Parsed parse(const std::vector<std::string>& given) {
     parsed.arguments.verb = name;
     const auto parser = make_parser(*verb, parsed.arguments, typed);
     if (std::count(words.begin(), words.end(), "--version") > 0) return parse_without_verb({"--version"});
+    refuse_empty_values(*parser, words);
     try {
         std::vector<std::string> reversed(words.rbegin(), words.rend());  // CLI11 takes words from the back
         parser->parse(std::move(reversed));

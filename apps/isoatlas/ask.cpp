@@ -19,6 +19,7 @@ int run_ask(const Arguments& arguments, Terminal& terminal) {
         terminal.out() << answer.bytes << '\n';
         return 0;
     }
+    check_output_file(arguments.output);
     const std::size_t bytes = ask_server(arguments.file, question, arguments.output);
     if (arguments.json) {
         Json json = document("ask");

@@ -11,14 +11,14 @@
 namespace isoatlas::cli {
 
 int run_atlas(const Arguments& arguments, Terminal& terminal) {
-    if (!arguments.output.empty()) check_output(arguments, {".html"});
     const std::string page = arguments.output.empty() ? stem_of(arguments.file) + ".atlas.html" : arguments.output;
+    check_output(arguments, page, {".html"});
     const std::string store = store_for(arguments, terminal, store_beside(page));
     const Atlas atlas(store);
     PageReport report;
     {
         Session session(arguments, terminal);
-        const WritingGuard guard(page);
+        const WritingGuard guard;
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
         report = write_page(page, atlas, {.top = top, .top_dark = (top + 1) / 2, .source = store}, session.context());
     }

@@ -123,14 +123,13 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
             bar(progress);
             if (watch) watch(progress);
         };
-        const WritingGuard guard(arguments.output,
-                                 "stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
+        const WritingGuard guard("stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
         report = build_atlas(arguments.output, reader, options_of(arguments, reader.info()), context);
     }
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
     if (!report.left_behind.empty())
-        terminal.say("note: the store is complete, but " + report.left_behind + " cannot be removed: remove it");
+        terminal.say("note: the store is complete; " + report.left_behind + " stays, as not all in it was made by the build: remove it");
     return report;
 }
 

@@ -1,5 +1,4 @@
 // Where one looks from, and planes that cut, as typed.
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -28,8 +27,8 @@ bool take_term(std::string_view& rest, Vec3& normal) {
         number.remove_prefix(1);
     }
     if (!number.empty()) {
-        const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), factor);
-        if (error != std::errc{} || stop != number.data() + number.size() || !(factor >= 0) || !std::isfinite(factor)) return false;
+        const bool is_plain = !number.starts_with('+');  // of "--0.6x" one sign is left
+        if (!is_plain || !read_number(number, factor) || !(factor >= 0) || !std::isfinite(factor)) return false;
     }
     normal[static_cast<std::size_t>(rest[end] - 'x')] += sign * factor;
     rest.remove_prefix(end + 1);
@@ -45,9 +44,7 @@ HalfSpace half_space(const std::string& word, const std::string& all) {
     for (std::string_view rest = std::string_view(word).substr(0, compared); !rest.empty();)
         if (!take_term(rest, half.normal)) bad_cut(all);
     const std::string_view number = std::string_view(word).substr(compared + 1);
-    const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), half.offset);
-    const bool whole = !number.empty() && error == std::errc{} && stop == number.data() + number.size() && std::isfinite(half.offset);
-    if (!whole || half.normal == Vec3{0, 0, 0}) bad_cut(all);
+    if (!read_number(number, half.offset) || !std::isfinite(half.offset) || half.normal == Vec3{0, 0, 0}) bad_cut(all);
     if (word[compared] == '>') return half;
     for (double& n : half.normal) n = -n;
     half.offset = -half.offset;

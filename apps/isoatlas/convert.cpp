@@ -15,7 +15,7 @@ int run_convert(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
     const Volume& volume = source.volume();
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_volume(arguments.output, volume);
     }
     const auto bytes = static_cast<std::int64_t>(volume.bytes.size());

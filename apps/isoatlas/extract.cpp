@@ -146,7 +146,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     const Counts counts = count(surface);
     std::vector<std::string> warnings;
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         warnings = write_surface(arguments.output, surface);
     }
     for (const std::string& warning : warnings) terminal.warn(warning);

@@ -1,14 +1,13 @@
 #include "interrupt.h"
 
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 
 #include <unistd.h>
 
 #include <isoatlas/error.h>
+#include <isoatlas/output_file.h>
 
 namespace isoatlas::cli {
 namespace {
@@ -19,13 +18,12 @@ std::atomic<int> signals{0};
 std::atomic<bool> writing{false};
 constexpr const char* kStopped = "stopped";
 std::atomic<const char*> last_words{kStopped};
-std::array<char, 4096> partial{};  // a fixed buffer: the handler may not allocate
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 void on_signal(int) {
     const bool again = signals.fetch_add(1) > 0;
     if (!writing && !again) return;
-    if (writing && partial[0] != '\0') ::unlink(partial.data());
+    remove_unfinished_files();
     for (const char* text : {"\n", last_words.load(), "\n"}) [[maybe_unused]]
         const ssize_t said = ::write(STDERR_FILENO, text, std::strlen(text));
     ::_exit(kExitCode);
@@ -50,13 +48,8 @@ void stop_if_interrupted() {
     if (interrupted()) throw Error(ErrorKind::cancelled, {.what = "stopped by the user; nothing was written"});
 }
 
-WritingGuard::WritingGuard(const std::string& path, const char* message) {
+WritingGuard::WritingGuard(const char* message) {
     stop_if_interrupted();
-    std::error_code ignored;
-    const std::filesystem::path target = std::filesystem::weakly_canonical(path, ignored);  // writers follow links
-    const std::string name = (target.empty() ? path : target.string()) + ".partial";
-    partial[0] = '\0';
-    if (name.size() < partial.size()) std::memcpy(partial.data(), name.c_str(), name.size() + 1);
     last_words = message;
     writing = true;
 }

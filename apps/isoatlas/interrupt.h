@@ -1,8 +1,6 @@
 // Ctrl-C: the first one asks the running call to stop; while a file is being written it removes the unfinished file and leaves at once.
 #pragma once
 
-#include <string>
-
 namespace isoatlas::cli {
 
 /// SIGINT and SIGTERM interrupt; SIGPIPE becomes an ordinary write error.
@@ -13,10 +11,10 @@ void catch_signals();
 /// Throws Error{cancelled} when interrupted.
 void stop_if_interrupted();
 
-/// While it lives, `path`.partial is what an interrupt must remove. message: said then; it must live as long as the program.
+/// While it lives, an interrupt removes what is being written and leaves. message: said then; it must live as long as the program.
 class WritingGuard {
 public:
-    explicit WritingGuard(const std::string& path, const char* message = "stopped: the unfinished output was removed");
+    explicit WritingGuard(const char* message = "stopped: the unfinished output was removed");
     ~WritingGuard();
     WritingGuard(const WritingGuard&) = delete;
     WritingGuard& operator=(const WritingGuard&) = delete;

@@ -96,7 +96,7 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
                           : arguments.dark ? label_dark(source)
                                            : label_objects(source);
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_labels(arguments.output, source.info(), labels.of_voxel, labels.origin);
     }
     const std::string what = arguments.zones ? "zones" : arguments.dark ? "cavities" : "objects";

@@ -1,8 +1,6 @@
 // isoatlas VERB: which objects are in a volume, and at which isovalues?
 #include <algorithm>
 #include <chrono>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -11,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "arguments.h"
+#include "failure.h"
 #include "interrupt.h"
 #include "report.h"
 #include "terminal.h"
@@ -63,19 +62,13 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
     const bool json = std::count(words.begin(), words.end(), "--json") > 0;
     try {
         return run(words, terminal);
-    } catch (const Error& error) {
-        return report(completed(error, words), json, terminal);
-    } catch (const std::bad_alloc&) {
-        return report(
-            Error(ErrorKind::resource,
-                  {.what = "not enough memory", .next = "isoatlas info FILE tells what an analysis needs; use a machine with more memory"}),
-            json, terminal);
-    } catch (const std::exception& error) {
-        return report(Error(ErrorKind::internal, {.what = std::string("a bug of isoatlas: ") + error.what(),
-                                                  .next = "please report it with the command line and, if you may share it, the file"}),
-                      json, terminal);
+    } catch (...) {
+        return report(completed(failure(), words), json, terminal);
     }
 }
+
+/// Before the objects of all files are made, and main().
+[[gnu::constructor(101)]] void prepare_for_the_worst() { end_with_exit_codes(); }
 
 }  // namespace
 

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <vector>
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "interrupt.h"
 #include "suggest.h"
 
 extern char** environ;
@@ -35,25 +37,42 @@ std::string find_ffmpeg() {
     return "";
 }
 
-/// Single pictures beside the output, gone when this goes.
+/// Single pictures in a folder of their own beside the output, gone when this goes.
 class FrameFolder {
 public:
-    explicit FrameFolder(const std::string& output) : path_(output + ".frames") {
-        std::error_code failed;
-        fs::create_directories(path_, failed);
-        if (failed) throw Error(ErrorKind::resource, {.file = path_, .what = failed.message(), .next = "choose another folder with -o"});
+    explicit FrameFolder(const fs::path& output) : path_((output.parent_path() / ".isoatlas-frames-XXXXXX").string()) {
+        if (::mkdtemp(path_.data()) == nullptr)
+            throw Error(ErrorKind::resource, {.file = path_, .what = std::strerror(errno), .next = "choose another folder with -o"});
     }
     ~FrameFolder() {
         std::error_code ignored;
-        fs::remove_all(path_, ignored);
+        for (const std::string& name : names_) fs::remove(path_ + "/" + name, ignored);
+        fs::remove(path_, ignored);
     }
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
-    [[nodiscard]] std::string file(const std::string& name) const { return path_ + "/" + name; }
+    /// Where a file of that name goes, which is removed too.
+    [[nodiscard]] std::string file(const std::string& name) {
+        names_.push_back(name);
+        return path_ + "/" + name;
+    }
+    [[nodiscard]] const std::string& path() const { return path_; }
 
 private:
     std::string path_;
+    std::vector<std::string> names_;
 };
+
+/// Written to disk before it gets its name, as all outputs.
+std::string give_name(const std::string& film, const std::string& output) {
+    const int file = ::open(film.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0) return std::strerror(errno);
+    const bool is_written = ::fsync(file) == 0;
+    const std::string reason = std::strerror(errno);
+    (void)::close(file);
+    if (!is_written) return reason;
+    return ::rename(film.c_str(), output.c_str()) == 0 ? "" : std::strerror(errno);
+}
 
 /// Exit code of a program; -1: it could not be started.
 int run_program(const std::vector<std::string>& words) {
@@ -81,22 +100,23 @@ void check_movie(const std::string& output) {
 
 void write_movie(const std::string& output, const Animation& animation) {
     if (!is_film(output)) {
+        const WritingGuard guard;
         write_animation(output, animation);
         return;
     }
-    const FrameFolder folder(output);
-    for (std::size_t i = 0; i < animation.frames.size(); ++i) write_image(folder.file(fmt::format("{:06}.png", i)), animation.frames[i]);
+    const std::string target = output_target(output);
+    FrameFolder folder(target);
+    for (std::size_t i = 0; i < animation.frames.size(); ++i) {
+        stop_if_interrupted();
+        write_image(folder.file(fmt::format("{:06}.png", i)), animation.frames[i]);
+    }
     const std::string film = folder.file("film.mp4");
     const int code = run_program({find_ffmpeg(), "-nostdin", "-y", "-loglevel", "error", "-framerate",
-                                  fmt::format("{}", animation.frames_per_second), "-i", folder.file("%06d.png"), "-vf",
+                                  fmt::format("{}", animation.frames_per_second), "-i", folder.path() + "/%06d.png", "-vf",
                                   "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart", film});
-    std::error_code failed;
-    if (code == 0) fs::rename(film, output, failed);
-    if (code != 0 || failed) {
-        throw Error(ErrorKind::resource, {.file = output,
-                                          .what = code != 0 ? fmt::format("ffmpeg failed with exit code {}", code) : failed.message(),
-                                          .next = "write .webp, .gif or .png"});
-    }
+    stop_if_interrupted();
+    const std::string failed = code != 0 ? fmt::format("ffmpeg failed with exit code {}", code) : give_name(film, target);
+    if (!failed.empty()) throw Error(ErrorKind::resource, {.file = output, .what = failed, .next = "write .webp, .gif or .png"});
 }
 
 }  // namespace isoatlas::cli

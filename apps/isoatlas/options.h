@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "selection_words.h"
+#include "words.h"
 
 namespace isoatlas::cli {
 
@@ -12,6 +13,29 @@ namespace isoatlas::cli {
 template <class T>
 CLI::Validator in_range(T low, T high) {
     return CLI::Range(low, high).description("");
+}
+
+template <class T>
+inline constexpr bool kIsVector = false;
+template <class T>
+inline constexpr bool kIsVector<std::vector<T>> = true;
+
+/// An option that takes a number, or several for a vector, each read by read_number(): CLI11 takes nothing for 0.
+template <class T>
+CLI::Option* add_number(CLI::App& app, const std::string& name, T& value, const std::string& meaning) {
+    const auto take = [&value, name](const CLI::results_t& words) {
+        if constexpr (kIsVector<T>) {
+            for (const std::string& word : words) value.push_back(parse_number<typename T::value_type>(name, word));
+        } else if constexpr (std::is_arithmetic_v<T>) {
+            value = parse_number<T>(name, words.at(0));
+        } else {
+            value = parse_number<typename T::value_type>(name, words.at(0));  // of an optional
+        }
+        return true;
+    };
+    CLI::Option* option = app.add_option(name, take, meaning);
+    if constexpr (kIsVector<T>) option->expected(CLI::detail::expected_max_vector_size);
+    return option;
 }
 
 void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words);

@@ -50,7 +50,7 @@ int run_phantom(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     const Volume volume = make_phantom(arguments.file, arguments.phantom);
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_volume(arguments.output, volume);
     }
     const ValueRange range = range_of(volume);

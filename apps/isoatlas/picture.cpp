@@ -1,7 +1,6 @@
 // From words to pictures: what the options of `render` mean.
 #include "picture.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "words.h"
@@ -16,15 +15,7 @@ namespace {
 template <class T>
 std::optional<T> number_in(const std::string& word, int base = 10) {
     T value{};
-    const char* end = word.data() + word.size();
-    std::from_chars_result result{};
-    if constexpr (std::is_integral_v<T>) {
-        result = std::from_chars(word.data(), end, value, base);
-    } else {
-        result = std::from_chars(word.data(), end, value);
-        if (result.ec == std::errc{} && !std::isfinite(value)) return std::nullopt;
-    }
-    if (word.empty() || result.ec != std::errc{} || result.ptr != end) return std::nullopt;
+    if (!read_number(word, value, base) || !std::isfinite(static_cast<double>(value))) return std::nullopt;
     return value;
 }
 

@@ -1,10 +1,22 @@
 #include "options.h"
 
 namespace isoatlas::cli {
+namespace {
+
+template <class T>
+CLI::Option* add_word_or_number(CLI::App& app, const char* name, T& value, const char* meaning) {
+    if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::vector<std::string>>) {
+        return app.add_option(name, value, meaning);
+    } else {
+        return add_number(app, name, value, meaning);
+    }
+}
+
+}  // namespace
 
 void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
-        return app.add_option(name, value, meaning)->type_name(type);
+        return add_word_or_number(app, name, value, meaning)->type_name(type);
     };
     add("--tau", words.taus, "Everything at these isovalues (calibrated), one object in the picture each", "T");
     add("--object", words.objects, "These objects, each at its isovalue; left out: its best one", "ID[@T]");
@@ -31,7 +43,7 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
 
 void add_camera(CLI::App& app, PictureWords& words) {
     const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
-        return app.add_option(name, value, meaning)->type_name(type);
+        return add_word_or_number(app, name, value, meaning)->type_name(type);
     };
     add("--eye", words.eye, "Where the eye is, physical, instead of --view; with --target", "X,Y,Z")->excludes("--view");
     add("--target", words.target, "What is in the middle of the picture, physical", "X,Y,Z");
@@ -41,12 +53,12 @@ void add_camera(CLI::App& app, PictureWords& words) {
 
 void add_animation(CLI::App& app, Arguments& arguments) {
     AnimationArguments& animation = arguments.picture.animation;
-    app.add_option("--from", animation.from, "First isovalue of an evolution; without --from and --to things turn around")->type_name("A");
-    app.add_option("--to", animation.to, "Last isovalue of an evolution")->type_name("B");
-    app.add_option("--steps", animation.steps, "Number of frames (36)")
+    add_number(app, "--from", animation.from, "First isovalue of an evolution; without --from and --to things turn around")->type_name("A");
+    add_number(app, "--to", animation.to, "Last isovalue of an evolution")->type_name("B");
+    add_number(app, "--steps", animation.steps, "Number of frames (36)")
         ->check(in_range(std::int64_t{1}, std::int64_t{10000}))
         ->type_name("N");
-    app.add_option("--fps", animation.frames_per_second, "Frames per second (12)")->check(in_range(0.1, 100.0))->type_name("F");
+    add_number(app, "--fps", animation.frames_per_second, "Frames per second (12)")->check(in_range(0.1, 100.0))->type_name("F");
 }
 
 }  // namespace isoatlas::cli

@@ -99,7 +99,7 @@ int run_render(const Arguments& arguments, Terminal& terminal) {
         image = render_scene(scene, camera, options, source.context());
     }
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_image(arguments.output, image);
     }
     if (arguments.json) {

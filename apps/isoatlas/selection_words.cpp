@@ -27,16 +27,16 @@ void take_top(const std::string& word, Arguments& arguments) {
 
 void add_selection(CLI::App& app, TypedSelection& typed, bool top) {
     const char* group = "Selecting";
-    app.add_option("--keep", typed.keep, "Keep the first N objects by hypervolume")
+    add_number(app, "--keep", typed.keep, "Keep the first N objects by hypervolume")
         ->check(in_range(std::int64_t{1}, std::int64_t{1} << 40))
         ->type_name("N")
         ->group(group);
     if (top) app.add_option("--top", typed.top, "Keep the first P percent of all objects")->type_name("P%")->group(group);
-    app.add_option("--min-voxels", typed.min_voxels, "Keep objects of at least so many voxels just before they merge")
+    add_number(app, "--min-voxels", typed.min_voxels, "Keep objects of at least so many voxels just before they merge")
         ->check(in_range(0.0, 1e18))
         ->type_name("N")
         ->group(group);
-    app.add_option("--min-volume", typed.min_volume, "The same in the file's unit (2D: area)")
+    add_number(app, "--min-volume", typed.min_volume, "The same in the file's unit (2D: area)")
         ->check(in_range(0.0, 1e300))
         ->type_name("V")
         ->group(group);
@@ -44,7 +44,7 @@ void add_selection(CLI::App& app, TypedSelection& typed, bool top) {
                    "Keep objects that rise so far above the value at which they merge, or P percent of the range")
         ->type_name("H|P%")
         ->group(group);
-    app.add_option("--min-hypervolume", typed.min_hypervolume, "Keep objects of at least this sum of (value - value at which they merge)")
+    add_number(app, "--min-hypervolume", typed.min_hypervolume, "Keep objects of at least this sum of (value - value at which they merge)")
         ->check(in_range(0.0, 1e300))
         ->type_name("H")
         ->group(group);

@@ -45,10 +45,8 @@ void check_file_system(const std::string& output) {
         throw Error(ErrorKind::resource,
                     {.file = output, .what = "the folder does not exist", .next = "mkdir -p " + shell_word(folder.string())});
     }
-    if (::access(folder.c_str(), W_OK) != 0) {
-        throw Error(ErrorKind::resource,
-                    {.file = output, .what = "the folder may not be written to", .next = "choose another folder with -o"});
-    }
+    check_output_file(output);
+    if (ends_with(lower(output), ".raw")) check_output_file(output + ".json");  // which may come with it
 }
 
 }  // namespace

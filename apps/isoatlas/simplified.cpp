@@ -37,7 +37,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarch
 
 void write_file(const Arguments& arguments, Terminal& terminal, Source& source, const SimplifiedTree& tree) {
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_simplified_tree(arguments.output, tree);
     }
     if (!arguments.json) {
@@ -65,7 +65,7 @@ std::string hidden_text(const Simplified& simplified, std::int64_t voxels) {
 
 void write_curves(const Arguments& arguments, Source& source) {
     const BranchHierarchy hierarchy = source.hierarchy();
-    const WritingGuard guard(arguments.curve);
+    const WritingGuard guard;
     isoatlas::write_curves(arguments.curve, source.info(), hierarchy.curves());
 }
 

@@ -57,7 +57,7 @@ int run_spectrum(const Arguments& arguments, Terminal& terminal) {
     const Spectrum spectrum = source.spectrum(options);
     stop_if_interrupted();
     if (!arguments.output.empty()) {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_spectrum(arguments.output, source.info(), spectrum);
     }
     if (arguments.json) {

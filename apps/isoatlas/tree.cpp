@@ -136,7 +136,7 @@ void print_summary(Terminal& terminal, const Arguments& arguments, const Volume&
 
 void write_file(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
     {
-        const WritingGuard guard(arguments.output);
+        const WritingGuard guard;
         write_tree(arguments.output, volume, analysis, {.detail = arguments.detail});
     }
     if (!arguments.json) {

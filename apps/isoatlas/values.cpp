@@ -7,6 +7,8 @@
 
 #include <isoatlas/output.h>
 
+#include "words.h"
+
 namespace isoatlas::cli {
 namespace {
 
@@ -36,7 +38,8 @@ std::string Scale::brief(double stored) const {
 
 std::string Scale::text_within(double stored, double low, double high) const {
     for (int digits = 7; digits < 17; ++digits) {
-        const double rounded = std::stod(fmt::format("{:.{}g}", reported(stored), digits));
+        double rounded = 0;
+        if (!read_number(fmt::format("{:.{}g}", reported(stored), digits), rounded)) continue;  // the largest may be rounded beyond all
         const double back = this->stored(rounded);
         if (back > low && back <= high) return fmt::format("{}", rounded);
     }

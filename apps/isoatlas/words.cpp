@@ -1,7 +1,6 @@
 #include "words.h"
 
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -9,14 +8,6 @@
 
 namespace isoatlas::cli {
 namespace {
-
-template <class T>
-bool read(const std::string& word, T& value) {
-    const char* begin = word.c_str() + (!word.empty() && word[0] == '+' ? 1 : 0);
-    const char* end = word.c_str() + word.size();
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    return error == std::errc{} && stop == end && begin != end;
-}
 
 std::vector<std::string> split(const std::string& word, const std::string& separators) {
     std::vector<std::string> parts;
@@ -37,14 +28,18 @@ std::vector<std::string> split(const std::string& word, const std::string& separ
 
 bool is_number(const std::string& word) {
     double value = 0;
-    return read(word, value);
+    return read_number(word, value);
+}
+
+void bad_number(const std::string& option, const std::string& word, bool whole) {
+    bad_word(option, word, whole ? "a whole number" : "a number: 0, or one from 4.95e-324 to 1.79e308, with either sign");
 }
 
 std::vector<std::int64_t> parse_dims(const std::string& word) {
     std::vector<std::int64_t> dims;
     for (const std::string& part : split(word, "x,X")) {
         std::int64_t size = 0;
-        if (!read(part, size) || size < 1) bad_word("--dims", word, "positive numbers like 512x512x100, or 512x512 for 2D");
+        if (!read_number(part, size) || size < 1) bad_word("--dims", word, "positive numbers like 512x512x100, or 512x512 for 2D");
         dims.push_back(size);
     }
     if (dims.size() == 1) dims.assign(3, dims[0]);
@@ -57,7 +52,7 @@ Vec3 parse_vector(const std::string& option, const std::string& word, double res
     Vec3 values{rest, rest, rest};
     if (parts.size() > 3) bad_word(option, word, "one, two or three numbers like 0.7,0.7,1.5");
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (!read(parts[i], values[i]) || !std::isfinite(values[i])) bad_word(option, word, "numbers like 0.7,0.7,1.5");
+        if (!read_number(parts[i], values[i]) || !std::isfinite(values[i])) bad_word(option, word, "numbers like 0.7,0.7,1.5");
         if (option == "--spacing" && values[i] <= 0) bad_word(option, word, "positive numbers");
     }
     if (parts.size() == 1) values = {values[0], values[0], values[0]};
@@ -70,7 +65,7 @@ SampleBox parse_box(const std::string& option, const std::string& word) {
     bool is_right = axes.size() == 2 || axes.size() == 3;
     for (std::size_t axis = 0; is_right && axis < axes.size(); ++axis) {
         const std::vector<std::string> ends = split(axes[axis], ":");
-        is_right = ends.size() == 2 && read(ends[0], box.begin[axis]) && read(ends[1], box.end[axis]) && box.begin[axis] >= 0 &&
+        is_right = ends.size() == 2 && read_number(ends[0], box.begin[axis]) && read_number(ends[1], box.end[axis]) && box.begin[axis] >= 0 &&
                    box.begin[axis] < box.end[axis];
     }
     if (!is_right) bad_word(option, word, "FIRST:END for every axis, like 0:20,30:50,10:30");
@@ -93,7 +88,7 @@ ValueType parse_type(const std::string& word) {
 double parse_height(const std::string& option, const std::string& word) {
     const bool percent = word.ends_with('%');
     double height = 0;
-    const bool is_number = read(percent ? word.substr(0, word.size() - 1) : word, height) && std::isfinite(height);
+    const bool is_number = read_number(percent ? word.substr(0, word.size() - 1) : word, height) && std::isfinite(height);
     if (!is_number || height < 0 || (percent && height > 100))
         bad_word(option, word, "a number of at least 0, or a percentage such as 0.5%");
     return height;
@@ -101,7 +96,7 @@ double parse_height(const std::string& option, const std::string& word) {
 
 std::int64_t parse_count(const std::string& option, const std::string& word) {
     std::int64_t count = 0;
-    if (!read(word, count) || count < 1) bad_word(option, word, "a number of at least 1, or a percentage such as 5%");
+    if (!read_number(word, count) || count < 1) bad_word(option, word, "a number of at least 1, or a percentage such as 5%");
     return count;
 }
 
@@ -119,7 +114,7 @@ std::int64_t parse_bytes(const std::string& option, const std::string& word) {
     double number = 0;
     constexpr double kLeast = 80 * 0x1p20, kMost = 0x1p62;
     const auto factor = units.find(unit);
-    const bool good = factor != units.end() && read(word.substr(0, digits), number) && number * factor->second < kMost;
+    const bool good = factor != units.end() && read_number(word.substr(0, digits), number) && number * factor->second < kMost;
     if (!good || number * factor->second < kLeast) bad_word(option, word, "a size of at least 80M, such as 500M or 2G");
     return static_cast<std::int64_t>(number * factor->second);
 }
@@ -128,7 +123,7 @@ MissingPolicy parse_missing(const std::string& word) {
     MissingPolicy policy;
     if (word == "below") {
         policy.action = MissingPolicy::Action::below;
-    } else if (read(word, policy.value) && std::isfinite(policy.value)) {
+    } else if (read_number(word, policy.value) && std::isfinite(policy.value)) {
         policy.action = MissingPolicy::Action::replace;
     } else {
         bad_word("--missing", word, "a number, or below");

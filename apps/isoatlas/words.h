@@ -1,8 +1,12 @@
 // From words to values: what the options mean. Every function throws Error{usage} that names the option and what it takes.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -10,7 +14,29 @@
 
 namespace isoatlas::cli {
 
+/// Is the whole word a number, read to the nearest that T has? Not one that only rounds to 0 or to infinity.
+template <class T>
+[[nodiscard]] bool read_number(std::string_view word, T& value, int base = 10) {
+    if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+    std::from_chars_result result{};
+    if constexpr (std::is_integral_v<T>) {
+        result = std::from_chars(word.data(), word.data() + word.size(), value, base);
+    } else {
+        result = std::from_chars(word.data(), word.data() + word.size(), value);
+    }
+    return !word.empty() && result.ec == std::errc{} && result.ptr == word.data() + word.size();
+}
+
 [[nodiscard]] bool is_number(const std::string& word);
+
+[[noreturn]] void bad_number(const std::string& option, const std::string& word, bool whole);
+/// The same as an option: what is no number is refused.
+template <class T>
+[[nodiscard]] T parse_number(const std::string& option, const std::string& word) {
+    T value{};
+    if (!read_number(word, value)) bad_number(option, word, std::is_integral_v<T>);
+    return value;
+}
 
 /// "512x512x100", "512,512" or "512": 1 to 3 positive numbers; one number means a cube.
 [[nodiscard]] std::vector<std::int64_t> parse_dims(const std::string& word);

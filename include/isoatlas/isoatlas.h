@@ -34,6 +34,7 @@
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"
+#include "isoatlas/output_file.h"
 #include "isoatlas/page.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/render.h"

@@ -177,9 +177,9 @@ private:
 }  // namespace
 
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
+    Build build(path, options.restart, context);  // what is in the way is told before anything is read
     const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
     check_estimate(estimate, reader.info().path, path);
-    Build build(path, options.restart, context);
     const MemoryLimit limit(estimate.uses_scratch ? estimate.budget : 0, build.scratch_folder());
     BigVector<std::byte> samples;
     const io::Allocate allocate = [&samples](std::size_t bytes) {

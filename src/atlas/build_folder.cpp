@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "atlas/lock_text.h"
-#include "base/atomic_file.h"
+#include "base/check.h"
+#include "base/output_target.h"
+#include "base/temporary_name.h"
 #include "io/file_access.h"
 #include "isoatlas/error.h"
 
@@ -22,18 +24,45 @@ constexpr std::chrono::seconds kSayEvery{1};
                                       .next = error == -ENOTDIR ? in_the_way : next_step_after(error)});
 }
 
-/// Removes all but the lock. What cannot be removed stays: it is replaced when it is in the way.
+[[noreturn]] void not_ours(const std::string& path, const std::string& what) {
+    throw Error(ErrorKind::resource, {.file = path,
+                                      .what = what,
+                                      .expected = "the folder that a build makes for itself",
+                                      .next = "rename or remove it, or build to another file with -o"});
+}
+
+bool is_phase(std::string_view name) { return name == "trees" || name == "zones"; }
+
+/// Removes what builds make, but the lock. What cannot be removed stays: it is replaced when it is in the way.
 void remove_contents(const std::string& path) {
     for (const std::string& name : file_system().entries(path, std::numeric_limits<std::size_t>::max())) {
-        if (name != kLock) (void)file_system().remove(path + "/" + name);
+        if (is_phase(name)) (void)file_system().remove(path + "/" + name);
+        if (is_temporary_name(name)) file_system().remove_abandoned(path + "/" + name);
     }
 }
 
-/// What is in a lock; "" when that cannot be read.
-std::string text_of(const std::string& lock) try {
+/// Only folders of this user that are empty or have a lock can be those of builds.
+void check_found(const std::string& path) {
+    using Kind = FileStatus::Kind;
+    const FileStatus found = file_system().status_of_name(path);
+    if (found.kind == Kind::missing) return;
+    if (found.kind == Kind::link) not_ours(path, "is a link");
+    if (found.kind != Kind::folder) not_ours(path, "is no folder");
+    if (!found.own) not_ours(path, "belongs to another user");
+    const bool is_empty = file_system().entries(path, 1).empty();
+    if (!is_empty && file_system().status_of_name(path + "/" + kLock).kind == Kind::missing)
+        not_ours(path, "was not made by a build; nothing in it was touched");
+}
+
+std::string text_of(File& lock, const std::string& path) {
     std::string text(kLockBytes, '\0');
-    text.resize(io::read_available(*io::open_file(lock), lock, 0, std::as_writable_bytes(std::span(text))));
+    text.resize(io::read_available(lock, path, 0, std::as_writable_bytes(std::span(text))));
     return text;
+}
+
+/// What is in the lock of somebody else; "" when that cannot be read.
+std::string text_of(const std::string& lock) try {
+    return text_of(*io::open_file(lock), lock);
 } catch (const Error&) {
     return "";
 }
@@ -48,12 +77,19 @@ bool belongs(const store::Contents& found, const store::Contents& wanted) {
 
 }  // namespace
 
-BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(store_path + ".build") {
+BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(require_target(store_path).path + ".build") {
+    lock(store_path);
+    mark();
+    if (restart) remove_contents(path_);
+}
+
+void BuildFolder::lock(const std::string& store_path) {
     OpenedFile lock{nullptr, -ENOENT};
     for (int attempt = 0; attempt < 3 && lock.error == -ENOENT; ++attempt) {  // a build that has just finished takes its folder away
         const int made = file_system().make_folder(path_);
         if (made < 0 && made != -EEXIST) cannot_make(path_, made);
-        lock = file_system().create(file(kLock));
+        if (made == -EEXIST) check_found(path_);
+        lock = file_system().lock(file(kLock));
     }
     if (lock.error == -EWOULDBLOCK) {
         const std::string who = holder_in(text_of(file(kLock)));
@@ -61,11 +97,26 @@ BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(st
                                           .what = "is being built by another process" + (who.empty() ? "" : ", " + who),
                                           .next = "wait until it is done, or build to another file with -o"});
     }
+    if (lock.error == -EPERM) not_ours(file(kLock), "is a link, no regular file, or one with other names or of another user");
     if (!lock.file) cannot_make(path_, lock.error);
     lock_ = std::move(lock.file);
+}
+
+/// Makes the folder that of a build, if it is not; holding the lock.
+void BuildFolder::mark() {
+    const std::string found = text_of(*lock_, file(kLock));
+    const bool is_new = is_blank(found) && file_system().entries(path_, 2).size() == 1;
+    if (!is_new && !has_mark(found)) {
+        lock_.reset();
+        not_ours(path_, "was not made by a build of this version; nothing in it was touched");
+    }
     const std::string own = lock_text(std::nullopt);
-    if (const int error = write_fully(*lock_, 0, std::as_bytes(std::span(own))); error < 0) cannot_make(path_, error);
-    if (restart) remove_contents(path_);
+    int error = write_fully(*lock_, 0, std::as_bytes(std::span(own)));
+    if (error == 0 && is_new) error = lock_->sync();
+    if (error == 0 && is_new) error = file_system().sync_folder(path_);
+    if (error == 0) return;
+    if (is_new) (void)remove();
+    cannot_make(path_, error);
 }
 
 BuildFolder::~BuildFolder() {
@@ -73,6 +124,7 @@ BuildFolder::~BuildFolder() {
 }
 
 std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted) const {
+    ISOATLAS_CHECK(is_phase(phase));
     if (!io::file_exists(file(phase))) return nullptr;
     try {
         auto container = std::make_unique<store::Container>(file(phase));
@@ -96,14 +148,18 @@ void BuildFolder::say(const BuildState& state) {
 
 bool BuildFolder::remove() {
     remove_contents(path_);
-    (void)file_system().remove(file(kLock));  // while it is held: whoever waits for it makes a new one
-    const bool gone = file_system().remove_folder(path_) == 0;
+    bool gone = false;
+    if (file_system().entries(path_, 2).size() == 1) {  // else the mark stays, too: the folder is still ours
+        (void)file_system().remove(file(kLock));  // while it is held: whoever waits for it makes a new one
+        gone = file_system().remove_folder(path_) == 0;
+    }
     lock_.reset();
     return gone;
 }
 
 std::optional<BuildState> build_state(const std::string& path) {
-    const std::string lock = path + ".build/" + kLock;
+    Obstacle obstacle;  // is told by the build
+    const std::string lock = find_target(path, obstacle).path + ".build/" + kLock;
     if (!file_system().is_held(lock)) return std::nullopt;
     return state_in(text_of(lock));
 }

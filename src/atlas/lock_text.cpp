@@ -32,7 +32,7 @@ std::optional<double> known(double number) { return number >= 0 && std::isfinite
 }  // namespace
 
 std::string lock_text(const std::optional<BuildState>& state) {
-    std::string text = std::to_string(::getpid()) + "\n";
+    std::string text = std::string(kBuildMark) + std::to_string(::getpid()) + "\n";
     if (!state) return text;
     text += std::to_string(state->phase_index) + ' ' + std::to_string(state->phase_count) + ' ' + std::to_string(state->peak_memory) + ' ';
     for (const double number : {state->fraction, state->seconds_left.value_or(-1), state->voxels_per_second.value_or(-1)})
@@ -40,9 +40,19 @@ std::string lock_text(const std::optional<BuildState>& state) {
     return text + state->phase.substr(0, kLongestPhase) + "\n";
 }
 
-std::string holder_in(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
+bool has_mark(std::string_view text) { return text.starts_with(kBuildMark); }
+
+bool is_blank(std::string_view text) { return text.find_first_not_of('\0') == text.npos; }
+
+std::string holder_in(std::string_view text) {
+    if (!has_mark(text)) return "";
+    text.remove_prefix(kBuildMark.size());
+    return std::string(text.substr(0, text.find('\n')));
+}
 
 BuildState state_in(std::string_view text) {
+    if (!has_mark(text)) return {};
+    text.remove_prefix(kBuildMark.size());
     const std::size_t first = text.find('\n'), last = first == text.npos ? first : text.find('\n', first + 1);
     if (last == text.npos) return {};
     std::string_view line = text.substr(first + 1, last - first - 1);

@@ -1,4 +1,4 @@
-// What the lock of a build says: who holds it, and where the build is.
+// What the lock of a build says: that the folder was made by a build, who holds it, and where the build is.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,18 @@ namespace isoatlas {
 
 inline constexpr std::size_t kLockBytes = 512;  ///< that are enough to read
 
-/// The number of this process on a line, and the state on another one.
+/// The first line: a folder without it was made by somebody else.
+inline constexpr std::string_view kBuildMark = "folder of an isoatlas build, removed when it is done\n";
+
+/// The mark, the number of this process on a line, and the state on another one.
 [[nodiscard]] std::string lock_text(const std::optional<BuildState>& state);
 
-/// The first line.
+/// Is it the lock of a build? One that a crash has left empty, or all zeros, has_mark() does not take for one, is_blank() does.
+[[nodiscard]] bool has_mark(std::string_view text);
+[[nodiscard]] bool is_blank(std::string_view text);
+/// The line behind the mark; "" without one.
 [[nodiscard]] std::string holder_in(std::string_view text);
-/// Of the second line; one that is not there, or is not what lock_text() writes, gives a build that has only begun.
+/// Of the line behind that; one that is not there, or is not what lock_text() writes, gives a build that has only begun.
 [[nodiscard]] BuildState state_in(std::string_view text);
 
 }  // namespace isoatlas

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "base/check.h"
+#include "base/output_target.h"
+#include "base/temporary_name.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
@@ -15,41 +16,32 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-/// The file behind symbolic links, also when it does not exist yet; the path itself when links go in circles (create reports it).
-std::string resolve(const std::string& path) {
-    std::string target = path;
-    for (int hops = 0; hops < 40; ++hops) {
-        const std::filesystem::path link = file_system().link(target);
-        if (link.empty()) return target;
-        target = link.is_absolute() ? link.string() : (std::filesystem::path(target).parent_path() / link).string();
+constexpr int kMostNames = 100;                    // that are tried: 64 random bits are hardly ever taken
+constexpr std::size_t kMostEntries = 100'000;      // of a folder that is tidied up
+constexpr const char* kNeedsFile = "cannot be written: this format needs a file, not a device or a pipe";
+
+/// Removes what a crash has left in a folder: only our names, and only files of this user that nobody writes.
+void tidy_up(const std::string& folder) {
+    for (const std::string& name : file_system().entries(folder, kMostEntries)) {
+        if (is_temporary_name(name)) file_system().remove_abandoned(folder + "/" + name);
     }
-    return path;
 }
 
-std::string folder_of(const std::string& path) {
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    return folder.empty() ? "." : folder;
+/// Calls with new names in a folder until one is not taken. Returns what the call returns then.
+template <class Call>
+int with_new_name(const std::string& folder, std::string& name, const Call& call) {
+    int error = -EEXIST;
+    for (int i = 0; i < kMostNames && error == -EEXIST; ++i) {
+        name = (folder == "/" ? "" : folder) + "/" + temporary_name();
+        error = call(name);
+    }
+    if (error < 0) name.clear();
+    return error;
 }
 
 }  // namespace
 
-std::string next_step_after(int error) {
-    switch (-error) {
-        case ENOSPC:
-        case EDQUOT: return "free some space or write to another disk";
-        case EFBIG: return "write to a file system (or under a limit) that takes files of this size";
-        case ENOENT: return "create the folder first, or check its name";
-        case EACCES:
-        case EPERM: return "choose a folder you may write to, or change its permissions";
-        case EROFS: return "choose a folder on a disk that is not read-only";
-        case EISDIR: return "give the name of a file, not of a folder";
-        case EWOULDBLOCK: return "wait until the other program has finished, or choose another name";
-        case ENAMETOOLONG: return "choose a shorter name";
-        default: return "check the disk and the folder, then run the command again";
-    }
-}
-
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(resolve(path_)) {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     buffer_.reserve(kBufferBytes);
     open();
 }
@@ -57,22 +49,34 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(resol
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::open() {
-    using Kind = FileStatus::Kind;
-    const FileStatus status = file_system().status(target_);
-    if (status.kind == Kind::folder) fail("cannot be written", -EISDIR);
-    if (status.kind == Kind::other) {
+    const OutputTarget target = require_target(path_);
+    target_ = target.path;
+    is_stream_ = target.is_stream;
+    if (is_stream_) {
         OpenedFile opened = file_system().open_stream(target_);
         if (!opened.file) fail("cannot be opened for writing", opened.error);
         file_ = std::move(opened.file);
         return;
     }
-    const std::string partial = target_ + ".partial";
-    OpenedFile opened = file_system().create(partial);
-    if (opened.error == -EWOULDBLOCK) fail("is being written by another program", opened.error);
+    const bool replaces = target.status.kind == FileStatus::Kind::regular;
+    tidy_up(folder_of(target_));
+    open_temporary(replaces ? target.status.mode & 0777U : 0666U);
+    if (replaces) (void)file_->set_mode(target.status.mode & 0777U);  // a replaced file keeps its permissions, before there is content
+}
+
+void AtomicFile::open_temporary(unsigned mode) {
+    const std::string folder = folder_of(target_);
+    OpenedFile opened = file_system().create_unnamed(folder, mode);
+    if (opened.error == -EOPNOTSUPP) {
+        require(with_new_name(folder, partial_,
+                              [&](const std::string& name) {
+                                  opened = file_system().create(name, mode);
+                                  return opened.file ? 0 : opened.error;
+                              }),
+                "cannot be created");
+    }
     if (!opened.file) fail("cannot be created", opened.error);
     file_ = std::move(opened.file);
-    partial_ = partial;
-    if (status.kind == Kind::regular) (void)file_system().set_mode(partial_, status.mode);  // a replaced file keeps its permissions
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
@@ -101,14 +105,14 @@ void AtomicFile::write_at(std::int64_t offset, std::span<const std::byte> bytes)
 
 void AtomicFile::reserve(std::int64_t size) {
     ISOATLAS_CHECK(file_ != nullptr);
-    if (!partial_.empty()) require(file_->reserve(size), "cannot be written");
+    if (!is_stream_) require(file_->reserve(size), "cannot be written");
 }
 
 void AtomicFile::extend(std::int64_t size) {
     ISOATLAS_CHECK(file_ != nullptr && size >= size_);
     if (size == size_) return;
     flush();
-    if (partial_.empty()) fail("cannot be written: this format needs a file, not a device or a pipe", -ESPIPE);
+    if (is_stream_) fail(kNeedsFile, -ESPIPE);
     require(file_->resize(size), "cannot be written");
     size_ = size;
 }
@@ -120,7 +124,7 @@ void AtomicFile::flush() {
 }
 
 void AtomicFile::put(std::int64_t offset, std::span<const std::byte> bytes) {
-    if (partial_.empty() && offset != written_) fail("cannot be written: this format needs a file, not a device or a pipe", -ESPIPE);
+    if (is_stream_ && offset != written_) fail(kNeedsFile, -ESPIPE);
     require(write_fully(*file_, offset, bytes), "cannot be written");
     written_ = offset + static_cast<std::int64_t>(bytes.size());
 }
@@ -129,13 +133,20 @@ void AtomicFile::commit() {
     ISOATLAS_CHECK(file_ != nullptr);
     flush();
     require(file_->sync(), "cannot be written to disk");
-    if (!partial_.empty()) {  // renamed while it is locked: nobody else may take the name for their own
-        require(file_system().rename(partial_, target_), "cannot be given its name");
-        partial_.clear();
-        require(file_system().sync_folder(folder_of(target_)), "is complete, but its name may be lost in a power failure");
-    }
+    if (!is_stream_) take_name();
     const std::unique_ptr<File> file = std::move(file_);
     require(file->close(), "cannot be closed");
+}
+
+/// Held until it has its name: nobody may take it for something that was left.
+void AtomicFile::take_name() {
+    const std::string folder = folder_of(target_);
+    if (partial_.empty()) {
+        require(with_new_name(folder, partial_, [&](const std::string& name) { return file_->take_name(name); }), "cannot be given a name");
+    }
+    require(file_system().rename(partial_, target_), "cannot be given its name");
+    partial_.clear();
+    require(file_system().sync_folder(folder), "is complete, but its name may be lost in a power failure");
 }
 
 void AtomicFile::discard() noexcept {

@@ -17,8 +17,9 @@
 
 namespace isoatlas {
 
-/// Writes `<path>.partial`; commit() syncs it and renames it to `path`; without commit() the destructor removes it.
-/// A symbolic link is followed (its target is replaced, the link stays); devices and pipes (/dev/stdout) are written directly.
+/// Writes a file without a name in the folder of `path`, or, where the disk has none, one whose name nobody can foretell; commit() syncs it
+/// and gives it the name `path`. Without commit(), or with the process, it is gone; names that a crash has left are removed by the next
+/// file in that folder. What may be replaced and what is refused: isoatlas/output_file.h. Of two writers of one path the last one stays.
 /// Every function throws Error{resource} with path, reason of the system and next step. Writes are buffered. Not thread safe.
 class AtomicFile {
 public:
@@ -46,22 +47,22 @@ private:
     [[noreturn]] void fail(const char* action, int error) const;
     void require(int error, const char* action) const;
     void open();
+    void open_temporary(unsigned mode);
+    void take_name();
     void flush();
     void put(std::int64_t offset, std::span<const std::byte> bytes);
     void discard() noexcept;
 
-    std::string path_;     ///< as the caller gave it, for messages
-    std::string target_;   ///< where it goes: path_ with links resolved
-    std::string partial_;  ///< empty when the target is written directly
+    std::string path_;       ///< as the caller gave it, for messages
+    std::string target_;     ///< where it goes: path_ with links followed
+    std::string partial_;    ///< its name until then; empty: none
+    bool is_stream_ = false;  ///< written directly
     std::unique_ptr<File> file_;
     std::int64_t size_ = 0;
     std::int64_t written_ = 0;  ///< of a device or pipe: bytes it has taken
     std::int64_t buffer_begin_ = 0;
     std::vector<std::byte> buffer_;  ///< bytes from buffer_begin_ on that are still to be written
 };
-
-/// What a user can do when writing fails with -errno.
-[[nodiscard]] std::string next_step_after(int error);
 
 /// Bytes of trivially copyable values, to write them.
 template <class T>

@@ -23,14 +23,19 @@ std::ptrdiff_t File::write_at(std::int64_t, std::span<const std::byte>) { return
 int File::resize(std::int64_t) { return -EBADF; }
 int File::reserve(std::int64_t) { return -EBADF; }
 int File::sync() { return -EBADF; }
+int File::set_mode(unsigned) { return -EBADF; }
+int File::take_name(const std::string&) { return -EBADF; }
 int File::close() { return 0; }
 
 FileSystem::~FileSystem() = default;
+FileStatus FileSystem::status_of_name(const std::string& path) { return status(path); }
 std::string FileSystem::link(const std::string&) { return {}; }
 OpenedFile FileSystem::open_stream(const std::string&) { return {nullptr, -EROFS}; }
-OpenedFile FileSystem::create(const std::string&) { return {nullptr, -EROFS}; }
+OpenedFile FileSystem::create(const std::string&, unsigned) { return {nullptr, -EROFS}; }
+OpenedFile FileSystem::create_unnamed(const std::string&, unsigned) { return {nullptr, -EOPNOTSUPP}; }
+OpenedFile FileSystem::lock(const std::string&) { return {nullptr, -EROFS}; }
 bool FileSystem::is_held(const std::string&) { return false; }
-int FileSystem::set_mode(const std::string&, unsigned) { return -EROFS; }
+void FileSystem::remove_abandoned(const std::string&) {}
 int FileSystem::rename(const std::string&, const std::string&) { return -EROFS; }
 int FileSystem::remove(const std::string&) { return -EROFS; }
 int FileSystem::make_folder(const std::string&) { return -EROFS; }

@@ -37,15 +37,23 @@ public:
     [[nodiscard]] virtual int reserve(std::int64_t size);
     /// Returns when all that was written would survive a power failure.
     [[nodiscard]] virtual int sync();
+    /// Permissions, exactly these.
+    [[nodiscard]] virtual int set_mode(unsigned mode);
+    /// Gives a file of create_unnamed() a name. -EEXIST: there is something of that name.
+    [[nodiscard]] virtual int take_name(const std::string& path);
     /// The last word about what was written. Called at most once, and nothing after it.
     [[nodiscard]] virtual int close();
 };
 
 struct FileStatus {
-    enum class Kind { missing, regular, folder, other };
+    enum class Kind { missing, regular, folder, link, other };
     Kind kind = Kind::missing;
-    int error = 0;      ///< why it is missing: -errno
-    unsigned mode = 0;  ///< permissions
+    int error = 0;            ///< why it is missing: -errno
+    unsigned mode = 0;        ///< permissions
+    bool own = true;          ///< belongs to the user of this process
+    bool trusted = true;      ///< belongs to that user, or to the superuser
+    bool writable = true;     ///< this user may write to it; of an own file its permissions say so, even to the superuser
+    std::uint64_t names = 1;  ///< of the file: more than one, when there are hard links
 };
 
 struct OpenedFile {
@@ -59,19 +67,28 @@ public:
     FileSystem(const FileSystem&) = delete;
     FileSystem& operator=(const FileSystem&) = delete;
     virtual ~FileSystem();
-    /// What a path names; links are followed.
+    /// What a path names; links are followed: Kind::link is never told.
     [[nodiscard]] virtual FileStatus status(const std::string& path) = 0;
+    /// What a path itself is: a link where it ends in one.
+    [[nodiscard]] virtual FileStatus status_of_name(const std::string& path);
     /// Opens a regular file to read it.
     [[nodiscard]] virtual OpenedFile open(const std::string& path) = 0;
     /// What a symbolic link contains; empty: the path names no link.
     [[nodiscard]] virtual std::string link(const std::string& path);
     /// Opens a device or pipe to write to it: its write_at takes the next bytes, whatever the offset.
     [[nodiscard]] virtual OpenedFile open_stream(const std::string& path);
-    /// Makes an empty file, or empties the one that is there, and locks it until it is closed: -EWOULDBLOCK when somebody else holds it.
-    [[nodiscard]] virtual OpenedFile create(const std::string& path);
-    /// Does somebody hold a file that create() gave him? Asking takes nothing.
+    /// Makes a file that was not there, with these permissions less the process's mask, and holds it until it is closed. -EEXIST: there is
+    /// something of that name, be it a link to nowhere.
+    [[nodiscard]] virtual OpenedFile create(const std::string& path, unsigned mode);
+    /// The same in a folder without a name, so that it is gone with its process: -EOPNOTSUPP where the disk has no such files.
+    [[nodiscard]] virtual OpenedFile create_unnamed(const std::string& folder, unsigned mode);
+    /// Opens a file, or makes an empty one, and holds it until it is closed; content stays. -EWOULDBLOCK: somebody else holds it; -EPERM: it
+    /// is no regular file of this user with one name.
+    [[nodiscard]] virtual OpenedFile lock(const std::string& path);
+    /// Does somebody hold a file that lock() gave him? Asking takes nothing.
     [[nodiscard]] virtual bool is_held(const std::string& path);
-    [[nodiscard]] virtual int set_mode(const std::string& path, unsigned mode);
+    /// Removes a regular file of this user with one name that nobody holds; where that cannot be told it stays.
+    virtual void remove_abandoned(const std::string& path);
     [[nodiscard]] virtual int rename(const std::string& from, const std::string& to);
     [[nodiscard]] virtual int remove(const std::string& path);
     /// -EEXIST: there is something of that name.

@@ -17,10 +17,12 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "base/check.h"
+#include "base/refusals.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
@@ -35,7 +37,7 @@ std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kP
 [[noreturn]] void scratch_failed(const std::string& folder, int error) {
     throw Error(ErrorKind::resource, {.file = folder,
                                       .what = std::string("the scratch file cannot grow: ") + std::strerror(error),
-                                      .next = "free some disk space, choose another folder with --scratch, or allow more --memory"});
+                                      .next = "free some disk space, build the store on another disk with -o, or allow more --memory"});
 }
 
 /// An unnamed file in a folder.
@@ -62,14 +64,20 @@ public:
     void start(std::int64_t limit, const std::string& folder) {
         const std::lock_guard starting(start_or_stop_);
         const std::lock_guard lock(mutex_);
+        if (users_ == 0) {
+            stop_ = false;
+            try {
+                watcher_ = std::thread([this] { watch(); });  // which waits for the lock
+            } catch (const std::system_error& error) {
+                throw threads_refused(error.what());
+            }
+        }
         limit_ = users_ > 0 ? std::min<std::int64_t>(limit_, limit) : limit;
         if (users_++ > 0) return;
         folder_ = folder;
         in_memory_ = 0;
         statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
         active_ = true;
-        stop_ = false;
-        watcher_ = std::thread([this] { watch(); });
     }
     void stop() {
         const std::lock_guard stopping(start_or_stop_);

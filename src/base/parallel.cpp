@@ -11,8 +11,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string_view>
 
 #include "base/memory_limit.h"
+#include "base/refusals.h"
 
 namespace isoatlas {
 namespace {
@@ -25,6 +28,17 @@ tbb::task_arena& arena_of(int threads) {
     std::unique_ptr<tbb::task_arena>& arena = (*arenas)[std::min(threads, tbb::info::default_concurrency())];
     if (!arena) arena = std::make_unique<tbb::task_arena>(std::min(threads, tbb::info::default_concurrency()));
     return *arena;
+}
+
+/// Runs work in an arena. That the system refuses a thread oneTBB tells by a runtime_error with the name of the call.
+template <class Work>
+void execute(int threads, const Work& work) try {
+    arena_of(threads).execute(work);
+} catch (const Error&) {
+    throw;
+} catch (const std::runtime_error& error) {
+    if (std::string_view(error.what()).starts_with("pthread_")) throw threads_refused(error.what());
+    throw;
 }
 
 }  // namespace
@@ -40,7 +54,7 @@ void for_each_block(int threads, std::int64_t blocks, const std::function<void(s
         for (std::int64_t block = 0; block < blocks; ++block) work(block);
         return;
     }
-    arena_of(thread_count(threads)).execute([&] {
+    execute(thread_count(threads), [&] {
         tbb::parallel_for(std::int64_t{0}, blocks, std::int64_t{1}, work, tbb::simple_partitioner());
     });
 }
@@ -51,10 +65,10 @@ void run_both(int threads, const std::function<void()>& first, const std::functi
         second();
         return;
     }
-    arena_of(thread_count(threads)).execute([&] { tbb::parallel_invoke(first, second); });
+    execute(thread_count(threads), [&] { tbb::parallel_invoke(first, second); });
 }
 
-void with_threads(int threads, const std::function<void()>& job) { arena_of(thread_count(threads)).execute(job); }
+void with_threads(int threads, const std::function<void()>& job) { execute(thread_count(threads), job); }
 
 }  // namespace isoatlas
 

@@ -1,4 +1,5 @@
 // The only door to threads. Work is cut into numbered blocks; what a block computes must not depend on which thread runs it.
+// Where the system refuses a thread, Error{resource}.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,7 +31,10 @@ void for_each_block(int threads, std::int64_t blocks, const std::function<void(s
             }
     };
     std::vector<std::thread> helpers;
-    for (std::int64_t i = 1; i < std::min<std::int64_t>(thread_count(threads), blocks); ++i) helpers.emplace_back(take_blocks);
+    try {
+        for (std::int64_t i = 1; i < std::min<std::int64_t>(thread_count(threads), blocks); ++i) helpers.emplace_back(take_blocks);
+    } catch (const std::system_error&) {  // fewer threads do it, too
+    }
     take_blocks();
     for (std::thread& helper : helpers) helper.join();
     if (first_error) std::rethrow_exception(first_error);

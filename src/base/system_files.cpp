@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "base/file_system.h"
+#include "base/temporary_name.h"
+#include "base/unfinished.h"
 
 namespace isoatlas {
 namespace {
@@ -30,6 +32,9 @@ struct flock whole_file(short type) {
     lock.l_whence = SEEK_SET;
     return lock;
 }
+
+/// An open file without a name: to give it one by its number alone takes the superuser.
+std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 class SystemFile : public File {
 public:
@@ -69,6 +74,13 @@ public:
         const int error = repeated([&] { return ::fsync(descriptor_); });
         return error == -EINVAL ? 0 : error;  // a file that has nothing to sync
     }
+    int set_mode(unsigned mode) override { return error_of(::fchmod(descriptor_, mode)); }
+    int take_name(const std::string& path) override {
+        note_unfinished(path);
+        const int error = error_of(::linkat(AT_FDCWD, path_of(descriptor_).c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW));
+        if (error < 0) forget_unfinished(path);
+        return error;
+    }
     int close() override {  // not repeated: after EINTR the descriptor is gone
         const int error = error_of(::close(std::exchange(descriptor_, -1)));
         return error == -EINTR ? 0 : error;
@@ -94,7 +106,37 @@ public:
 /// Does the path still name the open file? Somebody may have renamed or removed it before we held the lock.
 bool is_named(int descriptor, const std::string& path) {
     struct stat own{}, named{};
-    return ::fstat(descriptor, &own) == 0 && ::stat(path.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+    return ::fstat(descriptor, &own) == 0 && ::lstat(path.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+}
+
+/// A regular file of this user, which has no other name that somebody may mean.
+bool is_plainly_own(int descriptor) {
+    struct stat status{};
+    return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && status.st_nlink == 1;
+}
+
+/// Takes the lock of an open file. Systems without locks say that it went well, unless `must_be_told`.
+int take_lock(int descriptor, bool must_be_told) {
+    struct flock lock = whole_file(F_WRLCK);
+    const int error = repeated([&] { return ::fcntl(descriptor, F_OFD_SETLK, &lock); });
+    return error == -EWOULDBLOCK || must_be_told ? error : 0;
+}
+
+FileStatus status_from(const struct stat& status, const std::string& path) {
+    using Kind = FileStatus::Kind;
+    const mode_t type = status.st_mode & S_IFMT;
+    FileStatus found;
+    found.kind = type == S_IFREG   ? Kind::regular
+                 : type == S_IFDIR ? Kind::folder
+                 : type == S_IFLNK ? Kind::link
+                                   : Kind::other;
+    found.mode = status.st_mode & 07777U;
+    found.own = status.st_uid == ::geteuid();
+    found.trusted = found.own || status.st_uid == 0;
+    found.names = status.st_nlink;
+    const bool refused = found.kind == Kind::regular && (found.own ? (found.mode & S_IWUSR) == 0 : (found.mode & 0222U) == 0);
+    found.writable = !refused && (found.kind == Kind::link || ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
+    return found;
 }
 
 class SystemFiles final : public FileSystem {
@@ -102,9 +144,12 @@ public:
     FileStatus status(const std::string& path) override {
         struct stat status{};
         if (::stat(path.c_str(), &status) != 0) return {.error = -errno};
-        using Kind = FileStatus::Kind;
-        const Kind kind = S_ISREG(status.st_mode) ? Kind::regular : S_ISDIR(status.st_mode) ? Kind::folder : Kind::other;
-        return {.kind = kind, .mode = status.st_mode & 07777U};
+        return status_from(status, path);
+    }
+    FileStatus status_of_name(const std::string& path) override {
+        struct stat status{};
+        if (::lstat(path.c_str(), &status) != 0) return {.error = -errno};
+        return status_from(status, path);
     }
     OpenedFile open(const std::string& path) override { return opened<SystemFile>(::open(path.c_str(), O_RDONLY | O_CLOEXEC)); }
     std::string link(const std::string& path) override {
@@ -112,30 +157,66 @@ public:
         return std::filesystem::read_symlink(path, none).string();
     }
     OpenedFile open_stream(const std::string& path) override { return opened<SystemStream>(::open(path.c_str(), O_WRONLY | O_CLOEXEC)); }
-    OpenedFile create(const std::string& path) override {
+    OpenedFile create(const std::string& path, unsigned mode) override {
+        if (is_temporary_name(path)) note_unfinished(path);
+        const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+        const int error = error_of(descriptor);
+        OpenedFile result{std::make_unique<SystemFile>(descriptor), error};
+        // Whoever tidies up may have come between: then there is another name to be had.
+        if (error == 0 && (take_lock(descriptor, false) < 0 || !is_named(descriptor, path))) result.error = -EEXIST;
+        if (result.error < 0) {
+            forget_unfinished(path);
+            result.file.reset();
+        }
+        return result;
+    }
+    OpenedFile create_unnamed(const std::string& folder, unsigned mode) override {
+        const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+        if (descriptor < 0) return {nullptr, errno == EISDIR || errno == EINVAL || errno == ENOSYS ? -EOPNOTSUPP : -errno};
+        OpenedFile result{std::make_unique<SystemFile>(descriptor), 0};
+        if (::access(path_of(descriptor).c_str(), F_OK) != 0) return {nullptr, -EOPNOTSUPP};  // it could not get a name
+        (void)take_lock(descriptor, false);  // of a file that only we can see; it counts from the moment when it has a name
+        return result;
+    }
+    OpenedFile lock(const std::string& path) override {
         for (;;) {
-            OpenedFile result;
-            const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-            if (descriptor < 0) return {nullptr, -errno};
-            result.file = std::make_unique<SystemFile>(descriptor);
-            struct flock lock = whole_file(F_WRLCK);
-            if (repeated([&] { return ::fcntl(descriptor, F_OFD_SETLK, &lock); }) == -EWOULDBLOCK) return {nullptr, -EWOULDBLOCK};
-            if (!is_named(descriptor, path)) continue;  // not every file system has locks, so that only "held" is an answer
-            result.error = result.file->resize(0);
-            if (result.error < 0) result.file.reset();
+            int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+            const bool is_new = descriptor >= 0;
+            if (!is_new && errno == EEXIST) descriptor = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+            const int error = error_of(descriptor);
+            if (error == -ENOENT && status(folder_of(path)).kind == FileStatus::Kind::folder) continue;  // removed since
+            if (error < 0) return {nullptr, error == -ELOOP || error == -ENXIO || error == -EISDIR ? -EPERM : error};
+            OpenedFile result{std::make_unique<SystemFile>(descriptor), 0};
+            const bool is_ours = is_new || is_plainly_own(descriptor);
+            if (is_ours && take_lock(descriptor, false) == -EWOULDBLOCK) return {nullptr, -EWOULDBLOCK};
+            if (!is_named(descriptor, path)) continue;  // removed since
+            if (!is_ours) return {nullptr, -EPERM};
             return result;
         }
     }
     bool is_held(const std::string& path) override {
-        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (descriptor < 0) return false;
         const SystemFile closes(descriptor);
-        struct flock lock = whole_file(F_RDLCK);  // asked for, not taken: taking it would be in the way of create()
+        struct flock lock = whole_file(F_RDLCK);  // asked for, not taken: taking it would be in the way of lock()
         return repeated([&] { return ::fcntl(descriptor, F_OFD_GETLK, &lock); }) == 0 && lock.l_type != F_UNLCK;
     }
-    int set_mode(const std::string& path, unsigned mode) override { return error_of(::chmod(path.c_str(), mode)); }
-    int rename(const std::string& from, const std::string& to) override { return error_of(::rename(from.c_str(), to.c_str())); }
-    int remove(const std::string& path) override { return error_of(::unlink(path.c_str())); }
+    void remove_abandoned(const std::string& path) override {
+        const int descriptor = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (descriptor < 0) return;
+        const SystemFile closes(descriptor);
+        if (is_plainly_own(descriptor) && take_lock(descriptor, true) == 0 && is_named(descriptor, path)) (void)::unlink(path.c_str());
+    }
+    int rename(const std::string& from, const std::string& to) override {
+        const int error = error_of(::rename(from.c_str(), to.c_str()));
+        if (error == 0) forget_unfinished(from);
+        return error;
+    }
+    int remove(const std::string& path) override {
+        const int error = error_of(::unlink(path.c_str()));
+        forget_unfinished(path);
+        return error;
+    }
     int make_folder(const std::string& path) override { return error_of(::mkdir(path.c_str(), 0777)); }
     int remove_folder(const std::string& path) override { return error_of(::rmdir(path.c_str())); }
     std::vector<std::string> entries(const std::string& path, std::size_t most) override {

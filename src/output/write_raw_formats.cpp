@@ -1,8 +1,8 @@
 // The formats whose samples lie plainly behind (or beside) a short text: MetaImage, NumPy, RAW with a sidecar.
 #include <bit>
-#include <filesystem>
 
 #include "base/atomic_file.h"
+#include "base/output_target.h"
 #include "io/raw_description.h"
 #include "output/byte_writer.h"
 #include "output/json_stream.h"
@@ -122,12 +122,11 @@ void write_metaimage(const std::string& path, const VolumeInfo& info, const Samp
 void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) { write_file(path, npy_header(info), samples); }
 
 void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
-    const bool alone = name_is_enough(path, info);
-    write_file(path, "", samples);
     const std::string sidecar = path + ".json";
-    if (!alone) return write_sidecar(sidecar, info);
-    std::error_code ignored;
-    std::filesystem::remove(sidecar, ignored);  // an older one would speak of another volume
+    const bool is_replaced = require_target(sidecar).status.kind == FileStatus::Kind::regular;  // one that speaks of another volume
+    const bool is_needed = !name_is_enough(path, info);
+    write_file(path, "", samples);
+    if (is_needed || is_replaced) write_sidecar(sidecar, info);
 }
 
 }  // namespace isoatlas::output

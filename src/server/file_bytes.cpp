@@ -39,6 +39,7 @@ public:
         return 0;
     }
     int sync() override { return 0; }
+    int set_mode(unsigned) override { return 0; }
 
 private:
     std::string& bytes_;
@@ -54,6 +55,7 @@ public:
     std::string& content(const std::string& path) { return files_[path]; }
 
     FileStatus status(const std::string& path) override {
+        if (path == ".") return {.kind = FileStatus::Kind::folder, .mode = 0700};
         if (!files_.contains(path)) return {.error = -ENOENT};
         return {.kind = FileStatus::Kind::regular, .mode = 0600};
     }
@@ -61,11 +63,10 @@ public:
         if (!files_.contains(path)) return {nullptr, -ENOENT};
         return {std::make_unique<MemoryFile>(files_[path], context_), 0};
     }
-    OpenedFile create(const std::string& path) override {
-        files_[path].clear();
+    OpenedFile create(const std::string& path, unsigned) override {
+        if (!files_.try_emplace(path).second) return {nullptr, -EEXIST};
         return open(path);
     }
-    int set_mode(const std::string&, unsigned) override { return 0; }
     int rename(const std::string& from, const std::string& to) override {
         if (!files_.contains(from)) return -ENOENT;
         files_[to] = std::move(files_[from]);

@@ -1,0 +1,102 @@
+#include "base/output_target.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "base/temporary_name.h"
+#include "isoatlas/error.h"
+#include "isoatlas/output_file.h"
+
+namespace isoatlas {
+namespace {
+
+using Kind = FileStatus::Kind;
+constexpr int kMostLinks = 40;  // as many as the system follows
+constexpr const char* kOtherName = "choose another name with -o";
+
+bool is_own_descriptor(const std::string& path) { return path == "/dev/stdout" || path.starts_with("/dev/fd/"); }
+
+Obstacle refused_by_system(int error) {
+    return {"cannot be written: " + std::system_category().message(-error), next_step_after(error)};
+}
+
+std::string octal(unsigned mode) {
+    std::string digits;
+    for (int shift = 9; shift >= 0; shift -= 3) digits += static_cast<char>('0' + (mode >> static_cast<unsigned>(shift) & 7U));
+    return digits;
+}
+
+/// Of what lies where the links end.
+Obstacle obstacle_at(const OutputTarget& target, bool behind_link) {
+    const FileStatus& status = target.status;
+    const std::string place = behind_link ? "is a link to " + target.path + ", which " : "";
+    if (status.kind == Kind::missing && status.error != -ENOENT) return refused_by_system(status.error);
+    if (status.kind == Kind::missing && behind_link) return {place + "is not there", "remove the link, or name the file itself"};
+    if (status.kind == Kind::folder) return {place + "cannot be written: is a directory", next_step_after(-EISDIR)};
+    if (status.kind == Kind::other) return {place + "is no regular file, but a device, a pipe or a socket", kOtherName};
+    if (status.kind == Kind::regular && behind_link && !status.own) return {place + "belongs to another user", kOtherName};
+    if (status.kind == Kind::regular && !status.writable)
+        return {place + "is there and may not be written to (permissions " + octal(status.mode) + ")",
+                "choose another name with -o, or allow it with chmod u+w"};
+    return {};
+}
+
+Obstacle obstacle_of_folder(const std::string& path) {
+    const FileStatus folder = file_system().status(folder_of(path));
+    if (folder.kind == Kind::missing) return refused_by_system(folder.error);
+    if (folder.kind != Kind::folder) return refused_by_system(-ENOTDIR);
+    if (!folder.writable) return {"lies in a folder that may not be written to", next_step_after(-EACCES)};
+    return {};
+}
+
+}  // namespace
+
+std::string next_step_after(int error) {
+    switch (-error) {
+        case ENOSPC:
+        case EDQUOT: return "free some space or write to another disk";
+        case EFBIG: return "write to a file system (or under a limit) that takes files of this size";
+        case ENOENT: return "create the folder first, or check its name";
+        case EACCES:
+        case EPERM: return "choose a folder you may write to, or change its permissions";
+        case EROFS: return "choose a folder on a disk that is not read-only";
+        case EISDIR: return "give the name of a file, not of a folder";
+        case EWOULDBLOCK: return "wait until the other program has finished, or choose another name";
+        case ENAMETOOLONG: return "choose a shorter name";
+        case ELOOP: return "remove the links, which go in circles, or choose another name";
+        default: return "check the disk and the folder, then run the command again";
+    }
+}
+
+OutputTarget find_target(const std::string& path, Obstacle& obstacle) {
+    OutputTarget target{path, {}, is_own_descriptor(path)};
+    if (target.is_stream) return target;
+    for (int links = 0;; ++links) {
+        target.status = file_system().status_of_name(target.path);
+        if (target.status.kind != Kind::link) {
+            obstacle = obstacle_at(target, links > 0);
+            break;
+        }
+        if (!target.status.trusted) obstacle = {"is a link that another user made", kOtherName};
+        if (links == kMostLinks) obstacle = refused_by_system(-ELOOP);
+        if (!obstacle.what.empty()) return target;
+        const std::filesystem::path link = file_system().link(target.path);
+        target.path = link.is_absolute() ? link.string() : (std::filesystem::path(target.path).parent_path() / link).string();
+    }
+    if (obstacle.what.empty()) obstacle = obstacle_of_folder(target.path);
+    return target;
+}
+
+OutputTarget require_target(const std::string& path) {
+    Obstacle obstacle;
+    OutputTarget target = find_target(path, obstacle);
+    if (!obstacle.what.empty()) throw Error(ErrorKind::resource, {.file = path, .what = obstacle.what, .next = obstacle.next});
+    return target;
+}
+
+std::string output_target(const std::string& path) { return require_target(path).path; }
+
+void check_output_file(const std::string& path) { (void)require_target(path); }
+
+}  // namespace isoatlas

@@ -1,0 +1,29 @@
+// Where an output goes, and whether it may (isoatlas/output_file.h).
+#pragma once
+
+#include <string>
+
+#include "base/file_system.h"
+
+namespace isoatlas {
+
+struct OutputTarget {
+    std::string path;          ///< links followed
+    FileStatus status{};       ///< of that file: regular or missing
+    bool is_stream = false;    ///< what the process has open already
+};
+
+/// What is wrong with an output, and what a user can do. Nothing is wrong: `what` is empty.
+struct Obstacle {
+    std::string what, next;
+};
+
+/// Looks where `path` leads; `obstacle` tells why nothing may be written there.
+[[nodiscard]] OutputTarget find_target(const std::string& path, Obstacle& obstacle);
+/// The same; throws Error{resource} when there is an obstacle.
+[[nodiscard]] OutputTarget require_target(const std::string& path);
+
+/// What a user can do when writing fails with -errno.
+[[nodiscard]] std::string next_step_after(int error);
+
+}  // namespace isoatlas
