@@ -1,6 +1,7 @@
 // isoatlas build: a volume, its trees and its bricks in one file that serves any surface without reading the rest.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -90,6 +91,18 @@ int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader
     return 0;
 }
 
+/// What a folder holds that no build makes, as the end of a sentence.
+std::string others_in(const std::string& folder) {
+    std::string names;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+        const std::string name = at->path().filename().string();
+        if (name != "lock") names += (names.empty() ? "" : ", ") + name;
+        if (names.size() > 200) break;
+    }
+    return names.empty() ? ": remove it" : ": it holds " + names + ", which no build has made";
+}
+
 void print_report(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const BuildReport& report) {
     const Atlas atlas(arguments.output);
     const auto voxels = static_cast<double>(info.extent.voxels()), bytes = static_cast<double>(report.bytes);
@@ -129,7 +142,7 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
     if (!report.left_behind.empty())
-        terminal.say("note: the store is complete; " + report.left_behind + " stays, as not all in it was made by the build: remove it");
+        terminal.say("note: the store is complete; " + report.left_behind + " stays" + others_in(report.left_behind));
     return report;
 }
 

@@ -105,5 +105,16 @@ class CliTest(unittest.TestCase):
         self.assertEqual([str(path) for path in self.folder.rglob("*.partial")], [])
 
 
+def writes_in(process, folder):
+    """Is a process writing a file in a folder: one without a name, or with a temporary one?"""
+    descriptors = pathlib.Path(f"/proc/{process.pid}/fd")
+    try:
+        opened = [os.readlink(descriptor) for descriptor in descriptors.iterdir()]
+    except OSError:   # it has ended, or one has been closed meanwhile
+        return False
+    unnamed = str(folder.resolve()) + "/#"
+    return any(path.startswith(unnamed) or pathlib.Path(path).name.startswith(".isoatlas-") for path in opened)
+
+
 def main():
     unittest.main(verbosity=2)

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from harness import CLI, CliTest, main
+from harness import CLI, CliTest, main, writes_in
 
 
 class Talk(CliTest):
@@ -63,9 +63,8 @@ class Talk(CliTest):
             self.assert_no_partial()
 
     def test_an_interrupt_while_writing_removes_the_unfinished_file(self):
-        partial = self.folder / "slow.json.partial"
         process = subprocess.Popen([CLI, "tree", "big.nrrd", "-o", "slow.json"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while not partial.exists():
+        while not writes_in(process, self.folder):
             self.assertIsNone(process.poll(), "the file was never seen half-written")
             time.sleep(0.005)
         process.send_signal(signal.SIGINT)

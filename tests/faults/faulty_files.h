@@ -23,7 +23,8 @@ struct Fault {
     std::int64_t full_at = std::numeric_limits<std::int64_t>::max();  ///< nothing can be written at this byte of a file and beyond
 };
 
-/// Counts the operations, over all files; status() and closing count, size(), link() and entries(), which cannot fail, do not.
+/// Counts the operations, over all files; status() and closing count, size(), link(), entries() and remove_abandoned(), which cannot fail,
+/// do not.
 class FaultyFiles final : public FileSystem {
 public:
     explicit FaultyFiles(Fault fault, FileSystem& below = system_files()) : fault_(fault), below_(below) {}
@@ -38,6 +39,10 @@ public:
         const int error = count("status");
         return error < 0 ? FileStatus{.error = error} : below_.status(path);
     }
+    FileStatus status_of_name(const std::string& path) override {
+        const int error = count("status");
+        return error < 0 ? FileStatus{.error = error} : below_.status_of_name(path);
+    }
     OpenedFile open(const std::string& path) override {
         return opened("open", [&] { return below_.open(path); });
     }
@@ -45,12 +50,17 @@ public:
     OpenedFile open_stream(const std::string& path) override {
         return opened("open", [&] { return below_.open_stream(path); });
     }
-    OpenedFile create(const std::string& path) override {
-        return opened("create", [&] { return below_.create(path); });
+    OpenedFile create(const std::string& path, unsigned mode) override {
+        return opened("create", [&] { return below_.create(path, mode); });
     }
-    int set_mode(const std::string& path, unsigned mode) override {
-        return done("set_mode", [&] { return below_.set_mode(path, mode); });
+    OpenedFile create_unnamed(const std::string& folder, unsigned mode) override {
+        return opened("create_unnamed", [&] { return below_.create_unnamed(folder, mode); });
     }
+    OpenedFile lock(const std::string& path) override {
+        return opened("lock", [&] { return below_.lock(path); });
+    }
+    bool is_held(const std::string& path) override { return below_.is_held(path); }
+    void remove_abandoned(const std::string& path) override { below_.remove_abandoned(path); }
     int rename(const std::string& from, const std::string& to) override {
         return done("rename", [&] { return below_.rename(from, to); });
     }
@@ -92,6 +102,12 @@ private:
         }
         int sync() override {
             return files_.done("sync", [&] { return file_->sync(); });
+        }
+        int set_mode(unsigned mode) override {
+            return files_.done("set_mode", [&] { return file_->set_mode(mode); });
+        }
+        int take_name(const std::string& path) override {
+            return files_.done("take_name", [&] { return file_->take_name(path); });
         }
         int close() override {
             return files_.done("close", [&] { return file_->close(); });

@@ -20,6 +20,9 @@ public:
     /// What a power failure takes. Names: renames and removals; they may reach the disk before or after the content of the files.
     enum class Loss { contents_and_names, contents, names, every_second_write };
 
+    /// Are there files without names?
+    explicit MemoryFiles(bool has_unnamed = true) : has_unnamed_(has_unnamed) {}
+
     /// A file that is safely on the disk.
     void put(const std::string& path, std::string content) {
         names_[path] = kept_names_[path] = std::make_shared<Node>(Node{content, std::move(content), {}, 0644, false});
@@ -49,26 +52,31 @@ public:
     }
 
     FileStatus status(const std::string& path) override {
-        if (folders_.contains(path)) return {.kind = FileStatus::Kind::folder, .mode = 0755};
+        if (path == "." || path.ends_with("/..") || folders_.contains(path)) return {.kind = FileStatus::Kind::folder, .mode = 0755};
         if (!has(path)) return {.error = -ENOENT};
-        return {.kind = FileStatus::Kind::regular, .mode = names_.at(path)->mode};
+        const unsigned mode = names_.at(path)->mode;
+        return {.kind = FileStatus::Kind::regular, .mode = mode, .writable = (mode & 0200U) != 0};
     }
     OpenedFile open(const std::string& path) override {
         if (!has(path)) return {nullptr, -ENOENT};
-        return {std::make_unique<Opened>(names_.at(path), false), 0};
+        return {std::make_unique<Opened>(*this, names_.at(path), false), 0};
     }
-    OpenedFile create(const std::string& path) override {
+    OpenedFile create(const std::string& path, unsigned) override {
+        if (has(path)) return {nullptr, -EEXIST};
+        return {std::make_unique<Opened>(*this, names_[path] = std::make_shared<Node>(), true), 0};
+    }
+    OpenedFile create_unnamed(const std::string&, unsigned) override {
+        if (!has_unnamed_) return {nullptr, -EOPNOTSUPP};
+        return {std::make_unique<Opened>(*this, std::make_shared<Node>(), true), 0};
+    }
+    OpenedFile lock(const std::string& path) override {
         std::shared_ptr<Node>& node = names_[path];
         if (!node) node = std::make_shared<Node>();
         if (node->locked) return {nullptr, -EWOULDBLOCK};
-        OpenedFile file{std::make_unique<Opened>(node, true), 0};
-        (void)file.file->resize(0);
-        return file;
+        return {std::make_unique<Opened>(*this, node, true), 0};
     }
-    int set_mode(const std::string& path, unsigned mode) override {
-        if (!has(path)) return -ENOENT;
-        names_[path]->mode = mode;
-        return 0;
+    void remove_abandoned(const std::string& path) override {
+        if (has(path) && !names_.at(path)->locked) names_.erase(path);
     }
     int rename(const std::string& from, const std::string& to) override {
         if (!has(from)) return -ENOENT;
@@ -85,7 +93,7 @@ public:
     std::vector<std::string> entries(const std::string& path, std::size_t most) override {
         std::vector<std::string> found;
         for (const auto& [name, node] : names_) {
-            if (folder_of(name) == path && found.size() < most) found.push_back(name.substr(path.size() + 1));
+            if (folder_of(name) == path && found.size() < most) found.push_back(name.substr(name.rfind('/') + 1));
         }
         return found;
     }
@@ -124,7 +132,7 @@ private:
 
     class Opened final : public File {
     public:
-        Opened(std::shared_ptr<Node> node, bool owns) : node_(std::move(node)), owns_(owns) {
+        Opened(MemoryFiles& disk, std::shared_ptr<Node> node, bool owns) : disk_(disk), node_(std::move(node)), owns_(owns) {
             if (owns_) node_->locked = true;
         }
         Opened(const Opened&) = delete;
@@ -148,6 +156,15 @@ private:
             return 0;
         }
         int reserve(std::int64_t) override { return 0; }
+        int set_mode(unsigned mode) override {
+            node_->mode = mode;
+            return 0;
+        }
+        int take_name(const std::string& path) override {
+            if (disk_.has(path)) return -EEXIST;
+            disk_.names_[path] = node_;
+            return 0;
+        }
         int sync() override {
             node_->kept = node_->now;
             node_->lost.clear();
@@ -155,10 +172,12 @@ private:
         }
 
     private:
+        MemoryFiles& disk_;
         std::shared_ptr<Node> node_;
         bool owns_;
     };
 
+    bool has_unnamed_;
     std::map<std::string, std::shared_ptr<Node>> names_, kept_names_;
     std::set<std::string> folders_;  ///< they survive
 };

@@ -34,8 +34,11 @@ TEST(LockText, AnythingElseIsABuildThatHasBegun) {
     for (std::size_t size = 0; size < good.size(); ++size) EXPECT_EQ(state_in(good.substr(0, size)), BuildState{}) << size;
     for (const char* line :
          {"", "x", "1 8 0 0.5 1 1", "-1 8 0 0.5 1 1 p", "8 8 0 0.5 1 1 p", "1 8 0 1.5 1 1 p", "1 8 0 nan 1 1 p", "1 1000 0 0.5 1 1 p"})
-        EXPECT_EQ(state_in("1\n" + std::string(line) + "\n"), BuildState{}) << line;
-    EXPECT_EQ(state_in("1\n1 8 0 0.5 inf nan p\n").seconds_left, std::nullopt);
+        EXPECT_EQ(state_in(std::string(kBuildMark) + "1\n" + line + "\n"), BuildState{}) << line;
+    EXPECT_EQ(state_in(std::string(kBuildMark) + "1\n1 8 0 0.5 inf nan p\n").phase, "p");
+    EXPECT_EQ(state_in(std::string(kBuildMark) + "1\n1 8 0 0.5 inf nan p\n").seconds_left, std::nullopt);
+    EXPECT_EQ(state_in("1\n1 8 0 0.5 1 1 p\n"), BuildState{}) << "without the mark";
+    EXPECT_EQ(holder_in("1\n"), "");
 }
 
 TEST(BuildClock, GoesForwardsOnly) {
