@@ -12,8 +12,8 @@ namespace isoatlas::cli {
 namespace {
 
 Error bug(const std::string& what) {
-    return {ErrorKind::internal, {.what = "a bug of isoatlas: " + what,
-                                  .next = "please report it with the command line and, if you may share it, the file"}};
+    return {ErrorKind::internal,
+            {.what = "a bug of isoatlas: " + what, .next = "please report it with the command line and, if you may share it, the file"}};
 }
 
 /// Does the system lack what it was asked for?
@@ -24,9 +24,7 @@ bool is_refusal(const std::error_code& code) {
     return false;
 }
 
-void say(const char* text) {
-    [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, text, std::strlen(text));
-}
+void say(const char* text) { [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 [[noreturn]] void end() noexcept {
     if (std::current_exception() == nullptr) {
@@ -55,12 +53,13 @@ Error failure() noexcept {
     } catch (const Error& error) {
         return error;
     } catch (const std::bad_alloc&) {
-        return {ErrorKind::resource, {.what = "not enough memory",
-                                      .next = "isoatlas info FILE tells what an analysis needs; use a machine with more memory"}};
+        return {ErrorKind::resource,
+                {.what = "not enough memory", .next = "isoatlas info FILE tells what an analysis needs; use a machine with more memory"}};
     } catch (const std::system_error& error) {
         if (!is_refusal(error.code())) return bug(error.what());
-        return {ErrorKind::resource, {.what = std::string("the system refuses: ") + error.what(),
-                                      .next = "allow this process more memory, threads and open files (ulimit -v, -u, -n)"}};
+        return {ErrorKind::resource,
+                {.what = std::string("the system refuses: ") + error.what(),
+                 .next = "allow this process more memory, threads and open files (ulimit -v, -u, -n)"}};
     } catch (const std::exception& error) {
         return bug(error.what());
     } catch (...) {

@@ -65,8 +65,8 @@ SampleBox parse_box(const std::string& option, const std::string& word) {
     bool is_right = axes.size() == 2 || axes.size() == 3;
     for (std::size_t axis = 0; is_right && axis < axes.size(); ++axis) {
         const std::vector<std::string> ends = split(axes[axis], ":");
-        is_right = ends.size() == 2 && read_number(ends[0], box.begin[axis]) && read_number(ends[1], box.end[axis]) && box.begin[axis] >= 0 &&
-                   box.begin[axis] < box.end[axis];
+        is_right = ends.size() == 2 && read_number(ends[0], box.begin[axis]) && read_number(ends[1], box.end[axis]) &&
+                   box.begin[axis] >= 0 && box.begin[axis] < box.end[axis];
     }
     if (!is_right) bad_word(option, word, "FIRST:END for every axis, like 0:20,30:50,10:30");
     return box;

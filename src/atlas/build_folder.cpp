@@ -61,9 +61,7 @@ std::string text_of(File& lock, const std::string& path) {
 }
 
 /// What is in the lock of somebody else; "" when that cannot be read.
-std::string text_of(const std::string& lock) try {
-    return text_of(*io::open_file(lock), lock);
-} catch (const Error&) {
+std::string text_of(const std::string& lock) try { return text_of(*io::open_file(lock), lock); } catch (const Error&) {
     return "";
 }
 
@@ -150,7 +148,7 @@ bool BuildFolder::remove() {
     remove_contents(path_);
     bool gone = false;
     if (file_system().entries(path_, 2).size() == 1) {  // else the mark stays, too: the folder is still ours
-        (void)file_system().remove(file(kLock));  // while it is held: whoever waits for it makes a new one
+        (void)file_system().remove(file(kLock));        // while it is held: whoever waits for it makes a new one
         gone = file_system().remove_folder(path_) == 0;
     }
     lock_.reset();

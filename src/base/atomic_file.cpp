@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-constexpr int kMostNames = 100;                    // that are tried: 64 random bits are hardly ever taken
-constexpr std::size_t kMostEntries = 100'000;      // of a folder that is tidied up
+constexpr int kMostNames = 100;                // that are tried: 64 random bits are hardly ever taken
+constexpr std::size_t kMostEntries = 100'000;  // of a folder that is tidied up
 constexpr const char* kNeedsFile = "cannot be written: this format needs a file, not a device or a pipe";
 
 /// Removes what a crash has left in a folder: only our names, and only files of this user that nobody writes.

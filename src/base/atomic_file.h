@@ -53,9 +53,9 @@ private:
     void put(std::int64_t offset, std::span<const std::byte> bytes);
     void discard() noexcept;
 
-    std::string path_;       ///< as the caller gave it, for messages
-    std::string target_;     ///< where it goes: path_ with links followed
-    std::string partial_;    ///< its name until then; empty: none
+    std::string path_;        ///< as the caller gave it, for messages
+    std::string target_;      ///< where it goes: path_ with links followed
+    std::string partial_;     ///< its name until then; empty: none
     bool is_stream_ = false;  ///< written directly
     std::unique_ptr<File> file_;
     std::int64_t size_ = 0;

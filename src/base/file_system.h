@@ -82,8 +82,8 @@ public:
     [[nodiscard]] virtual OpenedFile create(const std::string& path, unsigned mode);
     /// The same in a folder without a name, so that it is gone with its process: -EOPNOTSUPP where the disk has no such files.
     [[nodiscard]] virtual OpenedFile create_unnamed(const std::string& folder, unsigned mode);
-    /// Opens a file, or makes an empty one, and holds it until it is closed; content stays. -EWOULDBLOCK: somebody else holds it; -EPERM: it
-    /// is no regular file of this user with one name.
+    /// Opens a file, or makes an empty one, and holds it until it is closed; content stays. -EWOULDBLOCK: somebody else holds it; -EPERM:
+    /// it is no regular file of this user with one name.
     [[nodiscard]] virtual OpenedFile lock(const std::string& path);
     /// Does somebody hold a file that lock() gave him? Asking takes nothing.
     [[nodiscard]] virtual bool is_held(const std::string& path);

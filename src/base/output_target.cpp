@@ -17,9 +17,7 @@ constexpr const char* kOtherName = "choose another name with -o";
 
 bool is_own_descriptor(const std::string& path) { return path == "/dev/stdout" || path.starts_with("/dev/fd/"); }
 
-Obstacle refused_by_system(int error) {
-    return {"cannot be written: " + std::system_category().message(-error), next_step_after(error)};
-}
+Obstacle refused_by_system(int error) { return {"cannot be written: " + std::system_category().message(-error), next_step_after(error)}; }
 
 std::string octal(unsigned mode) {
     std::string digits;

@@ -8,9 +8,9 @@
 namespace isoatlas {
 
 struct OutputTarget {
-    std::string path;          ///< links followed
-    FileStatus status{};       ///< of that file: regular or missing
-    bool is_stream = false;    ///< what the process has open already
+    std::string path;        ///< links followed
+    FileStatus status{};     ///< of that file: regular or missing
+    bool is_stream = false;  ///< what the process has open already
 };
 
 /// What is wrong with an output, and what a user can do. Nothing is wrong: `what` is empty.

@@ -54,9 +54,7 @@ void for_each_block(int threads, std::int64_t blocks, const std::function<void(s
         for (std::int64_t block = 0; block < blocks; ++block) work(block);
         return;
     }
-    execute(thread_count(threads), [&] {
-        tbb::parallel_for(std::int64_t{0}, blocks, std::int64_t{1}, work, tbb::simple_partitioner());
-    });
+    execute(thread_count(threads), [&] { tbb::parallel_for(std::int64_t{0}, blocks, std::int64_t{1}, work, tbb::simple_partitioner()); });
 }
 
 void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second) {

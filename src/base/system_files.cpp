@@ -126,10 +126,7 @@ FileStatus status_from(const struct stat& status, const std::string& path) {
     using Kind = FileStatus::Kind;
     const mode_t type = status.st_mode & S_IFMT;
     FileStatus found;
-    found.kind = type == S_IFREG   ? Kind::regular
-                 : type == S_IFDIR ? Kind::folder
-                 : type == S_IFLNK ? Kind::link
-                                   : Kind::other;
+    found.kind = type == S_IFREG ? Kind::regular : type == S_IFDIR ? Kind::folder : type == S_IFLNK ? Kind::link : Kind::other;
     found.mode = status.st_mode & 07777U;
     found.own = status.st_uid == ::geteuid();
     found.trusted = found.own || status.st_uid == 0;

@@ -160,6 +160,13 @@ hid_t create(Memory& memory) {
     return H5Fcreate("store", H5F_ACC_TRUNC, creation, access);
 }
 
+/// HDF5 does not always look whether it was given memory: what it takes for an empty file must be there. Throws std::bad_alloc.
+void require_room() {
+    constexpr std::size_t kTaken = std::size_t{4} << 20;
+    std::byte* volatile room = new std::byte[kTaken];  // volatile: else the compiler leaves out both lines
+    delete[] room;
+}
+
 /// HDF5 knows one thread only.
 std::mutex& hdf5_mutex() {
     static std::mutex mutex;
@@ -200,6 +207,7 @@ struct Hdf5Layout::Data {
 Hdf5Layout::Hdf5Layout(std::string path) : data_(std::make_unique<Data>()) {
     const std::lock_guard lock(hdf5_mutex());
     data_->path = std::move(path);
+    require_room();
     data_->file = create(data_->memory);
     if (data_->file < 0) data_->no_memory("a file");
 }

@@ -55,7 +55,8 @@ class Outputs(harness.CliTest):
         before = os.getcwd()
         os.chdir(path.parent)   # names of sockets are short
         try:
-            socket.socket(socket.AF_UNIX).bind(path.name)
+            with socket.socket(socket.AF_UNIX) as made:
+                made.bind(path.name)
         finally:
             os.chdir(before)
 

@@ -1,8 +1,16 @@
 // A fixed, quick set of the suite's properties: exits 0 when all hold, 1 with the first difference. run_mutants.py links it against
 // libraries with one deliberate bug each and demands that it fails.
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
+#include "base/atomic_file.h"
+#include "base/temporary_name.h"
+#include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
 #include "oracle/bodies.h"
@@ -85,9 +93,49 @@ void check_interior(const oracle::Grid& grid) {
     }
 }
 
+/// Files of the user that are in the way of outputs.
+void check_outputs() {
+    namespace fs = std::filesystem;
+    using isoatlas::AtomicFile;
+    const oracle::Grid none{};
+    std::string folder = (fs::temp_directory_path() / "isoatlas_probe_XXXXXX").string();
+    if (::mkdtemp(folder.data()) == nullptr) fail("no temporary folder", none);
+    const std::string path = folder + "/x", precious = folder + "/precious", left = folder + "/" + isoatlas::temporary_name();
+    const auto expect = [&](bool holds, const char* what) {
+        if (holds) return;
+        fs::remove_all(folder);
+        fail(what, none);
+    };
+    const auto is_refused = [&] {
+        try {
+            AtomicFile file(path);
+            return false;
+        } catch (const isoatlas::Error&) {
+            return true;
+        }
+    };
+    std::ofstream(precious) << "precious";
+    fs::create_symlink("nowhere", path);
+    expect(is_refused(), "a link to nowhere is written through");
+    expect(isoatlas::system_files().create(path, 0666).error == -EEXIST && !fs::exists(folder + "/nowhere"), "create() follows a link");
+    fs::remove(path);
+    fs::create_hard_link(precious, left);
+    {
+        AtomicFile file(path);
+        file.write("new");
+        expect(!fs::exists(path), "an unfinished file has its name");
+        file.commit();
+    }
+    expect(fs::file_size(path) == 3 && fs::exists(left), "a file with another name is tidied up");
+    fs::permissions(path, fs::perms::owner_read);
+    expect(is_refused(), "a read-only file is replaced");
+    fs::remove_all(folder);
+}
+
 }  // namespace
 
 int main() try {
+    check_outputs();
     std::mt19937 random(20240501);
     const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     for (int trial = 0; trial < 400; ++trial) {
