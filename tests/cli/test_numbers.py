@@ -76,7 +76,7 @@ class Numbers(harness.CliTest):
         self.run_error(6, "objects", "den.npy", "--tau", "0e-999", says="below every sample")
         self.run_ok("render", "den.npy", "--tau", "1e-322", "--size", "64x64", "--samples", "1", "-o", "den.png")
         self.run_ok("extract", "den.npy", "--tau", "1e-322", "-o", "den.ply")
-        self.assertIn("isovalue 1e-322", self.run_ok("verify", "den.ply").stdout)
+        self.assertIn("isovalue 1e-322", self.run_ok("verify", "den.ply").stderr)
 
     def test_numbers_are_the_nearest_that_there_are(self):
         word = "100.00000000000000710542735760100185871124267578126"   # just above half-way: twice rounded it would be 100
