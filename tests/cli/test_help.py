@@ -1,10 +1,13 @@
 """isoatlas, --help, help VERB, --version, did you mean, completion."""
+import os
+import pathlib
 import re
 import shlex
 import subprocess
 
 from harness import CLI, CliTest, main
 
+SOURCE = pathlib.Path(os.environ["ISOATLAS_SOURCE"])
 VERBS = ["atlas", "view", "ask", "info", "objects", "extract", "render", "animate", "tree", "label", "build", "convert", "handles", "spectrum", "table131", "dump", "phantom",
          "verify", "completion"]
 
@@ -38,6 +41,16 @@ class Help(CliTest):
             options, examples = self.run_ok("help", verb).stdout.split("Examples:")
             for option in re.findall(r"(?<!\S)--[a-z-]+", examples.split("Exit codes")[0]):
                 self.assertIn(option, options)
+
+    def test_messages_name_options_that_exist(self):
+        known = set(re.findall(r"--[a-z][a-z0-9-]*", "".join(self.run_ok("help", verb).stdout for verb in VERBS)))
+        named = 0
+        for path in [*(SOURCE / "src").rglob("*.cpp"), *(SOURCE / "apps").rglob("*.cpp")]:
+            for text in re.findall(r'"((?:[^"\\\n]|\\.)*)"', path.read_text()):
+                for option in re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", text):
+                    self.assertIn(option, known | {"--version"}, f"{path}: {text}")
+                    named += 1
+        self.assertGreater(named, 100)
 
     def test_phantom_examples_run(self):
         examples = self.run_ok("help", "phantom").stdout.split("Examples:")[1]

@@ -75,8 +75,9 @@ class Numbers(harness.CliTest):
         self.run_error(2, "objects", "den.npy", "--tau", "2e-324", says="2e-324")   # nearer to 0
         self.run_error(6, "objects", "den.npy", "--tau", "0e-999", says="below every sample")
         self.run_ok("render", "den.npy", "--tau", "1e-322", "--size", "64x64", "--samples", "1", "-o", "den.png")
-        self.run_ok("extract", "den.npy", "--tau", "1e-322", "-o", "den.ply")
-        self.assertIn("isovalue 1e-322", self.run_ok("verify", "den.ply").stderr)
+        self.assertEqual(self.run_json("extract", "den.npy", "--tau", "1e-322", "-o", "den.ply")["tau"], 1e-322)
+        self.assertIn(b"1e-322", (self.folder / "den.ply").read_bytes()[:2000])
+        self.run_ok("verify", "den.ply")
 
     def test_numbers_are_the_nearest_that_there_are(self):
         word = "100.00000000000000710542735760100185871124267578126"   # just above half-way: twice rounded it would be 100
