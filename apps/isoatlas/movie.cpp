@@ -68,7 +68,7 @@ std::string give_name(const std::string& film, const std::string& output) {
     const int file = ::open(film.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (file < 0) return std::strerror(errno);
     const bool is_written = ::fsync(file) == 0;
-    const std::string reason = std::strerror(errno);
+    std::string reason = std::strerror(errno);
     (void)::close(file);
     if (!is_written) return reason;
     return ::rename(film.c_str(), output.c_str()) == 0 ? "" : std::strerror(errno);
