@@ -22,7 +22,7 @@ demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
 demo|libembree-dev|ray tracing of pictures
 demo|libwebp-dev|WebP pictures
-demo|libcpp-httplib-dev|the server of the viewer
+demo|libboost-dev|the server of the viewer
 demo|libmeshoptimizer-dev|meshes in few bytes for the viewer
 demo|libzstd-dev|the same
 demo|nodejs|bundles the page

@@ -5,8 +5,23 @@
 #include "verbs.h"
 
 namespace isoatlas::cli {
+namespace {
+
+/// What opens the viewer does not belong here: every user of this machine sees the words of a command.
+void refuse_secrets(const std::string& address) {
+    const std::size_t path = address.find('/', address.find("//") == std::string::npos ? 0 : address.find("//") + 2);
+    if (path == std::string::npos || address.find('?', path) == std::string::npos) return;
+    const std::string server = address.substr(0, path);
+    throw Error(ErrorKind::usage, {.where = server,
+                                   .what = "what follows this address is a secret, and every user of this machine sees the words of a command",
+                                   .expected = "the address up to its port: the token is in a file that only you can read, or in ISOATLAS_TOKEN",
+                                   .next = "isoatlas ask " + server + " QUESTION"});
+}
+
+}  // namespace
 
 int run_ask(const Arguments& arguments, Terminal& terminal) {
+    refuse_secrets(arguments.file);
     const std::string question = arguments.part.empty() ? "/api/atlas" : arguments.part.front();
     if (arguments.output.empty()) {
         const ServerAnswer answer = ask_server(arguments.file, question);

@@ -4,7 +4,9 @@
 #include <thread>
 
 #include <malloc.h>
+#include <poll.h>
 #include <spawn.h>
+#include <unistd.h>
 
 #include "document.h"
 #include "interrupt.h"
@@ -25,16 +27,21 @@ void open_in_browser(const std::string& address) {
     (void)posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ);
 }
 
-void print_address(const Arguments& arguments, Terminal& terminal, const Server& server, const std::string& store) {
+/// Does somebody type who can be asked to press a key?
+bool has_keyboard() { return ::isatty(STDIN_FILENO) == 1 && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
+
+void print_address(const Arguments& arguments, Terminal& terminal, Server& server, const std::string& store) {
     if (arguments.json) {
         Json json = document("view");
         json["store"] = store;
-        json["address"] = server.address();
+        json["address"] = server.address_for_one_use();
+        json["server"] = server.address();
         json["port"] = server.port();
         print(terminal, json);
     } else {
-        terminal.out() << server.address() << '\n';
-        terminal.next("open it in a browser; Ctrl-C ends the viewer");
+        terminal.out() << server.address_for_one_use() << '\n';
+        const std::string another = has_keyboard() ? "Enter" : "isoatlas ask " + server.address() + " /api/address";
+        terminal.next("open it in a browser, where it opens once; " + another + " gives one for another browser; Ctrl-C ends the viewer");
     }
     terminal.out() << std::flush;
 }
@@ -71,8 +78,33 @@ void prepare(Server& server) {
     server.prepare(context);
 }
 
-void wait_for_the_end() {
-    while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+/// The token is set by who starts the viewer, or found by other commands of this user.
+ServerOptions server_options(const Arguments& arguments) {
+    const char* token = std::getenv("ISOATLAS_TOKEN");
+    return {.port = arguments.port, .token = token == nullptr ? "" : token, .memory = arguments.memory};
+}
+
+void keep_token(Server& server, Terminal& terminal) {
+    try {
+        server.keep_token();
+    } catch (const Error& error) {
+        terminal.say(std::string("note: `isoatlas ask` will not find this viewer by itself: ") + error.what());
+    }
+}
+
+/// A new address at each Enter.
+void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& server) {
+    constexpr int kLook = 100;  // milliseconds
+    while (!interrupted()) {
+        pollfd keyboard{.fd = has_keyboard() && !arguments.json ? STDIN_FILENO : -1, .events = POLLIN, .revents = 0};
+        if (::poll(&keyboard, 1, kLook) <= 0 || (keyboard.revents & POLLIN) == 0) continue;
+        char typed[256];
+        if (::read(STDIN_FILENO, typed, sizeof typed) > 0) {
+            terminal.out() << server.address_for_one_use() << '\n' << std::flush;
+        } else {
+            std::this_thread::sleep_for(std::chrono::milliseconds(kLook));  // the end of input: nothing will be typed
+        }
+    }
 }
 
 }  // namespace
@@ -86,11 +118,12 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
         atlas.emplace(store, options);
         check_is_volume(arguments, atlas->info());
     }
-    Server server({.port = arguments.port, .memory = arguments.memory}, context_of(arguments));
+    Server server(server_options(arguments), context_of(arguments));
+    keep_token(server, terminal);
     if (atlas) server.open(*atlas);
     const Answering answering(server);
     print_address(arguments, terminal, server, store);
-    if (!arguments.no_browser) open_in_browser(server.address());
+    if (!arguments.no_browser) open_in_browser(server.address_for_one_use());
     int code = 0;
     if (!atlas) {
         try {
@@ -106,7 +139,7 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
         }
     }
     if (atlas) prepare(server);
-    wait_for_the_end();
+    wait_for_the_end(arguments, terminal, server);
     return code;
 }
 

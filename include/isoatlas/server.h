@@ -13,22 +13,28 @@ namespace isoatlas {
 
 struct ServerOptions {
     int port = 0;             ///< 1 to 65535; 0: any that is free
-    std::string token{};      ///< what every question must carry; empty: 128 random bits
+    std::string token{};      ///< what the questions of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
     std::int64_t memory = 0;  ///< bytes for answers that are being made or sent at a time; 0: a quarter of what there is
 };
 
-/// Listens on 127.0.0.1 alone. Questions and answers: docs/server.md. Writes nothing to any disk.
+/// Listens on 127.0.0.1 alone. Questions and answers: docs/server.md. Writes nothing to any disk but what keep_token() does.
 class Server {
 public:
-    /// There is no store yet: see open(). Throws Error{resource} when the port is taken.
+    /// There is no store yet: see open(). Throws Error: resource (the port is taken), usage (no such token can be used).
     explicit Server(const ServerOptions& options = {}, const Context& context = {});
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
     ~Server();
 
     [[nodiscard]] int port() const;
-    /// The page with the token: http://127.0.0.1:PORT/?token=TOKEN
+    /// For programs, which carry the token beside it: http://127.0.0.1:PORT
     [[nodiscard]] std::string address() const;
+    [[nodiscard]] const std::string& token() const;
+    /// A new address that opens the page in one browser: good once, for ten minutes; 16 are good at a time, the oldest ends. From any thread.
+    [[nodiscard]] std::string address_for_one_use();
+    /// Keeps the token in a file of this user alone, where ask_server() finds it, as long as this lives: viewer-PORT in
+    /// $XDG_RUNTIME_DIR/isoatlas, else $XDG_CACHE_HOME/isoatlas or ~/.cache/isoatlas. Throws Error{resource}.
+    void keep_token();
     /// Answers until stop() is called.
     void run();
     /// From any thread; what is being answered is ended.

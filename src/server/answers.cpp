@@ -122,6 +122,10 @@ std::string transfer_json(std::span<const TransferBump> bumps, const Calibration
     });
 }
 
+std::string address_json(const std::string& address) {
+    return document("address", [&](JsonStream& json) { json.key("address").value(address); });
+}
+
 std::string error_json(const Error& error) {
     return document("error", [&](JsonStream& json) { put_error(json, error); });
 }

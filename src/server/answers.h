@@ -41,6 +41,7 @@ struct AtVoxel {
 [[nodiscard]] std::string at_json(const AtVoxel& at);
 /// calibration: of the values of the bumps, which are stored ones.
 [[nodiscard]] std::string transfer_json(std::span<const TransferBump> bumps, const Calibration& calibration);
+[[nodiscard]] std::string address_json(const std::string& address);
 [[nodiscard]] std::string error_json(const Error& error);
 /// On one line. pending: of the client that listens.
 [[nodiscard]] std::string events_json(const Opening::State& state, const std::vector<Lines::Pending>& pending);

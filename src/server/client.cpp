@@ -1,42 +1,119 @@
 #include "isoatlas/client.h"
 
-#include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/private_file.h"
 #include "isoatlas/error.h"
+#include "server/peer.h"
+#include "server/response_reader.h"
+#include "server/token_file.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr int kLongestAnswer = 3600;  ///< seconds: a large surface waits for its turn
+constexpr int kLongestAnswer = 3'600'000;  ///< milliseconds without a byte: a large surface waits for its turn
+constexpr std::size_t kPiece = 1 << 16;
 
 struct Place {
-    std::string host, token;
+    std::string token{};
     int port = 0;
 };
 
-/// http://127.0.0.1:PORT/?token=TOKEN, taken apart.
+/// http://127.0.0.1:PORT, with or without /?token=TOKEN, or PORT, taken apart.
 std::optional<Place> place_of(std::string_view address) {
-    constexpr std::string_view scheme = "http://", word = "/?token=";
-    const std::size_t colon = address.find(':', scheme.size()), words = address.find(word);
-    if (!address.starts_with(scheme) || colon >= words || words == std::string_view::npos) return std::nullopt;
-    Place place{std::string(address.substr(scheme.size(), colon - scheme.size())), std::string(address.substr(words + word.size()))};
-    const std::string_view port = address.substr(colon + 1, words - colon - 1);
+    constexpr std::string_view word = "/?token=";
+    for (const std::string_view start : {"http://127.0.0.1:", "http://localhost:"}) {
+        if (address.starts_with(start)) address.remove_prefix(start.size());
+    }
+    const std::string_view port = address.substr(0, address.find('/'));
+    address.remove_prefix(port.size());
+    Place place;
+    if (address.starts_with(word)) place.token = address.substr(word.size());
     const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), place.port);
     const bool good = error == std::errc() && end == port.data() + port.size() && place.port > 0 && place.port < 65536;
-    if (!good || (place.host != "127.0.0.1" && place.host != "localhost")) return std::nullopt;
+    if (!good || (place.token.empty() && !address.empty() && address != "/")) return std::nullopt;
     return place;
+}
+
+/// Printable, without a space: it can be part of a request.
+bool is_plain(std::string_view text) {
+    return std::ranges::all_of(text, [](char letter) { return letter > ' ' && letter < 127; });
+}
+
+std::string token_of(const Place& place) {
+    if (!place.token.empty()) return place.token;
+    if (const char* told = std::getenv("ISOATLAS_TOKEN"); told != nullptr && *told != '\0') return told;
+    std::string kept = private_text(server::token_file(place.port));
+    while (!kept.empty() && kept.back() == '\n') kept.pop_back();
+    if (!kept.empty()) return kept;
+    throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(place.port),
+                                   .what = "nobody answers that this user has started: its token is not known",
+                                   .next = "is `isoatlas view` still running? Start it again, and give its new address; the token of another "
+                                           "user's viewer can be set as ISOATLAS_TOKEN"});
+}
+
+[[noreturn]] void refuse_silence(int port, const std::string& why) {
+    throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(port),
+                                   .what = "nobody answers: " + why,
+                                   .next = "is `isoatlas view` still running? Start it again, and give its new address"});
+}
+
+/// Connected to a port of this machine.
+class Socket {
+public:
+    explicit Socket(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in there{};
+        there.sin_family = AF_INET;
+        there.sin_port = htons(static_cast<std::uint16_t>(port));
+        there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        if (socket_ >= 0 && ::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0) return;
+        const std::string why = std::strerror(errno);
+        if (socket_ >= 0) (void)::close(socket_);
+        refuse_silence(port, why);
+    }
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+    ~Socket() { (void)::close(socket_); }
+
+    [[nodiscard]] server::Peer peer() const { return server::Peer(socket_); }
+
+private:
+    int socket_;
+};
+
+void get(const Place& place, const std::string& question, server::ResponseReader& answer) {
+    const std::string token = token_of(place);
+    if (!is_plain(token)) throw Error(ErrorKind::usage, {.where = "the token", .what = "has a space or a letter that no token has"});
+    const Socket socket(place.port);
+    const std::string request = "GET " + question + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(place.port) +
+                                "\r\nAuthorization: Bearer " + token + "\r\nConnection: close\r\n\r\n";
+    const bool sent = socket.peer().send(request);
+    std::string bytes(kPiece, '\0');
+    while (!answer.is_whole()) {
+        const std::ptrdiff_t count = socket.peer().receive(bytes.data(), bytes.size(), sent ? kLongestAnswer : 0);
+        if (count <= 0) refuse_silence(place.port, "the answer ends before its end");
+        if (!answer.read(std::string_view(bytes).substr(0, static_cast<std::size_t>(count))))
+            refuse_silence(place.port, "what answers there is no viewer");
+    }
 }
 
 /// What the server said, as if it had happened here.
 [[noreturn]] void refuse(int status, const std::string& body) {
-    const nlohmann::json error = nlohmann::json::parse(body, nullptr, false).value("error", nlohmann::json::object());
+    const nlohmann::json told = nlohmann::json::parse(body, nullptr, false);
+    const nlohmann::json error = told.is_object() ? told.value("error", nlohmann::json::object()) : nlohmann::json::object();
     const int code = error.value("code", 0);
     if (code < 2 || code > 6) {
         throw Error(ErrorKind::input,
@@ -55,25 +132,19 @@ ServerAnswer ask_server(const std::string& address, const std::string& question)
     if (!place) {
         throw Error(ErrorKind::usage, {.where = address.substr(0, 100),
                                        .what = "is no address of a viewer",
-                                       .expected = "http://127.0.0.1:PORT/?token=TOKEN",
-                                       .next = "give the address that `isoatlas view` printed, in quotes"});
+                                       .expected = "http://127.0.0.1:PORT",
+                                       .next = "give the address that `isoatlas view` printed, up to its port"});
     }
-    if (!question.starts_with('/') || question.starts_with("/api/events")) {
+    if (!question.starts_with('/') || question.starts_with("/api/events") || !is_plain(question)) {
         throw Error(ErrorKind::usage, {.where = question.substr(0, 100),
                                        .what = "is no question with an answer that ends",
                                        .expected = "a path such as '/api/objects?tau=100'",
                                        .next = "docs/server.md lists the questions"});
     }
-    httplib::Client client(place->host, place->port);
-    client.set_read_timeout(kLongestAnswer);
-    const httplib::Result answer = client.Get(question, {{"Authorization", "Bearer " + place->token}, {"Accept-Encoding", "identity"}});
-    if (!answer) {
-        throw Error(ErrorKind::input, {.where = place->host + ":" + std::to_string(place->port),
-                                       .what = "nobody answers: " + httplib::to_string(answer.error()),
-                                       .next = "is `isoatlas view` still running? Start it again, and give its new address"});
-    }
-    if (answer->status != 200) refuse(answer->status, answer->body);
-    return {answer->get_header_value("Content-Type"), answer->body};
+    server::ResponseReader answer;
+    get(*place, question, answer);
+    if (answer.status() != 200) refuse(answer.status(), answer.body());
+    return {answer.type(), std::move(answer.body())};
 }
 
 std::size_t ask_server(const std::string& address, const std::string& question, const std::string& path) {

@@ -15,6 +15,7 @@
 #include "server/branches.h"
 #include "server/file_bytes.h"
 #include "server/sample_answers.h"
+#include "server/secret.h"
 #include "server/wire_mesh.h"
 
 namespace isoatlas::server {
@@ -30,14 +31,6 @@ constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre
 /// What every page shows first; null: nothing, or a dark object.
 const NamedEntry* first_of(const Known& known) {
     return known.entries.empty() || known.entries.front().dark ? nullptr : &known.entries.front();
-}
-
-/// The same for every pair of texts of one length: how long it takes says nothing about the token.
-bool is_token(const std::string& given, const std::string& token) {
-    if (given.size() != token.size()) return false;
-    unsigned different = 0;
-    for (std::size_t i = 0; i < token.size(); ++i) different |= static_cast<unsigned char>(given[i] ^ token[i]);
-    return different == 0;
 }
 
 int status_of(ErrorKind kind) {
@@ -99,12 +92,15 @@ Answer Service::answer_known(const Question& question) {
             throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "ask /api/atlas"});
         return {200, "text/html; charset=utf-8", std::string(page::viewer_template())};
     }
-    if (!is_token(question.token, token_)) {
+    if (!is_secret(question.token, token_)) {
         return refusal(
             403, Error(ErrorKind::usage, {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"}));
     }
     if (question.path == "/api/events") return events_answer(question);
-    if (question.path == "/api/atlas") return json_answer(known(question).atlas);
+    if (question.path == "/api/atlas") {
+        Words(question.words).refuse_others();
+        return json_answer(known(question).atlas);
+    }
     if (question.path == "/api/preview") return preview_answer(question);
     if (question.path == "/api/objects") return objects_answer(question);
     if (question.path == "/api/measures") return measures_answer(question);
@@ -124,7 +120,7 @@ Answer Service::answer_known(const Question& question) {
         {.where = question.path.substr(0, 100),
          .what = "there is nothing here",
          .expected =
-             "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label, slice, volume, at, transfer",
+             "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label, slice, volume, at, transfer, address",
          .next = "docs/server.md lists the questions"});
 }
 

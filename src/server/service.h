@@ -15,7 +15,8 @@
 //   /api/at?voxel=X,Y,Z[&object=ID@T,...][&contour=ID@T,...]   a sample, and what holds it
 //   /api/transfer                           which values the tree proposes to see as matter
 //
-// tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token.
+// tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; who gets as far: server/door.h, which
+// answers /open and /enter; server/http.cpp answers /api/address.
 #pragma once
 
 #include <atomic>

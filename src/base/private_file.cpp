@@ -1,0 +1,98 @@
+#include "base/private_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "isoatlas/error.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 077;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+    throw Error(ErrorKind::resource, {.where = path, .what = what, .next = "set XDG_RUNTIME_DIR to a folder of yours"});
+}
+
+/// Without a slash at its end; empty: not told, or no whole path.
+std::string folder_in(const char* variable) {
+    const char* folder = std::getenv(variable);
+    return folder != nullptr && *folder == '/' ? folder : std::string();
+}
+
+/// Where programs of this user meet; empty: nowhere.
+std::string user_folder() {
+    for (const char* variable : {"XDG_RUNTIME_DIR", "XDG_CACHE_HOME"}) {
+        if (const std::string folder = folder_in(variable); !folder.empty()) return folder;
+    }
+    const std::string home = folder_in("HOME");
+    return home.empty() ? home : home + "/.cache";
+}
+
+std::string path_of(const std::string& name) {
+    const std::string folder = user_folder();
+    return folder.empty() ? folder : folder + "/isoatlas/" + name;
+}
+
+/// It is a folder of this user, and nobody else may enter it.
+void make_own_folder(const std::string& path) {
+    struct stat status {};
+    if (::mkdir(path.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) refuse(path, "is no folder");
+    if (status.st_uid != ::geteuid()) refuse(path, "belongs to another user");
+    if ((status.st_mode & kOthers) != 0 && ::chmod(path.c_str(), kOwnFolder) != 0) refuse(path, "is open to other users");
+}
+
+bool write_all(int file, const std::string& text) {
+    return ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+}  // namespace
+
+PrivateFile::PrivateFile(const std::string& name, const std::string& text) : path_(path_of(name)) {
+    if (path_.empty()) refuse(name, "has no place: neither XDG_RUNTIME_DIR, XDG_CACHE_HOME nor HOME is set");
+    (void)::mkdir(user_folder().c_str(), kOwnFolder);  // ~/.cache of a new user
+    make_own_folder(path_.substr(0, path_.rfind('/')));
+    const std::string made = path_ + "." + std::to_string(::getpid());
+    (void)::unlink(made.c_str());
+    const int file = ::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile);
+    if (file < 0) refuse(made, std::string("cannot be made: ") + std::strerror(errno));
+    struct stat status {};
+    const bool good = write_all(file, text) && ::fstat(file, &status) == 0;
+    if (::close(file) != 0 || !good || ::rename(made.c_str(), path_.c_str()) != 0) {
+        const std::string reason = std::strerror(errno);
+        (void)::unlink(made.c_str());
+        refuse(path_, "cannot be written: " + reason);
+    }
+    device_ = status.st_dev;
+    inode_ = status.st_ino;
+}
+
+PrivateFile::~PrivateFile() {
+    struct stat status {};
+    const bool ours = ::lstat(path_.c_str(), &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
+    if (ours) (void)::unlink(path_.c_str());
+}
+
+std::string private_text(const std::string& name) {
+    const std::string path = path_of(name);
+    const int file = path.empty() ? -1 : ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return {};
+    std::string text;
+    struct stat status {};
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && (status.st_mode & kOthers) == 0) {
+        std::array<char, 4096> bytes;
+        const ssize_t count = ::read(file, bytes.data(), bytes.size());
+        if (count > 0) text.assign(bytes.data(), static_cast<std::size_t>(count));
+    }
+    (void)::close(file);
+    return text;
+}
+
+}  // namespace isoatlas

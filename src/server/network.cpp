@@ -1,0 +1,250 @@
+#include "server/network.h"
+
+#include <sched.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <atomic>
+#include <list>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "base/workers.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas::server {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kTick{200};  ///< how often deadlines are looked at
+constexpr std::size_t kMostDrained = 1 << 16;    ///< bytes of a request that nobody reads
+
+struct Connection;
+using Connected = std::list<std::shared_ptr<Connection>>;
+
+struct Connection {
+    explicit Connection(tcp::socket accepted) : socket(std::move(accepted)) {}
+
+    tcp::socket socket;
+    Connected* list = nullptr;  ///< it is in; none: it has ended
+    Connected::iterator place{};
+    Clock::time_point until{};
+    std::string bytes{};  ///< have come and are not yet understood, at most kLongestHead
+    std::optional<HeadReader> reader{};
+    bool leaves = false;      ///< what comes is thrown away
+    std::size_t drained = 0;  ///< so much
+};
+using ConnectionPointer = std::shared_ptr<Connection>;
+
+
+}  // namespace
+
+class Network::Connections {
+public:
+    Connections(int port, Answers answers) : answers_(std::move(answers)) {
+        try {
+            const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
+            acceptor_.open(here.protocol());
+            acceptor_.set_option(asio::socket_base::reuse_address(true));  // Linux: two never listen at once
+            acceptor_.bind(here);
+            acceptor_.listen();
+            acceptor_.non_blocking(true);
+        } catch (const boost::system::system_error&) {
+            throw Error(ErrorKind::resource, {.where = "port " + std::to_string(port),
+                                              .what = "it cannot be listened on",
+                                              .next = "choose another one with --port, or leave it away"});
+        }
+    }
+
+    [[nodiscard]] int port() const { return acceptor_.local_endpoint().port(); }
+
+    void run() {
+        while (!ended_) {
+            try {
+                if (!accepting_) accept();
+                if (!ticking_) tick();
+                io_.run();
+            } catch (const std::exception&) {  // std::bad_alloc: one connection less; its deadline ends it
+                (void)::sched_yield();
+            }
+        }
+        // What is being answered: nothing more is sent, and it ends.
+        for (const ConnectionPointer& connection : busy_) (void)::shutdown(connection->socket.native_handle(), SHUT_RDWR);
+        workers_.wait();
+    }
+
+    void stop() {
+        ended_ = true;
+        io_.stop();
+    }
+
+private:
+    void tick() {
+        timer_.expires_after(kTick);
+        timer_.async_wait([this](error_code) {
+            ticking_ = false;
+            tick();
+            if (!accepting_) accept();
+            const Clock::time_point now = Clock::now();
+            for (Connected* list : {&strangers_, &idle_}) {
+                for (auto each = list->begin(); each != list->end();) {
+                    const ConnectionPointer connection = *each++;
+                    if (connection->until <= now) drop(*connection);
+                }
+            }
+        });
+        ticking_ = true;
+    }
+
+    void accept() {
+        acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+            accepting_ = false;
+            if (error) {  // no file is left for it, or it has gone again: the next tick tries again
+                drop_oldest(strangers_.empty() ? idle_ : strangers_);
+                return;
+            }
+            const ConnectionPointer connection = std::make_shared<Connection>(std::move(socket));
+            if (std::ssize(strangers_) >= kMostStrangers) drop_oldest(strangers_);
+            connection->place = strangers_.insert(strangers_.end(), connection);
+            connection->list = &strangers_;
+            connection->until = Clock::now() + kHeadTime;
+            connection->socket.non_blocking(true);
+            connection->socket.set_option(tcp::no_delay(true));
+            accept();
+            read(connection);
+        });
+        accepting_ = true;
+    }
+
+    /// A stranger who was told nothing leaves no trace in the system; others may still take what was sent.
+    void drop(Connection& connection) {
+        error_code ignored;
+        if (connection.list == &strangers_ && !connection.leaves)
+            connection.socket.set_option(asio::socket_base::linger(true, 0), ignored);
+        connection.socket.close(ignored);
+        if (connection.list != nullptr) connection.list->erase(connection.place);  // the caller still holds it
+        connection.list = nullptr;
+    }
+    void drop_oldest(Connected& list) {
+        if (list.empty()) return;
+        const ConnectionPointer oldest = list.front();
+        drop(*oldest);
+    }
+    /// It stands last there.
+    static void move(Connection& connection, Connected& list) {
+        list.splice(list.end(), *connection.list, connection.place);
+        connection.list = &list;
+    }
+
+    void wait(const ConnectionPointer& connection) {
+        connection->socket.async_wait(tcp::socket::wait_read, [this, connection](error_code error) {
+            if (connection->list == nullptr) return;
+            if (error) return drop(*connection);
+            read(connection);
+        });
+    }
+
+    /// What there is, without waiting.
+    void read(const ConnectionPointer& connection) {
+        error_code error;
+        const std::size_t room = connection->leaves ? scratch_.size() : kLongestHead - connection->bytes.size();
+        const std::size_t count = connection->socket.read_some(asio::buffer(scratch_.data(), room), error);
+        if (error == asio::error::would_block || error == asio::error::interrupted) return wait(connection);
+        if (error) return drop(*connection);
+        if (!connection->leaves) {
+            if (connection->bytes.empty()) connection->until = std::min(connection->until, Clock::now() + kHeadTime);
+            connection->bytes.append(scratch_.data(), count);
+            return understand(connection);
+        }
+        connection->drained += count;
+        if (connection->drained > kMostDrained) return drop(*connection);
+        wait(connection);
+    }
+
+    void understand(const ConnectionPointer& connection) {
+        if (!connection->reader) connection->reader.emplace();
+        const HeadReader::State state = connection->reader->read(connection->bytes);
+        if (state == HeadReader::State::more) return wait(connection);
+        if (state == HeadReader::State::refused) return refuse(connection, answers_.refusal(connection->reader->status()));
+        const RequestHead head = connection->reader->head();
+        connection->reader.reset();
+        if (const std::optional<std::string> answer = answers_.at_the_door(head)) return refuse(connection, *answer);
+        if (std::ssize(busy_) >= kMostAtOnce) return refuse(connection, answers_.refusal(503));
+        move(*connection, busy_);
+        if (!workers_.post([this, connection, head] { answer(connection, head); })) {
+            move(*connection, strangers_);
+            refuse(connection, answers_.refusal(503));
+        }
+    }
+
+    /// A whole answer, and the end: it fits into what the system keeps for a connection.
+    void refuse(const ConnectionPointer& connection, const std::string& answer) {
+        error_code error;
+        if (connection->socket.write_some(asio::buffer(answer), error) < answer.size()) return drop(*connection);
+        leave(connection);
+    }
+
+    /// The client hears that nothing more will come, and has time to read what did: a connection that is closed while its client still
+    /// sends loses what it was told.
+    void leave(const ConnectionPointer& connection) {
+        error_code ignored;
+        connection->socket.shutdown(tcp::socket::shutdown_send, ignored);
+        connection->leaves = true;
+        connection->bytes = {};
+        connection->reader.reset();
+        connection->until = Clock::now() + kLeavingTime;
+        move(*connection, strangers_);
+        wait(connection);
+    }
+
+    /// On a worker.
+    void answer(const ConnectionPointer& connection, const RequestHead& head) {
+        bool goes_on = false;
+        try {
+            goes_on = answers_.answer(head, Peer(connection->socket.native_handle()));
+        } catch (const std::exception&) {  // of this connection alone
+        }
+        while (!ended_) {
+            try {
+                asio::post(io_, [this, connection, goes_on] { answered(connection, goes_on); });
+                return;
+            } catch (const std::bad_alloc&) {
+                (void)::sched_yield();
+            }
+        }
+    }
+
+    void answered(const ConnectionPointer& connection, bool goes_on) {
+        if (!goes_on) return leave(connection);
+        if (std::ssize(idle_) >= kMostIdle) drop_oldest(idle_);
+        move(*connection, idle_);
+        connection->until = Clock::now() + (connection->bytes.empty() ? kIdleTime : kHeadTime);
+        if (connection->bytes.empty()) return wait(connection);
+        understand(connection);
+    }
+
+    const Answers answers_;
+    asio::io_context io_{1};
+    tcp::acceptor acceptor_{io_};
+    asio::steady_timer timer_{io_};
+    bool accepting_ = false, ticking_ = false;
+    std::atomic<bool> ended_ = false;
+    Connected strangers_, idle_, busy_;  ///< in the order in which they came there
+    std::array<char, kLongestHead> scratch_{};
+    Workers workers_{kMostAtOnce};  ///< the last member: its threads end before the others
+};
+
+Network::Network(int port, Answers answers) : connections_(std::make_unique<Connections>(port, std::move(answers))) {}
+Network::~Network() = default;
+int Network::port() const { return connections_->port(); }
+void Network::run() { connections_->run(); }
+void Network::stop() { connections_->stop(); }
+
+}  // namespace isoatlas::server

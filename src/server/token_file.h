@@ -1,0 +1,10 @@
+// Where a server keeps its token for other programs of its user: base/private_file.h.
+#pragma once
+
+#include <string>
+
+namespace isoatlas::server {
+
+[[nodiscard]] inline std::string token_file(int port) { return "viewer-" + std::to_string(port); }
+
+}  // namespace isoatlas::server
