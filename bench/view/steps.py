@@ -11,21 +11,25 @@ whole axis without --triangles. Each of several clients walks on its own, from a
 import argparse
 import http.client
 import json
+import os
 import pathlib
+import secrets
 import signal
 import statistics
 import subprocess
 import threading
 import time
+import urllib.parse
 
 AROUND = 0.02  # of the axis, on both sides
 
 
 class Server:
     def __init__(self, isoatlas, store, arguments):
-        self.process = subprocess.Popen([isoatlas, "view", store, "--no-browser", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        address, self.token = self.process.stdout.readline().strip().split("/?token=")
-        self.port = int(address.rsplit(":", 1)[1])
+        self.token = secrets.token_hex(16)
+        self.process = subprocess.Popen([isoatlas, "view", store, "--no-browser", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                        text=True, env=dict(os.environ, ISOATLAS_TOKEN=self.token))
+        self.port = urllib.parse.urlsplit(self.process.stdout.readline()).port
 
     def ask(self, connection, path, client):
         """Status, headers, bytes."""

@@ -96,7 +96,7 @@ private:
             for (Connected* list : {&strangers_, &idle_}) {
                 for (auto each = list->begin(); each != list->end();) {
                     const ConnectionPointer connection = *each++;
-                    if (connection->until <= now) drop(*connection);
+                    if (connection->until <= now) cut_off(*connection);
                 }
             }
         });
@@ -107,11 +107,11 @@ private:
         acceptor_.async_accept([this](error_code error, tcp::socket socket) {
             accepting_ = false;
             if (error) {  // no file is left for it, or it has gone again: the next tick tries again
-                drop_oldest(strangers_.empty() ? idle_ : strangers_);
+                cut_off_oldest(strangers_.empty() ? idle_ : strangers_);
                 return;
             }
             const ConnectionPointer connection = std::make_shared<Connection>(std::move(socket));
-            if (std::ssize(strangers_) >= kMostStrangers) drop_oldest(strangers_);
+            if (std::ssize(strangers_) >= kMostStrangers) cut_off_oldest(strangers_);
             connection->place = strangers_.insert(strangers_.end(), connection);
             connection->list = &strangers_;
             connection->until = Clock::now() + kHeadTime;
@@ -123,19 +123,23 @@ private:
         accepting_ = true;
     }
 
-    /// A stranger who was told nothing leaves no trace in the system; others may still take what was sent.
     void drop(Connection& connection) {
         error_code ignored;
-        if (connection.list == &strangers_ && !connection.leaves)
-            connection.socket.set_option(asio::socket_base::linger(true, 0), ignored);
         connection.socket.close(ignored);
         if (connection.list != nullptr) connection.list->erase(connection.place);  // the caller still holds it
         connection.list = nullptr;
     }
-    void drop_oldest(Connected& list) {
+    /// A stranger who was told nothing leaves no trace in the system; others may still take what was sent.
+    void cut_off(Connection& connection) {
+        error_code ignored;
+        const bool was_told = connection.list != &strangers_ || connection.leaves;
+        if (!was_told) connection.socket.set_option(asio::socket_base::linger(true, 0), ignored);
+        drop(connection);
+    }
+    void cut_off_oldest(Connected& list) {
         if (list.empty()) return;
         const ConnectionPointer oldest = list.front();
-        drop(*oldest);
+        cut_off(*oldest);
     }
     /// It stands last there.
     static void move(Connection& connection, Connected& list) {
@@ -223,7 +227,7 @@ private:
 
     void answered(const ConnectionPointer& connection, bool goes_on) {
         if (!goes_on) return leave(connection);
-        if (std::ssize(idle_) >= kMostIdle) drop_oldest(idle_);
+        if (std::ssize(idle_) >= kMostIdle) cut_off_oldest(idle_);
         move(*connection, idle_);
         connection->until = Clock::now() + (connection->bytes.empty() ? kIdleTime : kHeadTime);
         if (connection->bytes.empty()) return wait(connection);

@@ -1,5 +1,7 @@
 #include "server/request_head.h"
 
+#include <limits>
+
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/basic_parser.hpp>
 
@@ -14,7 +16,7 @@ class HeadReader::Parser final : public http::basic_parser<true> {
 public:
     Parser() {
         header_limit(kLongestHead);
-        body_limit(boost::none);  // of no concern: none is read
+        body_limit(std::numeric_limits<std::uint64_t>::max());  // of no concern: none is read
     }
     RequestHead head;
 

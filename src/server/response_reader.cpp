@@ -1,5 +1,7 @@
 #include "server/response_reader.h"
 
+#include <limits>
+
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
@@ -13,7 +15,7 @@ struct ResponseReader::Parser {
 
 ResponseReader::ResponseReader() : parser_(std::make_unique<Parser>()) {
     parser_->parser.eager(true);
-    parser_->parser.body_limit(boost::none);  // a surface may be large
+    parser_->parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // a surface may be large
 }
 ResponseReader::~ResponseReader() = default;
 

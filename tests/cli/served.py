@@ -1,22 +1,36 @@
 """A running `isoatlas view`, and what it is asked over HTTP."""
+import atexit
 import json
+import os
+import pathlib
+import shutil
 import signal
 import socket
 import subprocess
+import tempfile
 import urllib.error
 import urllib.request
 
 import harness
 
+# Where viewers keep their tokens, and where those look who ask.
+RUNTIME = pathlib.Path(tempfile.mkdtemp(prefix="isoatlas-runtime-"))
+atexit.register(shutil.rmtree, RUNTIME, ignore_errors=True)
+os.environ["XDG_RUNTIME_DIR"] = str(RUNTIME)
+
+
+def token_file(port):
+    return RUNTIME / "isoatlas" / f"viewer-{port}"
+
 
 class Viewer:
-    def __init__(self, folder, *arguments):
-        """Returns once the address is printed."""
+    def __init__(self, folder, *arguments, wanted_token=None, **options):
+        """Returns once the address is printed. wanted_token: the one that its environment sets, and no file will hold; options: of the process."""
         self.process = subprocess.Popen([harness.CLI, "view", *arguments, "--no-browser", "--json"], cwd=folder, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+                                        stderr=subprocess.PIPE, text=True, **options)
         self.document = self.read_document()
         self.port = self.document["port"]
-        self.token = self.document["address"].split("token=")[1]
+        self.token = wanted_token or token_file(self.port).read_text().strip()
 
     def read_document(self):
         """The next one on its standard output."""

@@ -1,10 +1,16 @@
 """`isoatlas view`: what it answers over HTTP, to whom, and how it ends."""
 import concurrent.futures
+import contextlib
 import gzip
 import json
+import os
+import pathlib
+import re
 import socket
 import struct
 import unittest
+import urllib.error
+import urllib.request
 
 import harness
 import served
@@ -28,13 +34,14 @@ class View(harness.CliTest):
         return json.loads(body)
 
     def raw(self, text):
-        with self.viewer.connect() as connection:
+        """What comes before the connection ends; it may end while we send."""
+        answer = b""
+        with self.viewer.connect() as connection, contextlib.suppress(ConnectionError):
             connection.sendall(text)
             connection.shutdown(socket.SHUT_WR)
-            answer = b""
             while piece := connection.recv(65536):
                 answer += piece
-            return answer
+        return answer
 
     def test_story(self):
         self.assert_schema(self.viewer.document, "view")
@@ -132,7 +139,7 @@ class View(harness.CliTest):
         self.assertGreater(len(transfer["bumps"]), 0)
 
     def test_the_command_line_asks(self):
-        address = self.viewer.document["address"]
+        address = self.viewer.document["server"]
         printed = self.run_ok("ask", address, "/api/preview?tau=0.5").stdout
         self.assertEqual(json.loads(printed), self.json_of("/api/preview?tau=0.5"))
         self.run_ok("extract", "field.atlas", "--tau", "0.5", "-o", "own.stl")
@@ -143,15 +150,108 @@ class View(harness.CliTest):
         self.run_error(6, "ask", address, "/api/nothing", says="nothing here")
         self.run_error(2, "ask", address, "/api/events", says="ends")
         self.run_error(2, "ask", address, "/api/surface?tau=0.5", says="octet-stream", next_says="-o")
-        self.run_error(2, "ask", address[:-1], "/api/atlas", says="token")
-        self.run_error(2, "ask", "http://example.org/?token=1", "/api/atlas", says="no address")
-        self.run_error(3, "ask", "http://127.0.0.1:1/?token=1", "/api/atlas", says="nobody answers", next_says="isoatlas view")
+        self.assertEqual(self.run_ok("ask", self.port, "/api/preview?tau=0.5").stdout, printed)
+        self.run_error(2, "ask", "http://example.org", "/api/atlas", says="no address")
+        self.run_error(3, "ask", "http://127.0.0.1:1", "/api/atlas", says="nobody answers", next_says="isoatlas view")
+
+    def test_no_secret_on_a_command_line(self):
+        """What opens the viewer is neither in the words of its own process, nor taken from those of another."""
+        address = self.viewer.document["server"]
+        words = pathlib.Path(f"/proc/{self.viewer.process.pid}/cmdline").read_bytes()
+        self.assertNotIn(self.token.encode(), words)
+        for secret in (self.viewer.document["address"], f"{address}/?token={self.token}"):
+            self.run_error(2, "ask", secret, "/api/atlas", says="every user of this machine", next_says="isoatlas ask " + address)
+
+    def test_the_token_is_in_a_file_of_the_user_or_in_the_environment(self):
+        file = served.token_file(self.port)
+        self.assertEqual((file.stat().st_mode & 0o777, file.parent.stat().st_mode & 0o777), (0o600, 0o700))
+        told = {"ISOATLAS_TOKEN": self.token}
+        file.chmod(0o640)
+        done = self.start(["ask", self.port, "/api/atlas"])
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("ISOATLAS_TOKEN", done.stderr)
+        self.assertEqual(self.start(["ask", self.port, "/api/atlas"], environment=told).returncode, 0)
+        file.chmod(0o600)
+        self.assertEqual(self.start(["ask", self.port, "/api/atlas"], environment={"ISOATLAS_TOKEN": "0" * 32}).returncode, 2)
+        other = served.Viewer(self.folder, "field.nrrd", env=dict(os.environ, ISOATLAS_TOKEN="abcdefghijklmnop"))
+        self.assertEqual(other.token, "abcdefghijklmnop")
+        self.assertEqual(other.ask("/")[0], 200)
+        self.assertTrue(served.token_file(other.port).exists())
+        self.assertEqual(other.stop()[0], 0)
+        self.assertFalse(served.token_file(other.port).exists())
+        for bad in ("short", "with a space in it", "x" * 257, "abcdefghijklmno\r\n"):
+            done = self.start(["view", "field.atlas", "--no-browser"], environment={"ISOATLAS_TOKEN": bad})
+            self.assertEqual((done.returncode, "16 to 256 letters and digits" in done.stderr), (2, True), done.stderr)
+        homeless = served.Viewer(self.folder, "field.nrrd", wanted_token="abcdefghijklmnop",
+                                 env=dict(os.environ, ISOATLAS_TOKEN="abcdefghijklmnop", XDG_RUNTIME_DIR="/dev/null"))
+        self.assertEqual(homeless.ask("/")[0], 200)
+        code, said = homeless.stop()
+        self.assertEqual(code, 0)
+        self.assertIn("will not find this viewer", said)
+
+    def test_a_token_that_was_left_behind(self):
+        killed = served.Viewer(self.folder, "field.nrrd")
+        killed.process.kill()
+        killed.process.communicate()
+        self.assertTrue(served.token_file(killed.port).exists())
+        self.run_error(3, "ask", killed.port, "/api/atlas", says="nobody answers")
+        again = served.Viewer(self.folder, "field.nrrd", "--port", str(killed.port))
+        self.assertNotEqual(again.token, killed.token)
+        self.run_ok("ask", again.port, "/api/atlas")
+        self.assertEqual(again.stop()[0], 0)
+
+    def opened(self, address, method="GET"):
+        """Status, cookie and key that a browser gets."""
+        request = urllib.request.Request(address, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                cookie, page = answer.headers["Set-Cookie"], answer.read().decode()
+                return answer.status, cookie, re.search(r'"isoatlas","(\w+)"', page).group(1)
+        except urllib.error.HTTPError as error:
+            return error.code, error.headers["Set-Cookie"], None
+
+    def test_an_address_opens_once(self):
+        first = self.viewer.document["address"]
+        self.assertEqual(self.opened(first, "HEAD")[0], 403)   # who only looks does not use it up
+        status, cookie, key = self.opened(first)
+        self.assertEqual(status, 200)
+        self.assertRegex(cookie, rf"^isoatlas-{self.port}=[0-9a-f]{{32}}; Path=/; HttpOnly; SameSite=Strict$")
+        self.assertNotIn(self.token, cookie + key)
+        self.assertEqual(self.opened(first), (403, None, None))
+        self.assertEqual(self.opened(first[:-1] + "x")[0], 403)
+        document = self.json_of("/api/address")
+        self.assert_schema(document, "server-address")
+        self.assertEqual(self.opened(document["address"]), (200, cookie, key))
+        self.assertEqual(self.ask("/api/address?x=1")[0], 400)
+        many = [self.json_of("/api/address")["address"] for _ in range(17)]
+        self.assertEqual([self.opened(address)[0] for address in many], [403] + 16 * [200])
+
+    def test_a_browser_needs_its_cookie_and_its_key(self):
+        _, cookie, key = self.opened(self.viewer.document["address"])
+        cookie = cookie.split(";")[0]
+        site = "Sec-Fetch-Site"
+        for path, token, headers, status in (
+                ("/api/atlas", key, {"Cookie": cookie}, 200), ("/api/atlas", key, {"Cookie": f"a=b; {cookie}; c=d", site: "same-origin"}, 200),
+                ("/api/atlas", key, {}, 403), ("/api/atlas", "", {"Cookie": cookie}, 403), ("/api/atlas", key, {"Cookie": cookie[:-1]}, 403),
+                ("/api/atlas", key, {"Cookie": cookie.replace("-", "_")}, 403), ("/api/atlas", key, {"Cookie": cookie, site: "same-site"}, 403),
+                ("/api/atlas", key, {"Cookie": cookie, site: "cross-site"}, 403), ("/api/atlas", key, {"Cookie": cookie, "Origin": "http://127.0.0.1:1"}, 403),
+                ("/", "", {"Cookie": cookie}, 200), ("/?x=1", "", {"Cookie": cookie, site: "none"}, 200), ("/", "", {}, 403), ("/", key, {}, 403)):
+            self.assertEqual(self.ask(path, token, **headers)[0], status, (path, headers))
+
+    def test_a_link_on_another_site_goes_on_from_a_page_of_ours(self):
+        """A browser keeps a cookie of SameSite=Strict back there."""
+        for site, status in (("cross-site", b"303"), ("same-site", b"303"), ("same-origin", b"403"), ("none", b"403")):
+            answer = self.raw(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nSec-Fetch-Site: {site}\r\n\r\n".encode())
+            self.assertEqual((answer.split()[1], b"Location: /enter\r\n" in answer), (status, status == b"303"))
+        status, _, page = self.ask("/enter", token="")
+        self.assertEqual(status, 200)
+        self.assertIn(b'location.replace("/"+location.hash)', page)
 
     def test_who_may_ask(self):
         for path in ("/api/atlas", "/api/events", "/api/label?tau=0"):
             self.assertEqual(self.ask(path, token="")[0], 403)
         self.assertEqual(self.ask("/api/atlas", token=self.token[:-1] + "x")[0], 403)
-        self.assertEqual(self.ask("/", token="")[0], 200)
+        self.assertEqual(self.ask("/", token="")[0], 403)
         self.assertEqual(self.ask("/", Host="evil.example")[0], 421)
         status, headers, _ = self.ask("/api/atlas", Origin="http://evil.example")
         self.assertNotIn("Access-Control-Allow-Origin", headers)
@@ -161,7 +261,7 @@ class View(harness.CliTest):
         for path, status in (("/api/surface?tau=nan", 400), ("/api/surface", 400), ("/api/preview?tau=1&x=2", 400), ("/api/none", 404),
                              ("/api/measures?tau=0", 400), ("/api/label?tau=0&format=exe", 400), ("/api/events?x=1", 400),
                              ("/api/slice", 400), ("/api/slice?axis=3&index=0", 400), ("/api/slice?axis=0&index=24", 400), ("/api/volume?most=0", 400),
-                             ("/api/at?voxel=1,2", 400), ("/api/at?voxel=1,2,24", 400), ("/api/at?voxel=1,2,3&object=5", 400), ("/api/transfer?x=1", 400),
+                             ("/api/at?voxel=1,2", 400), ("/api/at?voxel=1,2,24", 400), ("/api/at?voxel=1,2,3&object=5", 400), ("/api/transfer?x=1", 400), ("/api/atlas?x=1", 400),
                              ("/../../etc/passwd", 404), ("/%2e%2e/%2e%2e/etc/passwd", 404), ("/api/surface?tau=0&object=99999999999", 400),
                              ("/api/surface?tau=0&object=" + ",".join(["1"] * 257), 400)):
             got, _, body = self.ask(path)

@@ -109,10 +109,40 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.close();
   });
 
-  it("says why when the token is wrong", async () => {
+  it("opens in a browser once, with nothing secret in its address; then it is there to reload, in other tabs and by links", async () => {
+    const context = await served.browser.newContext({ viewport: { width: 1000, height: 700 } });
+    await context.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
+    const [tab, other] = [await context.newPage(), await context.newPage()];
+    const address = await served.address();
+    await tab.goto(address);
+    await tab.waitForSelector(".objects [role=tab]");
+    await expect.poll(() => new URL(tab.url()).hash).toContain("selected=");
+    expect(tab.url()).toMatch(new RegExp(`^${served.origin}/#`));
+    expect(await tab.evaluate(() => document.cookie)).toBe("");
+    const [cookie] = await context.cookies();
+    expect(cookie).toMatchObject({ name: `isoatlas-${new URL(served.origin).port}`, httpOnly: true, sameSite: "Strict", expires: -1 });
+    await tab.reload();
+    await tab.waitForSelector(".objects [role=tab]");
+    await other.goto(tab.url());
+    await other.waitForSelector(".objects [role=tab]");
+    await other.goto(address);
+    expect(await other.getByRole("alert").textContent()).toContain("token");
+    await other.goto("about:blank"); // another site
+    await other.evaluate((link) => location.assign(link), tab.url());
+    await other.waitForSelector(".objects [role=tab]");
+    expect(new URL(other.url()).pathname).toBe("/");
+    await context.close();
+  });
+
+  it("says why when a browser was never let in, or has forgotten its key", async () => {
     const tab = await served.browser.newPage();
-    await tab.goto(served.address.replace(/token=.*/, "token=none"));
+    await tab.goto(served.origin);
     expect(await tab.getByRole("alert").textContent()).toContain("token");
+    await tab.goto(await served.address());
+    await tab.waitForSelector(".objects [role=tab]");
+    await tab.evaluate(() => localStorage.removeItem("isoatlas"));
+    await tab.reload();
+    await expect.poll(() => tab.getByRole("alert").textContent()).toContain("token");
     await tab.close();
   });
 });

@@ -25,8 +25,10 @@ export interface AskedMesh {
 export class Served {
   private constructor(
     readonly folder: string,
-    /** with the token */
-    readonly address: string,
+    /** http://127.0.0.1:PORT */
+    readonly origin: string,
+    /** what a program carries */
+    readonly token: string,
     /** of the store that is served, in the folder */
     readonly store: string,
     private readonly server: ChildProcess,
@@ -55,10 +57,18 @@ export class Served {
   }
 
   private static async begin(folder: string, name: string, options: string[] = []): Promise<Served> {
-    const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet", ...options], { cwd: folder });
+    const token = crypto.randomUUID().replaceAll("-", "");
+    const env = { ...process.env, ISOATLAS_TOKEN: token, XDG_RUNTIME_DIR: folder };
+    const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet", ...options], { cwd: folder, env });
     const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });
-    return new Served(folder, address, `${name}.atlas`, server, browser);
+    return new Served(folder, new URL(address).origin, token, `${name}.atlas`, server, browser);
+  }
+
+  /** One that opens the page once. */
+  async address(): Promise<string> {
+    const answer = await fetch(`${this.origin}/api/address`, { headers: { Authorization: `Bearer ${this.token}` } });
+    return ((await answer.json()) as { address: string }).address;
   }
 
   /** Ends the server alone. */
@@ -86,7 +96,7 @@ export class Served {
     tab.on("pageerror", (error) => problems.push(error.message));
     const isOvertaken = (text: string): boolean => text.includes("409 (Conflict)"); // a newer question has ended it, as it should
     tab.on("console", (message) => message.type() === "error" && !isOvertaken(message.text()) && problems.push(message.text()));
-    await tab.goto(this.address + hash);
+    await tab.goto((await this.address()) + hash);
     await tab.waitForSelector(".objects [role=tab]");
     return { tab, problems };
   }

@@ -111,8 +111,7 @@ describe.skipIf(!canServe)("a ball", () => {
 
   /** The matter along a line through the middle, by the transfer function of the server. */
   async function matterAlongX(factor: number): Promise<{ opacityTo: (end: number) => number; least: number }> {
-    const { origin, searchParams } = new URL(served.address);
-    const api = new Api(searchParams.get("token") ?? "", origin);
+    const api = new Api(served.token, served.origin);
     const volume = decodeVolume(await (await api.ask("/api/volume", "volume")).arrayBuffer());
     const { bumps } = (await (await api.ask("/api/transfer", "transfer")).json()) as { bumps: Bump[] };
     expect(volume.size).toEqual([SIDE, SIDE, SIDE]);

@@ -51,7 +51,7 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
     const held: (() => Promise<void>)[] = [];
     await tab.route("**/api/surface*", (route) => void held.push(() => route.continue()));
-    await tab.goto(served.address + scene(3));
+    await tab.goto((await served.address()) + scene(3));
     await expect.poll(() => held.length).toBe(3);
     await tab.waitForTimeout(500);
     await tab.evaluate(() => {
@@ -83,7 +83,7 @@ describe.skipIf(!canServe)("the scene", () => {
         linkProgram.call(this, program);
       };
     });
-    await tab.goto(served.address + scene(2));
+    await tab.goto((await served.address()) + scene(2));
     await settled(tab);
     const linked = (): Promise<number> => tab.evaluate(() => (window as unknown as { linked: number }).linked);
     let before = 0; // once all that is drawn at first has been, however slow the machine is

@@ -17,8 +17,7 @@ describe.skipIf(!canServe)("slices", () => {
   let api: Api;
   beforeAll(async () => {
     served = await Served.phantom("demo", "--size", "48");
-    const { origin, searchParams } = new URL(served.address);
-    api = new Api(searchParams.get("token") ?? "", origin);
+    api = new Api(served.token, served.origin);
   });
   afterAll(() => served?.close());
 

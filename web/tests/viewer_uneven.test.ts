@@ -37,8 +37,7 @@ describe.skipIf(!canServe)("a volume of uneven steps", () => {
   beforeAll(async () => {
     writeFileSync(join(folder, "ball.vtr"), ball());
     served = await Served.file(join(folder, "ball.vtr"));
-    const { origin, searchParams } = new URL(served.address);
-    api = new Api(searchParams.get("token") ?? "", origin);
+    api = new Api(served.token, served.origin);
   });
   afterAll(async () => {
     await served?.close();

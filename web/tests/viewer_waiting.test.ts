@@ -15,7 +15,7 @@ describe.skipIf(!canServe)("the viewer before its store", () => {
         if (title) void (window as unknown as { heard: (text: string) => void }).heard(title);
       }).observe(document, { childList: true, subtree: true, characterData: true });
     });
-    await tab.goto(served.address);
+    await tab.goto(await served.address());
     await tab.waitForSelector(".objects");
     expect(titles.some((title) => /^building \d+ %$/.test(title))).toBe(true);
     expect(await tab.locator(".waiting").count()).toBe(0);
@@ -25,7 +25,7 @@ describe.skipIf(!canServe)("the viewer before its store", () => {
   it("says why a build has failed, and what to do", async () => {
     const served = await Served.building(["demo"], ["--gaussian", "1e9"]);
     const tab = await served.browser.newPage();
-    await tab.goto(served.address);
+    await tab.goto(await served.address());
     const alert = tab.getByRole("alert");
     await alert.waitFor();
     expect(await alert.textContent()).toContain("Next:");

@@ -117,8 +117,17 @@ class Viewer implements Desk {
   }
 }
 
+/** What the server has given this browser; every question carries it, beside a cookie. */
+function ownKey(): string {
+  try {
+    return localStorage.getItem("isoatlas") ?? "";
+  } catch {
+    return ""; // the browser keeps nothing; the server says what to do
+  }
+}
+
 async function start(main: HTMLElement): Promise<void> {
-  const api = new Api(new URLSearchParams(location.search).get("token") ?? "");
+  const api = new Api(ownKey());
   try {
     const page = await pageWhenThere(api, main);
     document.title = `${page.volume.name} – isoatlas`;

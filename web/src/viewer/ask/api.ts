@@ -58,6 +58,7 @@ export class Api {
   private readonly lanes = new Map<string, AbortController>();
 
   constructor(
+    /** of this browser, or the token of a program */
     private readonly token: string,
     private readonly base = "",
   ) {}

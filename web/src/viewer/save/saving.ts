@@ -64,7 +64,7 @@ export class Saving {
     );
   }
 
-  /** Of exactly this view. The token of this server is in it. */
+  /** Of exactly this view, for this browser: nothing secret is in it. */
   link(): Promise<void> {
     return this.copy(location.href, "the link");
   }

@@ -1,0 +1,101 @@
+// Who may ask, by what is carried: the token of programs, or cookie and key of a browser that opened an address for one use.
+#include "server/door.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace isoatlas::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+class DoorTest : public testing::Test {
+protected:
+    RequestHead head(const std::string& target) const {
+        RequestHead head;
+        head.method = "GET";
+        head.target = target;
+        head.host = "127.0.0.1:80";
+        return head;
+    }
+    int status(const RequestHead& head) {
+        const std::optional<std::string> answer = door_.answer(head);
+        return answer ? std::stoi(answer->substr(9, 3)) : 200;
+    }
+    std::string target_for_one_use() { return door_.address_for_one_use().substr(door_.address().size()); }
+    static std::string between(const std::string& text, const std::string& before, const std::string& after) {
+        const std::size_t begin = text.find(before) + before.size();
+        return text.substr(begin, text.find(after, begin) - begin);
+    }
+
+    Door::Clock::time_point now_{};
+    Door door_{80, "0123456789abcdef", [this] { return now_; }};
+};
+
+TEST_F(DoorTest, AProgramCarriesTheToken) {
+    RequestHead asked = head("/api/atlas");
+    EXPECT_EQ(status(asked), 403);
+    for (const char* wrong : {"", "Bearer ", "Bearer 0123456789abcde", "Bearer 0123456789abcdeF", "Bearer 0123456789abcdef ", "0123456789abcdef"}) {
+        asked.authorization = wrong;
+        EXPECT_EQ(status(asked), 403) << wrong;
+    }
+    asked.authorization = "Bearer 0123456789abcdef";
+    EXPECT_EQ(status(asked), 200);
+    asked.origin = "http://127.0.0.1:80";
+    EXPECT_EQ(status(asked), 200);
+    asked.origin = "http://127.0.0.1:81";
+    EXPECT_EQ(status(asked), 403);
+}
+
+TEST_F(DoorTest, OtherNamesMethodsAndBodiesAreRefusedBeforeTheToken) {
+    RequestHead asked = head("/api/atlas");
+    for (const char* name : {"", "127.0.0.1", "127.0.0.1:8", "127.0.0.1:800", "evil.example:80", "localhost.:80"}) {
+        asked.host = name;
+        EXPECT_EQ(status(asked), 421) << name;
+    }
+    asked.host = "localhost:80";
+    asked.method = "POST";
+    EXPECT_EQ(status(asked), 405);
+    asked.method = "GET";
+    asked.has_body = true;
+    EXPECT_EQ(status(asked), 413);
+}
+
+TEST_F(DoorTest, AnAddressOpensOnceAndNotForLong) {
+    const std::string late = target_for_one_use();
+    now_ += Door::kCodeTime - 1s;
+    const std::string target = target_for_one_use();
+    EXPECT_EQ(status(head(target)), 200);
+    EXPECT_EQ(status(head(target)), 403);
+    now_ += 1s;
+    EXPECT_EQ(status(head(late)), 403);
+    EXPECT_EQ(status(head("/open?once=")), 403);
+    std::set<std::string> targets;
+    while (targets.size() < Door::kMostCodes + 1) targets.insert(target_for_one_use());
+    int good = 0;
+    for (const std::string& one : targets) good += status(head(one)) == 200 ? 1 : 0;
+    EXPECT_EQ(good, static_cast<int>(Door::kMostCodes));
+}
+
+TEST_F(DoorTest, APageNeedsItsCookieAndItsQuestionsTheKeyToo) {
+    const std::string opened = door_.answer(head(target_for_one_use())).value();
+    EXPECT_EQ(opened.find("0123456789abcdef"), std::string::npos) << "a browser never learns the token";
+    RequestHead page = head("/?x=1"), asked = head("/api/atlas");
+    page.cookie = asked.cookie = "other=1; " + between(opened, "Set-Cookie: ", ";");
+    EXPECT_EQ(status(page), 200);
+    EXPECT_EQ(status(asked), 403) << "every port of this machine is sent the cookie";
+    asked.authorization = "Bearer " + between(opened, "\"isoatlas\",\"", "\"");
+    EXPECT_EQ(status(asked), 200);
+    for (const char* site : {"same-site", "cross-site"}) {
+        asked.fetch_site = page.fetch_site = site;
+        EXPECT_EQ(status(asked), 403) << site;
+        EXPECT_EQ(status(page), 200) << site;
+    }
+    asked.fetch_site = {};
+    asked.cookie = {};
+    EXPECT_EQ(status(asked), 403);
+}
+
+}  // namespace
+}  // namespace isoatlas::server
