@@ -12,10 +12,11 @@ void refuse_secrets(const std::string& address) {
     const std::size_t path = address.find('/', address.find("//") == std::string::npos ? 0 : address.find("//") + 2);
     if (path == std::string::npos || address.find('?', path) == std::string::npos) return;
     const std::string server = address.substr(0, path);
-    throw Error(ErrorKind::usage, {.where = server,
-                                   .what = "what follows this address is a secret, and every user of this machine sees the words of a command",
-                                   .expected = "the address up to its port: the token is in a file that only you can read, or in ISOATLAS_TOKEN",
-                                   .next = "isoatlas ask " + server + " QUESTION"});
+    throw Error(ErrorKind::usage,
+                {.where = server,
+                 .what = "what follows this address is a secret, and every user of this machine sees the words of a command",
+                 .expected = "the address up to its port: the token is in a file that only you can read, or in ISOATLAS_TOKEN",
+                 .next = "isoatlas ask " + server + " QUESTION"});
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ public:
     /// For programs, which carry the token beside it: http://127.0.0.1:PORT
     [[nodiscard]] std::string address() const;
     [[nodiscard]] const std::string& token() const;
-    /// A new address that opens the page in one browser: good once, for ten minutes; 16 are good at a time, the oldest ends. From any thread.
+    /// A new address that opens the page in one browser: good once, for ten minutes; 16 are good at a time, the oldest ends. From any
+    /// thread.
     [[nodiscard]] std::string address_for_one_use();
     /// Keeps the token in a file of this user alone, where ask_server() finds it, as long as this lives: viewer-PORT in
     /// $XDG_RUNTIME_DIR/isoatlas, else $XDG_CACHE_HOME/isoatlas or ~/.cache/isoatlas. Throws Error{resource}.

@@ -42,16 +42,14 @@ std::string path_of(const std::string& name) {
 
 /// It is a folder of this user, and nobody else may enter it.
 void make_own_folder(const std::string& path) {
-    struct stat status {};
+    struct stat status{};
     if (::mkdir(path.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
     if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) refuse(path, "is no folder");
     if (status.st_uid != ::geteuid()) refuse(path, "belongs to another user");
     if ((status.st_mode & kOthers) != 0 && ::chmod(path.c_str(), kOwnFolder) != 0) refuse(path, "is open to other users");
 }
 
-bool write_all(int file, const std::string& text) {
-    return ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-}
+bool write_all(int file, const std::string& text) { return ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()); }
 
 }  // namespace
 
@@ -63,7 +61,7 @@ PrivateFile::PrivateFile(const std::string& name, const std::string& text) : pat
     (void)::unlink(made.c_str());
     const int file = ::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile);
     if (file < 0) refuse(made, std::string("cannot be made: ") + std::strerror(errno));
-    struct stat status {};
+    struct stat status{};
     const bool good = write_all(file, text) && ::fstat(file, &status) == 0;
     if (::close(file) != 0 || !good || ::rename(made.c_str(), path_.c_str()) != 0) {
         const std::string reason = std::strerror(errno);
@@ -75,7 +73,7 @@ PrivateFile::PrivateFile(const std::string& name, const std::string& text) : pat
 }
 
 PrivateFile::~PrivateFile() {
-    struct stat status {};
+    struct stat status{};
     const bool ours = ::lstat(path_.c_str(), &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
     if (ours) (void)::unlink(path_.c_str());
 }
@@ -85,7 +83,7 @@ std::string private_text(const std::string& name) {
     const int file = path.empty() ? -1 : ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return {};
     std::string text;
-    struct stat status {};
+    struct stat status{};
     if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && (status.st_mode & kOthers) == 0) {
         std::array<char, 4096> bytes;
         const ssize_t count = ::read(file, bytes.data(), bytes.size());

@@ -59,10 +59,11 @@ std::string token_of(const Place& place) {
     std::string kept = private_text(server::token_file(place.port));
     while (!kept.empty() && kept.back() == '\n') kept.pop_back();
     if (!kept.empty()) return kept;
-    throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(place.port),
-                                   .what = "nobody answers that this user has started: its token is not known",
-                                   .next = "is `isoatlas view` still running? Start it again, and give its new address; the token of another "
-                                           "user's viewer can be set as ISOATLAS_TOKEN"});
+    throw Error(ErrorKind::input,
+                {.where = "127.0.0.1:" + std::to_string(place.port),
+                 .what = "nobody answers that this user has started: its token is not known",
+                 .next = "is `isoatlas view` still running? Start it again, and give its new address; the token of another "
+                         "user's viewer can be set as ISOATLAS_TOKEN"});
 }
 
 [[noreturn]] void refuse_silence(int port, const std::string& why) {

@@ -28,9 +28,10 @@ std::string html_that_goes_on(const std::string& first) {
 }
 
 std::string refused_page() {
-    return last_answer({.status = 403, .type = kHtml},
-                       html("<p role=alert>This address needs the token of its viewer: each address that isoatlas view prints opens once, within ten "
-                            "minutes, in one browser. Press Enter where isoatlas view runs, and open the address that it prints.</p>"));
+    return last_answer(
+        {.status = 403, .type = kHtml},
+        html("<p role=alert>This address needs the token of its viewer: each address that isoatlas view prints opens once, within ten "
+             "minutes, in one browser. Press Enter where isoatlas view runs, and open the address that it prints.</p>"));
 }
 
 ErrorKind kind_of(int status) { return status == 503 ? ErrorKind::resource : ErrorKind::usage; }
@@ -75,9 +76,7 @@ std::string Door::refusal(int status) {
     return last_answer({.status = status, .type = "application/json"}, error_json(Error(kind_of(status), details_of(status))));
 }
 
-bool Door::is_ours(const RequestHead& head) const {
-    return head.host == "127.0.0.1:" + port_ || head.host == "localhost:" + port_;
-}
+bool Door::is_ours(const RequestHead& head) const { return head.host == "127.0.0.1:" + port_ || head.host == "localhost:" + port_; }
 
 bool Door::has_cookie(std::string_view cookies) const {
     const std::string name = "isoatlas-" + port_ + "=";

@@ -1,5 +1,5 @@
-// Who may ask. A program carries the token. A browser opens an address that is good for one use, /open?once=CODE; it gets a cookie and a key,
-// and its pages carry both: a cookie alone is sent to every port of this machine, a key alone could be read by a script.
+// Who may ask. A program carries the token. A browser opens an address that is good for one use, /open?once=CODE; it gets a cookie and a
+// key, and its pages carry both: a cookie alone is sent to every port of this machine, a key alone could be read by a script.
 #pragma once
 
 #include <chrono>

@@ -59,9 +59,10 @@ struct Server::Data {
         : token(checked_token(options.token)),
           service(token, context, options.memory),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
-          network(options.port, {.at_the_door = [this](const server::RequestHead& head) { return door.answer(head); },
-                                 .refusal = server::Door::refusal,
-                                 .answer = [this](const server::RequestHead& head, const server::Peer& peer) { return answer(head, peer); }}),
+          network(options.port,
+                  {.at_the_door = [this](const server::RequestHead& head) { return door.answer(head); },
+                   .refusal = server::Door::refusal,
+                   .answer = [this](const server::RequestHead& head, const server::Peer& peer) { return answer(head, peer); }}),
           door(network.port(), token) {}
 
     /// Of somebody who may ask. True: another question may follow.
@@ -70,7 +71,7 @@ struct Server::Data {
         if (target.path == "/") target.words.clear();
         const server::Question question{target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }};
         try {
-            server::Answer answer = on_its_way > most_on_its_way ? too_much()
+            server::Answer answer = on_its_way > most_on_its_way      ? too_much()
                                     : question.path == "/api/address" ? new_address(question)
                                                                       : service.answer(question);
             if (answer.events) return send_events(head, answer, peer);
@@ -96,8 +97,7 @@ struct Server::Data {
     }
 
     bool send(const server::RequestHead& head, server::Answer answer, const server::Peer& peer) {
-        const std::string_view coding =
-            answer.bytes.size() < kWorthCoding ? std::string_view() : server::coding_for(head.accept_encoding);
+        const std::string_view coding = answer.bytes.size() < kWorthCoding ? std::string_view() : server::coding_for(head.accept_encoding);
         if (!coding.empty()) answer.bytes = server::coded(answer.bytes, coding);
         server::ResponseHead response{answer.status, answer.type, answer.bytes.size()};
         response.fields = {{"Vary", "Accept-Encoding"}};

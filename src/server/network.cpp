@@ -43,6 +43,8 @@ struct Connection {
 };
 using ConnectionPointer = std::shared_ptr<Connection>;
 
+/// Of a connection that ends: it may have ended already.
+void ignore(const error_code&) {}
 
 }  // namespace
 
@@ -124,21 +126,21 @@ private:
     }
 
     void drop(Connection& connection) {
-        error_code ignored;
-        connection.socket.close(ignored);
+        error_code error;
+        ignore(connection.socket.close(error));
         if (connection.list != nullptr) connection.list->erase(connection.place);  // the caller still holds it
         connection.list = nullptr;
     }
     /// A stranger who was told nothing leaves no trace in the system; others may still take what was sent.
     void cut_off(Connection& connection) {
-        error_code ignored;
+        error_code error;
         const bool was_told = connection.list != &strangers_ || connection.leaves;
-        if (!was_told) connection.socket.set_option(asio::socket_base::linger(true, 0), ignored);
+        if (!was_told) ignore(connection.socket.set_option(asio::socket_base::linger(true, 0), error));
         drop(connection);
     }
     void cut_off_oldest(Connected& list) {
         if (list.empty()) return;
-        const ConnectionPointer oldest = list.front();
+        const ConnectionPointer oldest = std::move(list.front());
         cut_off(*oldest);
     }
     /// It stands last there.
@@ -198,8 +200,8 @@ private:
     /// The client hears that nothing more will come, and has time to read what did: a connection that is closed while its client still
     /// sends loses what it was told.
     void leave(const ConnectionPointer& connection) {
-        error_code ignored;
-        connection->socket.shutdown(tcp::socket::shutdown_send, ignored);
+        error_code error;
+        ignore(connection->socket.shutdown(tcp::socket::shutdown_send, error));
         connection->leaves = true;
         connection->bytes = {};
         connection->reader.reset();

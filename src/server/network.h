@@ -1,9 +1,10 @@
 // Connections: strangers wait at the door, whoever may ask is answered by a thread.
 //
-// One thread accepts, reads heads of requests and watches deadlines; it never waits for a client. A connection whose request has not yet been
-// let in belongs to a stranger: there are at most kMostStrangers, each with a head of kLongestHead bytes and kHeadTime for all of it; when
-// another one comes, the oldest is cut off. So whoever holds all of them does not keep others out. What is let in is answered by a thread of
-// its own, at most kMostAtOnce at a time. Between two requests a connection keeps its place for a while, apart from the strangers.
+// One thread accepts, reads heads of requests and watches deadlines; it never waits for a client. A connection whose request has not yet
+// been let in belongs to a stranger: there are at most kMostStrangers, each with a head of kLongestHead bytes and kHeadTime for all of it;
+// when another one comes, the oldest is cut off. So whoever holds all of them does not keep others out. What is let in is answered by a
+// thread of its own, at most kMostAtOnce at a time. Between two requests a connection keeps its place for a while, apart from the
+// strangers.
 #pragma once
 
 #include <chrono>

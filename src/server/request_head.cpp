@@ -70,15 +70,17 @@ HeadReader::State HeadReader::read(std::string& bytes) {
         if (error || count == 0) break;
     }
     bytes.erase(0, used);
+    taken_ += used;  // the limit of the parser is one of what it is given at a time
     if (error && error != http::error::need_more) {
         status_ = error == http::error::header_limit ? 431 : error == http::error::bad_version ? 505 : 400;
         return State::refused;
     }
-    if (!parser_->is_header_done()) {
-        if (bytes.size() < kLongestHead) return State::more;
+    const bool is_whole = parser_->is_header_done();
+    if (is_whole ? taken_ > kLongestHead : taken_ + bytes.size() >= kLongestHead) {
         status_ = 431;
         return State::refused;
     }
+    if (!is_whole) return State::more;
     parser_->head.keep_alive = parser_->keep_alive();
     parser_->head.has_body = !parser_->is_done();
     return State::whole;

@@ -1,4 +1,5 @@
-// A question as HTTP carries it, without its body: read byte for byte from anybody, in bounded memory. Only what the server looks at is kept.
+// A question as HTTP carries it, without its body: read byte for byte from anybody, in bounded memory. Only what the server looks at is
+// kept.
 #pragma once
 
 #include <memory>
@@ -36,6 +37,7 @@ public:
 private:
     class Parser;
     std::unique_ptr<Parser> parser_;
+    std::size_t taken_ = 0;  ///< bytes
     int status_ = 400;
 };
 

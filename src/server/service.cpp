@@ -115,13 +115,11 @@ Answer Service::answer_known(const Question& question) {
     }
     if (question.path == "/api/slice") return samples_answer(question, slice_answer);
     if (question.path == "/api/volume") return samples_answer(question, volume_answer);
-    throw Error(
-        ErrorKind::not_found,
-        {.where = question.path.substr(0, 100),
-         .what = "there is nothing here",
-         .expected =
-             "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, label, slice, volume, at, transfer, address",
-         .next = "docs/server.md lists the questions"});
+    throw Error(ErrorKind::not_found, {.where = question.path.substr(0, 100),
+                                       .what = "there is nothing here",
+                                       .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
+                                                   "label, slice, volume, at, transfer, address",
+                                       .next = "docs/server.md lists the questions"});
 }
 
 Answer Service::samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&)) {

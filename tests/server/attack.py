@@ -5,6 +5,7 @@ Bounded in requests, bytes and time, on 127.0.0.1. Prints a line for each attack
 grown at its peak. The verdict on the owner is that he is answered while the attack is held, not how soon: machines are busy.
 """
 import contextlib
+import http.client
 import json
 import pathlib
 import resource
@@ -255,6 +256,20 @@ class Attacked(harness.CliTest):
                 connection = self.connect(held)
                 connection.sendall((self.owners("/api/preview?tau=100") + "\r\n").encode())
                 self.assertIn(b" 200 ", connection.recv(65536)[:20])
+
+
+    def test_no_memory_is_left(self):
+        """While nothing can be allocated some are refused or cut off; afterwards all is as before."""
+        with self.attack("500 half requests without memory") as held:
+            limits = resource.prlimit(self.process.pid, resource.RLIMIT_AS)
+            resource.prlimit(self.process.pid, resource.RLIMIT_AS, (self.resident("VmSize"), limits[1]))
+            for _ in range(500):
+                with contextlib.suppress(OSError):
+                    self.connect(held).sendall(f"GET / HTTP/1.1\r\n{self.host()}X: ".encode() + b"a" * 16000)
+            for path in ["/api/atlas", "/"] * 20:
+                with contextlib.suppress(OSError, http.client.HTTPException):
+                    self.assertIn(self.viewer.ask(path, **{"Accept-Encoding": "zstd"})[0], (200, 500, 503))
+            resource.prlimit(self.process.pid, resource.RLIMIT_AS, limits)
 
 
 class Limited(Attacked):

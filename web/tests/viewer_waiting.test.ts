@@ -7,6 +7,7 @@ describe.skipIf(!canServe)("the viewer before its store", () => {
     const slow = ["--threads", "1", "--memory", "90M"]; // enough to be seen
     const served = await Served.building(["noise", "--size", "144", "--quantise", "8"], slow);
     const tab = await served.browser.newPage();
+    tab.setDefaultTimeout(120_000); // on a busy machine
     const titles: string[] = [];
     await tab.exposeFunction("heard", (text: string) => titles.push(text));
     await tab.addInitScript(() => {

@@ -36,7 +36,8 @@ protected:
 TEST_F(DoorTest, AProgramCarriesTheToken) {
     RequestHead asked = head("/api/atlas");
     EXPECT_EQ(status(asked), 403);
-    for (const char* wrong : {"", "Bearer ", "Bearer 0123456789abcde", "Bearer 0123456789abcdeF", "Bearer 0123456789abcdef ", "0123456789abcdef"}) {
+    for (const char* wrong :
+         {"", "Bearer ", "Bearer 0123456789abcde", "Bearer 0123456789abcdeF", "Bearer 0123456789abcdef ", "0123456789abcdef"}) {
         asked.authorization = wrong;
         EXPECT_EQ(status(asked), 403) << wrong;
     }
