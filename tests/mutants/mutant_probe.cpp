@@ -17,6 +17,7 @@
 #include "oracle/compare.h"
 #include "oracle/finer.h"
 #include "oracle/volumes.h"
+#include "server/request_head.h"
 
 namespace {
 
@@ -132,10 +133,26 @@ void check_outputs() {
     fs::remove_all(folder);
 }
 
+/// What a stranger may send is bounded, and says one thing.
+void check_requests() {
+    using isoatlas::server::HeadReader;
+    const auto is_let_in = [](const std::string& fields) {
+        HeadReader reader;
+        std::string bytes = "GET / HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n";
+        return reader.read(bytes) == HeadReader::State::whole && reader.head().host == "a";
+    };
+    std::string many;
+    for (int i = 0; i < 2 * isoatlas::server::kMostFields; ++i) many += "X: y\r\n";
+    if (is_let_in("X: y\r\n") && !is_let_in(many) && !is_let_in("Host: b\r\n")) return;
+    std::puts("requests are not bounded, or not refused when they say two things");
+    std::exit(1);
+}
+
 }  // namespace
 
 int main() try {
     check_outputs();
+    check_requests();
     std::mt19937 random(20240501);
     const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     for (int trial = 0; trial < 400; ++trial) {
