@@ -30,7 +30,7 @@ DOORS = {
     r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/io/.*|src/output/.*|src/store/contents\.cpp|src/server/client\.cpp",
     r"libdeflate\.h": r"src/store/chunk_codec\.cpp|src/render/png\.cpp|src/server/coding\.cpp",
     r"zstd\.h": r"src/server/coding\.cpp",
-    r"boost/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
+    r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
     r"meshoptimizer\.h": r"src/server/(wire_mesh|coarse_surface)\.cpp|tests/.*",
     r"webp/.*": r"src/render/webp\.cpp",
     r"embree3/.*": r"src/render/ray_surfaces\.cpp",

@@ -139,7 +139,7 @@ void check_requests() {
     const auto is_let_in = [](const std::string& fields) {
         HeadReader reader;
         std::string bytes = "GET / HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n";
-        return reader.read(bytes) == HeadReader::State::whole && reader.head().host == "a";
+        return reader.read(bytes) == HeadReader::State::whole;
     };
     std::string many;
     for (int i = 0; i < 2 * isoatlas::server::kMostFields; ++i) many += "X: y\r\n";
