@@ -14,7 +14,8 @@ function lossOf(error: unknown): string {
     return `The viewer has ended: nothing new can be shown. ${again}`;
   }
   if (error.status !== 403) return error.message;
-  return "The token of this page is wrong: it belongs to a viewer that has ended. Open a new address: isoatlas view prints one when it starts, and at Enter.";
+  const again = "Open a new address: isoatlas view prints one when it starts, and at Enter.";
+  return `The token of this page is wrong: it belongs to a viewer that has ended. ${again}`;
 }
 
 class Waiting {
