@@ -24,9 +24,9 @@ def token_file(port):
 
 
 class Viewer:
-    def __init__(self, folder, *arguments, wanted_token=None, **options):
+    def __init__(self, folder, *arguments, wanted_token=None, browser="--no-browser", **options):
         """Returns once the address is printed. wanted_token: the one that its environment sets, and no file will hold; options: of the process."""
-        self.process = subprocess.Popen([harness.CLI, "view", *arguments, "--no-browser", "--json"], cwd=folder, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([harness.CLI, "view", *arguments, *browser.split(), "--json"], cwd=folder, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, **options)
         self.document = self.read_document()
         self.port = self.document["port"]

@@ -5,6 +5,7 @@ import gzip
 import json
 import os
 import pathlib
+import pty
 import re
 import socket
 import struct
@@ -225,6 +226,49 @@ class View(harness.CliTest):
         self.assertEqual(self.ask("/api/address?x=1")[0], 400)
         many = [self.json_of("/api/address")["address"] for _ in range(17)]
         self.assertEqual([self.opened(address)[0] for address in many], [403] + 16 * [200])
+
+    def test_the_desktop_opens_an_address_for_one_use(self):
+        """Every user of the machine sees the words of xdg-open and of the browser."""
+        folder = self.folder / "desktop"
+        folder.mkdir()
+        (folder / "xdg-open").write_text('#!/bin/sh\necho "$1" > asked && mv asked opened\n')
+        (folder / "xdg-open").chmod(0o755)
+        environment = dict(os.environ, DISPLAY=":0", PATH=f"{folder}:{os.environ['PATH']}")
+        viewer = served.Viewer(folder, "../field.atlas", browser="", env=environment)
+        while not (folder / "opened").exists():
+            self.assertIsNone(viewer.process.poll())
+        address = (folder / "opened").read_text().strip()
+        self.assertRegex(address, rf"^http://127.0.0.1:{viewer.port}/open\?once=[0-9a-f]{{32}}$")
+        self.assertNotIn(viewer.token, address)
+        self.assertNotEqual(address, viewer.document["address"])
+        self.assertEqual([self.opened(address)[0] for _ in range(2)], [200, 403])
+        self.assertEqual(viewer.stop()[0], 0)
+
+    def test_enter_gives_another_address(self):
+        try:
+            process, terminal = pty.fork()
+        except OSError as error:   # a container without /dev/pts
+            self.skipTest(f"no pseudo terminal here: {error}")
+        if process == 0:
+            os.chdir(self.folder)
+            os.execv(harness.CLI, [harness.CLI, "view", "field.atlas", "--no-browser"])
+        shown = ""
+
+        def addresses(count):
+            nonlocal shown
+            while len(found := re.findall(r"(http\S+/open\?once=[0-9a-f]{32})\r", shown)) < count:
+                shown += os.read(terminal, 4096).decode()
+            return found
+        addresses(1)
+        os.write(terminal, b"\n")
+        first, second = addresses(2)
+        self.assertNotEqual(first, second)
+        self.assertIn("Enter gives one for another browser", shown)
+        for address in (second, first):
+            self.assertEqual(self.opened(address)[0], 200)
+        os.write(terminal, b"\x03")   # Ctrl-C
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), 0)
+        os.close(terminal)
 
     def test_a_browser_needs_its_cookie_and_its_key(self):
         _, cookie, key = self.opened(self.viewer.document["address"])
