@@ -205,7 +205,7 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
         const Image& first = made.animation.frames[0];
         if (made.exact_tunnels && !*made.exact_tunnels)
             terminal.say("the tunnels that are told are approximate: the one that opened last is taken to close first");
-        terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", arguments.output,
+        terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", shown_name(arguments.output),
                                       counted(static_cast<std::int64_t>(made.animation.frames.size()), "frame"), first.width, first.height);
     }
     return 0;

@@ -44,7 +44,7 @@ int run_ask(const Arguments& arguments, Terminal& terminal) {
         json["bytes"] = bytes;
         print(terminal, json);
     } else {
-        terminal.out() << arguments.output << ": " << bytes_text(static_cast<double>(bytes)) << '\n';
+        terminal.out() << shown_name(arguments.output) << ": " << bytes_text(static_cast<double>(bytes)) << '\n';
     }
     return 0;
 }

@@ -118,9 +118,9 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
         print(terminal, json);
         return;
     }
-    terminal.out() << arguments.output << ": " << bytes_text(bytes) << ", " << fmt::format("{:.3g}", bytes / voxels) << " bytes a voxel ("
-                   << bytes_text(raw) << " of samples), " << interpolant_text(atlas.info(), atlas.interpolant(), atlas.tunnel_height())
-                   << '\n';
+    terminal.out() << shown_name(arguments.output) << ": " << bytes_text(bytes) << ", " << fmt::format("{:.3g}", bytes / voxels)
+                   << " bytes a voxel (" << bytes_text(raw) << " of samples), "
+                   << interpolant_text(atlas.info(), atlas.interpolant(), atlas.tunnel_height()) << '\n';
     terminal.next("isoatlas objects " + shell_word(arguments.output));
 }
 

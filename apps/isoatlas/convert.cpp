@@ -26,7 +26,7 @@ int run_convert(const Arguments& arguments, Terminal& terminal) {
         print(terminal, json);
         return 0;
     }
-    terminal.out() << arguments.output << ": " << extent_text(volume.info.extent) << ' ' << name_of(volume.info.type) << ", "
+    terminal.out() << shown_name(arguments.output) << ": " << extent_text(volume.info.extent) << ' ' << name_of(volume.info.type) << ", "
                    << bytes_text(static_cast<double>(bytes)) << " of samples\n";
     terminal.next("isoatlas info " + shell_word(arguments.output));
     return 0;

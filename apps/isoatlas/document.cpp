@@ -1,6 +1,7 @@
 #include "document.h"
 
 #include <cmath>
+#include <vector>
 
 #include "terminal.h"
 #include "values.h"
@@ -8,8 +9,24 @@
 namespace isoatlas::cli {
 namespace {
 
-/// Paths and descriptions of files need not be UTF-8: what is not becomes U+FFFD.
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+/// Names of files need not be UTF-8: their other bytes are escaped. With a list of what is to be seen instead of recursion.
+void make_utf8(Json& json) {
+    for (std::vector<Json*> left{&json}; !left.empty();) {
+        Json& value = *left.back();
+        left.pop_back();
+        if (value.is_string()) {
+            auto& text = value.get_ref<std::string&>();
+            if (!is_utf8(text)) text = written_name(text);
+        } else if (value.is_structured()) {
+            for (Json& member : value) left.push_back(&member);
+        }
+    }
+}
+
+std::string text_of(Json json) {
+    make_utf8(json);
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // nothing is left to replace: a second net
+}
 
 /// One member a line.
 std::string members(const Json& json) {

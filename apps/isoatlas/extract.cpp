@@ -114,7 +114,7 @@ Json to_json(const Arguments& arguments, const Source& source, const Surface& su
 }
 
 void print_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const Surface& surface, const Counts& counts) {
-    terminal.out() << arguments.output << ": "
+    terminal.out() << shown_name(arguments.output) << ": "
                    << (counts.segments > 0 ? counted(counts.segments, "segment") : counted(counts.triangles, "triangle")) << ", "
                    << counted(counts.objects, "object") << ", " << counted(counts.contours, "contour") << ", "
                    << (counts.closed ? "closed" : "open at the border of the volume") << ", isovalue " << Scale(info).text(surface.tau)

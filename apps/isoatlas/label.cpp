@@ -110,7 +110,7 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
         print(terminal, json);
         return 0;
     }
-    terminal.out() << arguments.output << ": "
+    terminal.out() << shown_name(arguments.output) << ": "
                    << counted(labels.count,
                               arguments.zones  ? "zone"
                               : arguments.dark ? "cavity"

@@ -63,7 +63,7 @@ int run_phantom(const Arguments& arguments, Terminal& terminal) {
         return 0;
     }
     const Scale scale(volume.info);
-    terminal.out() << arguments.output << ": " << arguments.file << ", " << extent_text(volume.info.extent) << ' '
+    terminal.out() << shown_name(arguments.output) << ": " << arguments.file << ", " << extent_text(volume.info.extent) << ' '
                    << name_of(volume.info.type) << ", values " << scale.text(range.low) << " .. " << scale.text(range.high) << '\n';
     terminal.next("isoatlas objects " + shell_word(arguments.output));
     return 0;

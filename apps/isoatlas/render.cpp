@@ -106,7 +106,8 @@ int run_render(const Arguments& arguments, Terminal& terminal) {
         print(terminal, to_json(arguments, source, scene, image, camera));
         return 0;
     }
-    terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", arguments.output, contents_text(scene), image.width, image.height);
+    terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", shown_name(arguments.output), contents_text(scene), image.width,
+                                  image.height);
     for (const SceneObject& object : scene.objects) terminal.detail("  " + object.name);
     return 0;
 }

@@ -41,7 +41,7 @@ void write_file(const Arguments& arguments, Terminal& terminal, Source& source, 
         write_simplified_tree(arguments.output, tree);
     }
     if (!arguments.json) {
-        terminal.out() << fmt::format("{}: {}; {}\n", arguments.output,
+        terminal.out() << fmt::format("{}: {}; {}\n", shown_name(arguments.output),
                                       counted(static_cast<std::int64_t>(tree.simplified.nodes.size()), "node"),
                                       hidden_text(tree.simplified, source.info().extent.voxels()));
         return;

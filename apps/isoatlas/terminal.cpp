@@ -1,14 +1,17 @@
 #include "terminal.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <streambuf>
+#include <string_view>
 
 #include <unistd.h>
 
 #include <isoatlas/error.h>
+#include <isoatlas/text.h>
 
 namespace isoatlas::cli {
 namespace {
@@ -19,8 +22,9 @@ namespace {
                                       .next = error == EPIPE ? "keep the reader of the pipe open" : "send it to a place with free space"});
 }
 
+/// A name in it may hold any byte: what is not UTF-8 or moves the cursor is escaped. Lines stay lines.
 void talk(const std::string& line) {
-    const std::string text = line + "\n";
+    const std::string text = header_text(written_name(line), /*lines=*/true) + "\n";
     // Talk that nobody can read is no reason to fail.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
@@ -38,33 +42,54 @@ class Terminal::Buffer : public std::streambuf {
 public:
     Buffer() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
 
-    void flush() {
-        const char* next = pbase();
-        while (next < pptr()) {
-            const ssize_t written = ::write(STDOUT_FILENO, next, static_cast<std::size_t>(pptr() - next));
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) {
-                const int error = errno;
-                setp(bytes_.data(), bytes_.data() + bytes_.size());
-                output_failed(error);
-            }
-            next += written;
+    /// Results are text, and UTF-8 whatever names are in it. A character that is not whole yet waits for its end, unless this is the end.
+    void flush(bool is_end) {
+        const std::string_view all(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+        const std::string_view text = is_end ? all : whole_characters(all);
+        const std::string kept(all.substr(text.size()));
+        if (is_utf8(text)) {
+            write(text);
+        } else {
+            write(written_name(text));
         }
-        setp(bytes_.data(), bytes_.data() + bytes_.size());
+        empty();
+        sputn(kept.data(), static_cast<std::streamsize>(kept.size()));
     }
 
 protected:
     int_type overflow(int_type c) override {
-        flush();
+        flush(false);
         if (!traits_type::eq_int_type(c, traits_type::eof())) sputc(traits_type::to_char_type(c));
         return traits_type::not_eof(c);
     }
     int sync() override {
-        flush();
+        flush(true);
         return 0;
     }
 
 private:
+    static std::string_view whole_characters(std::string_view text) {
+        for (std::size_t kept = 1; kept <= std::min<std::size_t>(3, text.size()); ++kept) {
+            const auto byte = static_cast<unsigned char>(text[text.size() - kept]);
+            if (byte < 0x80) break;
+            if (byte >= 0xc0) return text.substr(0, text.size() - kept);
+        }
+        return text;
+    }
+    void empty() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+    void write(std::string_view text) {
+        while (!text.empty()) {
+            const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) {
+                const int error = errno;
+                empty();
+                output_failed(error);
+            }
+            text.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+
     std::array<char, 1 << 16> bytes_;
 };
 

@@ -140,7 +140,7 @@ void write_file(Terminal& terminal, const Arguments& arguments, const Volume& vo
         write_tree(arguments.output, volume, analysis, {.detail = arguments.detail});
     }
     if (!arguments.json) {
-        terminal.out() << arguments.output << ": " << counted(analysis.event_count(), "event") << ", detail "
+        terminal.out() << shown_name(arguments.output) << ": " << counted(analysis.event_count(), "event") << ", detail "
                        << detail_name(arguments.detail) << ", " << interpolant_of(volume, analysis) << '\n';
         return;
     }

@@ -42,7 +42,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const std::vecto
         if (check.holds && arguments.quiet) continue;
         terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<26}", check.name) << check.detail << '\n';
     }
-    terminal.out() << arguments.file << ": "
+    terminal.out() << shown_name(arguments.file) << ": "
                    << (failed == 0 ? "all " + counted(all, "guarantee") + " hold"
                                    : fmt::format("{} of {} FAIL", failed, counted(all, "guarantee")))
                    << of_what << '\n';

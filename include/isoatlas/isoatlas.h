@@ -45,5 +45,6 @@
 #include "isoatlas/simplify.h"
 #include "isoatlas/spectrum.h"
 #include "isoatlas/surface.h"
+#include "isoatlas/text.h"
 #include "isoatlas/verify.h"
 #include "isoatlas/volume.h"

@@ -6,6 +6,7 @@
 namespace isoatlas {
 
 /// A word as a POSIX shell takes it: in single quotes where it holds more than letters, digits and the characters of common file names.
+/// Control characters and bytes that are not UTF-8 are written as octal numbers in $'...' (POSIX.1-2024, bash, zsh, ksh).
 [[nodiscard]] std::string shell_word(const std::string& word);
 
 }  // namespace isoatlas

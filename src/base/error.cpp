@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "isoatlas/text.h"
+
 namespace isoatlas {
 
 std::string describe(const ErrorText& text) {
@@ -12,7 +14,7 @@ std::string describe(const ErrorText& text) {
     line += text.what;
     if (!text.expected.empty()) line += " (expected " + text.expected + ")";
     if (!text.next.empty()) line += ". Next: " + text.next;
-    return line;
+    return shown_name(line);  // a path may hold any byte
 }
 
 Error::Error(ErrorKind kind, ErrorText text) : std::runtime_error(describe(text)), kind_(kind), text_(std::move(text)) {}

@@ -1,7 +1,12 @@
 #include "io/text.h"
 
+#include <bit>
 #include <charconv>
 #include <filesystem>
+#include <functional>
+#include <numeric>
+
+#include "isoatlas/text.h"
 
 namespace isoatlas::io {
 namespace {
@@ -55,16 +60,19 @@ bool ends_with_ignoring_case(std::string_view text, std::string_view end) {
     return text.size() >= end.size() && lower(text.substr(text.size() - end.size())) == lower(end);
 }
 
-std::string printable(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) {
-        if ((c >= 0 && c < ' ') || c == 127) c = '?';
-    }
-    return result;
+bool is_damaged(std::string_view word, std::string_view known) {
+    const auto was_blank = [](char c) { return std::popcount(static_cast<unsigned>(static_cast<unsigned char>(c) ^ ' ')) == 1; };
+    if (word.size() == known.size() + 1)
+        return (word.starts_with(known) && was_blank(word.back())) || (word.ends_with(known) && was_blank(word.front()));
+    return word.size() == known.size() &&
+           std::inner_product(word.begin(), word.end(), known.begin(), 0, std::plus<>(), std::not_equal_to<>()) == 1;
 }
 
+std::string printable(std::string_view text) { return header_text(text); }
+
 std::string quoted(std::string_view text) {
-    return "'" + printable(text.substr(0, kLongestQuote)) + (text.size() > kLongestQuote ? "...'" : "'");
+    const std::string shown = printable(text);
+    return "'" + std::string(utf8_prefix(shown, kLongestQuote)) + (shown.size() > kLongestQuote ? "...'" : "'");
 }
 
 std::string beside(const std::string& path, std::string_view name) {

@@ -15,9 +15,11 @@ namespace isoatlas::io {
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);  ///< nothing: not an integer or out of range
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);         ///< also nan and inf
 [[nodiscard]] bool ends_with_ignoring_case(std::string_view text, std::string_view end);
-/// The text with control bytes replaced by '?': header texts are shown on terminals.
+/// Whether a flipped bit can have made `word` of a known one: another character in it, or one more at an end (it was a blank).
+[[nodiscard]] bool is_damaged(std::string_view word, std::string_view known);
+/// The text as UTF-8, with control characters escaped: header texts are shown on terminals and written into files.
 [[nodiscard]] std::string printable(std::string_view text);
-/// The text in quotes, shortened and with control bytes replaced, fit to be shown in a message.
+/// printable() in quotes, shortened, fit to be shown in a message.
 [[nodiscard]] std::string quoted(std::string_view text);
 /// `name` beside `path`: names are relative to the folder of the header that contains them.
 [[nodiscard]] std::string beside(const std::string& path, std::string_view name);

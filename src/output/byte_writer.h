@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "base/atomic_file.h"
+#include "isoatlas/text.h"
 
 namespace isoatlas::output {
 
@@ -80,8 +81,9 @@ template <class T>
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
-/// Text of a volume's header on one line: control characters (a hostile unit could add lines) become spaces.
-[[nodiscard]] inline std::string one_line(std::string text) {
+/// Text of a volume's header as UTF-8 on one line: control characters (a hostile unit could add lines) become spaces.
+[[nodiscard]] inline std::string one_line(const std::string& given) {
+    std::string text = decoded_text(given);
     for (char& c : text) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "isoatlas/text.h"
 #include "output/connectivity.h"
 
 namespace isoatlas::output {
@@ -137,7 +138,7 @@ private:
 
 std::string svg_text(const std::string& text) {
     std::string safe;
-    for (const char c : text) {
+    for (const char c : decoded_text(text)) {
         switch (c) {
             case '<': safe += "&lt;"; break;
             case '>': safe += "&gt;"; break;

@@ -69,7 +69,7 @@ private:
 /// A text as VTK stores it in field data: its bytes as numbers, ended by 0. No character of it can break the XML.
 [[nodiscard]] inline std::string vtk_string(std::string_view name, std::string_view text) {
     std::string element = "<DataArray type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"1\" format=\"ascii\">";
-    for (const char c : text) element += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
+    for (const char c : decoded_text(text)) element += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
     return element + "0</DataArray>\n";
 }
 

@@ -69,7 +69,7 @@ constexpr std::size_t kDescription = 79;  ///< and a zero
 /// At most `room` characters; if it must, it ends at a comma: a number cut short would be another number.
 std::string shortened(const std::string& text, std::size_t room) {
     if (text.size() <= room) return text;
-    return text.substr(0, std::min(room, text.rfind(", ", room)));
+    return std::string(utf8_prefix(text, std::min(room, text.rfind(", ", room))));
 }
 
 std::string description_of(const VolumeInfo& info) {

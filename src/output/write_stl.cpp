@@ -35,6 +35,7 @@ std::string header_words(const Surface& surface, std::string (*number)(double)) 
 std::string header(const Surface& surface) {
     std::string text = header_words(surface, number_text);
     if (text.size() > 80) text = header_words(surface, short_text);
+    text.resize(utf8_prefix(text, 80).size());
     text.resize(80, '\0');
     return text;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "isoatlas/error.h"
+#include "isoatlas/text.h"
 
 namespace isoatlas::store {
 namespace {
@@ -43,17 +44,17 @@ std::vector<std::int64_t> integers(const Json& json) {
 }
 
 Json json_of(const VolumeInfo& info) {
-    Json json{{"name", info.path}, {"rank", info.extent.rank}, {"size", info.extent.size}, {"type", name_of(info.type)}};
+    Json json{{"name", written_name(info.path)}, {"rank", info.extent.rank}, {"size", info.extent.size}, {"type", name_of(info.type)}};
     const Geometry& g = info.geometry;
     json["spacing"] = g.spacing;
     json["origin"] = g.origin;
     json["direction"] = g.direction;
     json["coordinates"] = g.coordinates;
-    json["space"] = g.space;
-    json["unit"] = g.unit;
+    json["space"] = decoded_text(g.space);
+    json["unit"] = decoded_text(g.unit);
     json["calibration"] = {{"slope", info.calibration.slope}, {"intercept", info.calibration.intercept}};
-    json["value_unit"] = info.value_unit;
-    json["description"] = info.description;
+    json["value_unit"] = decoded_text(info.value_unit);
+    json["description"] = decoded_text(info.description);
     if (info.gaussian > 0) json["gaussian"] = info.gaussian;
     return json;
 }
@@ -174,7 +175,7 @@ std::string to_json(const Contents& contents) {
                           {"sum", a.sum},
                           {"chunk", a.chunk}});
     }
-    return json.dump(1);
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);  // nothing is left to replace: a second net
 }
 
 Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size) try {
