@@ -97,6 +97,7 @@ public:
     [[nodiscard]] const VolumeInfo& info() const { return info_; }
     /// Reads the slices [z_begin, z_end) of the last axis (for rank 2: rows are not split, use [0, 1)).
     /// out.size() == slices * slice() * size_of(type). Compressed files are cheap to read forwards only: going back restarts.
+    /// Behind the last slice a compressed stream is read on to its end, where its checksum is.
     /// Throws Error{input} when the file ends early or is corrupt. Cost: O(slab) time and memory.
     virtual void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) = 0;
 
@@ -105,13 +106,15 @@ protected:
 };
 
 /// What to assume about RAW files; contradictions with a header are errors. Unset: read from a JSON sidecar
-/// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw).
+/// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw). And what to allow in files of any format.
 struct OpenOptions {
     std::optional<std::vector<std::int64_t>> dims;  ///< x y [z]
     std::optional<ValueType> type;
     std::optional<bool> big_endian;
     std::optional<std::int64_t> skip_bytes;
     std::optional<Vec3> spacing, origin;
+    bool skip_rest = false;     ///< bytes behind the samples are left out, with a note; unset: they are Error{input}
+    bool follow_links = false;  ///< a header may name files outside its folder (absolute paths, "..", links); unset: Error{input}
     std::optional<std::int64_t> time_step;  ///< which volume of a 4D file; unset: a 4D file is an error that names this option
 };
 

@@ -1,6 +1,7 @@
 #include "base/file_system.h"
 
 #include <cerrno>
+#include <filesystem>
 #include <utility>
 
 namespace isoatlas {
@@ -30,6 +31,7 @@ int File::close() { return 0; }
 FileSystem::~FileSystem() = default;
 FileStatus FileSystem::status_of_name(const std::string& path) { return status(path); }
 std::string FileSystem::link(const std::string&) { return {}; }
+std::string FileSystem::resolved(const std::string& path) { return (std::filesystem::path("/") / path).lexically_normal().string(); }
 OpenedFile FileSystem::open_stream(const std::string&) { return {nullptr, -EROFS}; }
 OpenedFile FileSystem::create(const std::string&, unsigned) { return {nullptr, -EROFS}; }
 OpenedFile FileSystem::create_unnamed(const std::string&, unsigned) { return {nullptr, -EOPNOTSUPP}; }

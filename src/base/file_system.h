@@ -75,6 +75,9 @@ public:
     [[nodiscard]] virtual OpenedFile open(const std::string& path) = 0;
     /// What a symbolic link contains; empty: the path names no link.
     [[nodiscard]] virtual std::string link(const std::string& path);
+    /// The absolute path of what a path names, without links, "." and ".."; what does not exist keeps its name. Others than the system's
+    /// have no links.
+    [[nodiscard]] virtual std::string resolved(const std::string& path);
     /// Opens a device or pipe to write to it: its write_at takes the next bytes, whatever the offset.
     [[nodiscard]] virtual OpenedFile open_stream(const std::string& path);
     /// Makes a file that was not there, with these permissions less the process's mask, and holds it until it is closed. -EEXIST: there is

@@ -153,6 +153,14 @@ public:
         std::error_code none;
         return std::filesystem::read_symlink(path, none).string();
     }
+    std::string resolved(const std::string& path) override {
+        std::error_code error;
+        const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+        if (error) return FileSystem::resolved(path);
+        const std::filesystem::path real = std::filesystem::weakly_canonical(absolute, error);
+        const std::filesystem::path path_found = error ? absolute.lexically_normal() : real;
+        return (path_found.has_filename() ? path_found : path_found.parent_path()).string();
+    }
     OpenedFile open_stream(const std::string& path) override { return opened<SystemStream>(::open(path.c_str(), O_WRONLY | O_CLOEXEC)); }
     OpenedFile create(const std::string& path, unsigned mode) override {
         if (is_temporary_name(path)) note_unfinished(path);

@@ -36,7 +36,7 @@ public:
         if (offset < 0 || offset > length_) ends_early(0);
         position_ = offset;
     }
-    bool at_end() override { return position_ == length_; }
+    std::int64_t payload_bytes(std::int64_t most) override { return most < length_ ? most + 1 : length_; }
     bool random_access() const override { return true; }
     std::int64_t size_bound() const override { return length_; }
     const std::string& file() const override { return path_; }
@@ -66,6 +66,7 @@ public:
             const std::int64_t inside = position_ - part * plan_.part_bytes;
             if (part >= plan_.count) ends_early(out.size());
             if (part != open_part_) {
+                end_part();
                 current_ = plan_.open(part);
                 open_part_ = part;
             }
@@ -77,7 +78,10 @@ public:
         }
     }
     void seek(std::int64_t offset) override { position_ = offset; }
-    bool at_end() override { return position_ == plan_.count * plan_.part_bytes; }
+    std::int64_t payload_bytes(std::int64_t) override {  // parts that are not open are none of its business: nothing of them was read
+        end_part();
+        return plan_.count * plan_.part_bytes;
+    }
     bool random_access() const override { return plan_.random_access; }
     std::int64_t size_bound() const override { return plan_.size_bound; }
     const std::string& file() const override { return plan_.file; }
@@ -88,6 +92,12 @@ private:
                                        .where = "behind data file " + std::to_string(plan_.count),
                                        .what = "the data files end early",
                                        .expected = std::to_string(wanted) + " more bytes"});
+    }
+
+    /// Reads the open part to its end, whatever of it was wanted: its checksum comes last.
+    void end_part() {
+        if (open_part_ >= 0) (void)require_end(*current_, plan_.part_bytes, plan_.skip_rest);
+        open_part_ = -1;
     }
 
     PartsPlan plan_;
@@ -103,6 +113,37 @@ std::unique_ptr<ByteSource> open_file_source(const std::string& path, std::int64
 }
 
 std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan) { return std::make_unique<PartsSource>(std::move(plan)); }
+
+void refuse_rest(const std::string& file, std::int64_t rest) {
+    throw Error(ErrorKind::input, {.file = file,
+                                   .where = "behind the samples",
+                                   .what = std::to_string(rest) + (rest == 1 ? " byte follows" : " bytes follow"),
+                                   .expected = "the end of the data",
+                                   .next = "the header or the file is damaged, or it holds more than a volume: then pass --skip-rest"});
+}
+
+std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest) {
+    constexpr std::int64_t kTimes = 16, kMost = std::numeric_limits<std::int64_t>::max() / (kTimes + 2);
+    const std::int64_t most = source.random_access() ? std::numeric_limits<std::int64_t>::max() - 1
+                                                     : wanted + std::max(kMostRest, std::min(wanted, kMost) * kTimes);
+    const std::int64_t found = source.payload_bytes(most);
+    if (found < wanted) {
+        throw Error(ErrorKind::input, {.file = source.file(),
+                                       .where = "samples",
+                                       .what = "the data end after " + std::to_string(found) + " bytes",
+                                       .expected = std::to_string(wanted) + " bytes",
+                                       .next = "the file is truncated or its header is wrong: get it again"});
+    }
+    if (found > most) {
+        throw Error(ErrorKind::input, {.file = source.file(),
+                                       .where = "behind the samples",
+                                       .what = "more than " + std::to_string(most - wanted) + " decompressed bytes follow",
+                                       .expected = std::to_string(wanted) + " bytes of samples",
+                                       .next = "the header is wrong, or the file is made to fill memory or time: do not use it"});
+    }
+    if (found > wanted && !skip_rest) refuse_rest(source.file(), found - wanted);
+    return found - wanted;
+}
 
 std::int64_t file_size(const std::string& path) { return open_file(path)->size(); }
 

@@ -21,8 +21,11 @@ public:
     virtual void read(std::span<std::byte> out) = 0;
     /// Moves to a payload position (0: start). Cost: O(1) with random_access(), else O(distance), or O(offset) when it lies behind.
     virtual void seek(std::int64_t offset) = 0;
-    /// Whether nothing follows the current position. Compressed streams are read on to their checksum; Error{input} if it is wrong.
-    [[nodiscard]] virtual bool at_end() = 0;
+    /// How many bytes the payload has, those counted in that follow a compressed stream in its file (unless all are zero: padding);
+    /// `most` + 1 stands for more than `most`.
+    /// Without random_access() it is read on to its end from the current position, with a fixed buffer: Error{input} when a checksum is
+    /// wrong or the end is missing. Seek before the next read.
+    [[nodiscard]] virtual std::int64_t payload_bytes(std::int64_t most) = 0;
     [[nodiscard]] virtual bool random_access() const = 0;
     /// The size of the payload with random_access(), else an upper bound of it that follows from the size of the file.
     [[nodiscard]] virtual std::int64_t size_bound() const = 0;
@@ -41,13 +44,26 @@ public:
 /// size_bound() is 1032 times the compressed size: deflate cannot do better (a 2-bit pair stands for at most 258 bytes).
 [[nodiscard]] std::unique_ptr<ByteSource> open_inflate_source(const std::string& path, std::int64_t offset = 0, std::int64_t length = -1);
 
+/// How many bytes the zlib stream at [offset, offset + length) of a file holds: decoded to its end, its checksum compared; what follows it
+/// is not looked at. `most` + 1 stands for more than `most`. Throws Error{input} as reading does.
+[[nodiscard]] std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::int64_t length, std::int64_t most);
+
+/// Reads a source on to its end behind the `wanted` bytes of samples. Throws Error{input} when it is damaged, holds less, or holds more and
+/// `skip_rest` is false; also when it holds so much more (kMostRest) that no file of samples does. Returns how much more.
+std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest);
+/// The error that require_end() throws for so many bytes behind the samples of a file.
+[[noreturn]] void refuse_rest(const std::string& file, std::int64_t rest);
+/// A compressed stream may hold so many bytes behind its samples, or 16 times the samples; more of it is not decompressed.
+inline constexpr std::int64_t kMostRest = std::int64_t{1} << 30;
+
 /// `count` sources of part_bytes payload bytes each, one after the other; open(i) is called when part i is needed, one is open at a
-/// time. The caller vouches for random access and for the bound (it has looked at the files).
+/// time and read to its end as require_end() does. The caller vouches for random access and for the bound (it has looked at the files).
 struct PartsPlan {
     std::int64_t count = 0;
     std::int64_t part_bytes = 0;  ///< positive
     std::int64_t size_bound = 0;
     bool random_access = false;
+    bool skip_rest = false;  ///< what lies behind part_bytes in a part is no error
     std::function<std::unique_ptr<ByteSource>(std::int64_t part)> open{};
     std::string file{};  ///< the file that lists the parts, for messages
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "io/own_folder.h"
 #include "io/sample_reader.h"
 #include "io/text.h"
 #include "io/text_source.h"
@@ -80,13 +81,16 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
 
 /// Opens each part once, so that a missing or short file is found before anything is read or allocated.
 std::int64_t check_parts(const PayloadPlan& plan, std::int64_t part_bytes) {
-    std::int64_t bound = 0;
+    std::int64_t bound = 0, rest = 0;
+    std::string longer;
     for (std::int64_t part = 0; part < plan.files.count(); ++part) {
         const std::unique_ptr<ByteSource> source = open_one(plan, data_file_path(plan, part), part_bytes);
         const std::int64_t holds = source->size_bound();
         if (holds < part_bytes) bad_part(source->file(), holds, part_bytes);
+        if (source->random_access() && holds > part_bytes && longer.empty()) longer = source->file(), rest = holds - part_bytes;
         bound += part_bytes;
     }
+    if (!longer.empty() && !plan.skip_rest) refuse_rest(longer, rest);  // a missing file is more to say
     return bound;
 }
 
@@ -94,13 +98,15 @@ std::int64_t check_parts(const PayloadPlan& plan, std::int64_t part_bytes) {
 
 std::string data_file_path(const PayloadPlan& plan, std::int64_t i) {
     const std::string name = plan.files.name(i);
-    if (printable(name) != name) {
+    if (std::any_of(name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; })) {
         throw Error(ErrorKind::input, {.file = plan.header_path,
                                        .what = "the name of a data file contains control bytes: " + quoted(name),
                                        .expected = "a file name",
                                        .next = "the header is damaged: get the file again"});
     }
-    return beside(plan.header_path, name);
+    const std::string path = beside(plan.header_path, name);
+    if (!plan.follow_links) require_own_folder(plan.header_path, path);
+    return path;
 }
 
 std::int64_t DataFiles::count() const {
@@ -156,6 +162,7 @@ std::unique_ptr<ByteSource> open_payload(const PayloadPlan& plan) {
          .part_bytes = part_bytes,
          .size_bound = bound,
          .random_access = plan.encoding == Encoding::raw,
+         .skip_rest = plan.skip_rest,
          .open = [plan, part_bytes](std::int64_t part) { return open_one(plan, data_file_path(plan, part), part_bytes); },
          .file = plan.header_path});
 }

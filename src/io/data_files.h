@@ -39,10 +39,12 @@ struct PayloadPlan {
     std::int64_t skip = 0;           ///< then this many bytes; -1: as many as leave exactly the samples (raw only)
     std::int64_t inflated_skip = 0;  ///< then this many decompressed bytes
     ValueType type = ValueType::u8;
-    std::int64_t sample_bytes = 0;  ///< of all files together, decoded
+    std::int64_t sample_bytes = 0;                 ///< of all files together, decoded
+    bool skip_rest = false, follow_links = false;  ///< as in OpenOptions
 };
 
-/// Path of data file i. Throws Error{input} for names with control bytes, which no sound header has and no terminal should get.
+/// Path of data file i. Throws Error{input} for names with control bytes, which no sound header has and no terminal should get, and for
+/// files outside the folder of the header (unless follow_links).
 [[nodiscard]] std::string data_file_path(const PayloadPlan& plan, std::int64_t i);
 /// Opens the payload; looks at every data file of a raw plan, at none beyond its size in other plans.
 /// Throws Error{input}: missing or short data files, files that do not divide the samples evenly.

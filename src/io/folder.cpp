@@ -7,6 +7,7 @@
 #include "io/byte_source.h"
 #include "io/formats.h"
 #include "io/natural_order.h"
+#include "io/own_folder.h"
 #include "io/sample_reader.h"
 #include "io/text.h"
 #include "io/tiff_stack.h"
@@ -86,9 +87,10 @@ Listing list_folder(const std::string& path) {
 
 class FolderReader final : public VolumeReader {
 public:
-    FolderReader(VolumeInfo info, std::vector<std::string> files, std::vector<std::int64_t> first_page)
-        : files_(std::move(files)), first_page_(std::move(first_page)) {
+    FolderReader(VolumeInfo info, std::vector<std::string> files, std::vector<std::int64_t> first_page, bool skip_rest)
+        : files_(std::move(files)), first_page_(std::move(first_page)), skip_rest_(skip_rest) {
         info_ = std::move(info);
+        tidy_texts(info_);
         page_bytes_ = info_.extent.slice() * static_cast<std::int64_t>(size_of(info_.type));
     }
 
@@ -105,7 +107,7 @@ private:
     void read_page(std::int64_t z, std::span<std::byte> out) {
         const auto file = static_cast<std::size_t>(std::upper_bound(first_page_.begin(), first_page_.end(), z) - first_page_.begin()) - 1;
         if (!open_ || open_index_ != file) {
-            open_ = std::make_unique<TiffFile>(files_[file]);
+            open_ = std::make_unique<TiffFile>(files_[file], skip_rest_);
             open_index_ = file;
         }
         const std::int64_t page = z - first_page_[file];
@@ -122,6 +124,7 @@ private:
     std::vector<std::int64_t> first_page_;  ///< of each file
     std::unique_ptr<TiffFile> open_;        ///< one file at a time: thousands would exceed the limit of open files
     std::size_t open_index_ = 0;
+    bool skip_rest_;
     std::int64_t page_bytes_ = 0;
 };
 
@@ -168,7 +171,8 @@ std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOpt
     info.format = "TIFF slices";
     std::vector<std::int64_t> first_page;
     for (const std::string& name : listing.slices) {
-        const TiffFile file(name);
+        if (!options.follow_links) require_inside(path, name);
+        const TiffFile file(name, options.skip_rest);
         if (first_page.empty()) describe_first(file, info);
         first_page.push_back(info.extent.size[2]);
         add_file(file, listing.slices[0], info);
@@ -180,7 +184,7 @@ std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOpt
     }
     info.slab_readable = true;
     if (listing.others > 0) info.notes.push_back(std::to_string(listing.others) + " other entries of the folder were ignored");
-    return std::make_unique<FolderReader>(std::move(info), listing.slices, std::move(first_page));
+    return std::make_unique<FolderReader>(std::move(info), listing.slices, std::move(first_page), options.skip_rest);
 }
 
 }  // namespace isoatlas::io

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 
 #include "io/byte_source.h"
 #include "io/file_access.h"
@@ -61,13 +60,9 @@ public:
             read(std::span(scratch).first(static_cast<std::size_t>(std::min<std::int64_t>(scratch.size(), offset - position_))));
         }
     }
-    bool at_end() override {
-        if (pushed_back_) return false;
-        std::byte probe{};
-        if (read_some({&probe, 1}) == 0) return true;
-        pushed_back_ = probe;
-        --position_;
-        return false;
+    std::int64_t payload_bytes(std::int64_t most) override {
+        const std::int64_t inside = decoded_bytes(most), behind = finished_ ? bytes_behind() : 0;
+        return inside > most || behind > most - inside ? most + 1 : inside + behind;
     }
     bool random_access() const override { return false; }
     std::int64_t size_bound() const override {
@@ -78,14 +73,19 @@ public:
 
     std::size_t read_some(std::span<std::byte> out) {
         std::size_t done = 0;
-        if (pushed_back_ && !out.empty()) {
-            out[0] = *pushed_back_;
-            pushed_back_.reset();
-            ++done;
-        }
         while (done < out.size() && !finished_) done += inflate_once(out.subspan(done));
         position_ += static_cast<std::int64_t>(done);
         return done;
+    }
+
+    /// Decodes to the end of the stream and its checksum, or to `most` + 1 bytes: how many there are.
+    std::int64_t decoded_bytes(std::int64_t most) {
+        std::array<std::byte, 65536> scratch;
+        while (!finished_ && position_ <= most) {
+            const auto room = std::min(static_cast<std::int64_t>(scratch.size()), most - position_ + 1);
+            (void)read_some(std::span(scratch).first(static_cast<std::size_t>(room)));
+        }
+        return position_;
     }
 
 private:
@@ -95,7 +95,6 @@ private:
         next_read_ = begin_;
         position_ = 0;
         finished_ = false;
-        pushed_back_.reset();
         refill();
         gzip_ = starts_like_gzip(std::span(buffer_).first(stream_.avail_in));
     }
@@ -130,7 +129,8 @@ private:
         return room - stream_.avail_out;
     }
 
-    /// gzip files may hold several streams in a row (bgzip, pigz, cat); anything else behind the end is ignored, like gzip does.
+    /// gzip files may hold several streams in a row (bgzip, pigz, cat); what else is behind the end is counted by payload_bytes(), but for
+    /// padding by zeros.
     bool next_member() {
         if (!gzip_) return false;
         if (stream_.avail_in < 2) refill();
@@ -138,6 +138,16 @@ private:
         if (!starts_like_gzip({next, stream_.avail_in})) return false;
         inflateReset(&stream_);
         return true;
+    }
+
+    /// The bytes that follow the stream in its part of the file; 0 when they are all zero: padding.
+    std::int64_t bytes_behind() {
+        const std::int64_t behind = end_ - (next_read_ - stream_.avail_in);
+        while (stream_.avail_in > 0 || refill()) {
+            if (std::any_of(stream_.next_in, stream_.next_in + stream_.avail_in, [](Bytef byte) { return byte != 0; })) return behind;
+            stream_.avail_in = 0;
+        }
+        return 0;
     }
 
     std::string here() const { return "offset " + std::to_string(next_read_ - stream_.avail_in); }
@@ -166,7 +176,6 @@ private:
     std::int64_t position_ = 0;         // in the decompressed stream
     bool finished_ = false;
     bool gzip_ = false;
-    std::optional<std::byte> pushed_back_;  // read by at_end()
     Inflater stream_;
     std::vector<std::byte> buffer_;
 };
@@ -175,6 +184,10 @@ private:
 
 std::unique_ptr<ByteSource> open_inflate_source(const std::string& path, std::int64_t offset, std::int64_t length) {
     return std::make_unique<InflateSource>(path, offset, length);
+}
+
+std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::int64_t length, std::int64_t most) {
+    return InflateSource(path, offset, length).decoded_bytes(most);
 }
 
 std::vector<std::byte> read_inflated_bytes(const std::string& path, std::int64_t max) {

@@ -129,8 +129,10 @@ bool big_endian_samples(const MetaHeader& header, Encoding encoding, ValueType t
     return second && size_of(type) > 1;
 }
 
-PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType type, std::int64_t bytes) {
+PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType type, std::int64_t bytes, const OpenOptions& options) {
     PayloadPlan plan;
+    plan.skip_rest = options.skip_rest;
+    plan.follow_links = options.follow_links;
     plan.header_path = header.path;
     plan.files = data_files(header);
     plan.encoding = encoding;
@@ -205,16 +207,18 @@ std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const Open
     info.big_endian = big_endian_samples(header, encoding, info.type);
     info.extent.rank = static_cast<int>(std::min<std::size_t>(3, sizes.size()));
     std::copy_n(sizes.begin(), info.extent.rank, info.extent.size.begin());
+    if (encoding != Encoding::text && size_of(info.type) > 1 && header.first_of({"binarydatabyteordermsb", "elementbyteordermsb"}).empty())
+        info.notes.push_back("byte order not given: little endian assumed");
     read_geometry(header, sizes.size(), info);
     set_calibration(info, header.number("elementtointensityfunctionslope", 1), header.number("elementtointensityfunctionoffset", 0));
     info.description = printable(header.text("comment"));
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
-    const PayloadPlan plan = payload_plan(header, encoding, info.type, sample_bytes(path, info.extent, info.type, step.count));
+    const PayloadPlan plan = payload_plan(header, encoding, info.type, sample_bytes(path, info.extent, info.type, step.count), options);
     if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
     check_compressed_size(header, plan, info);
     std::unique_ptr<ByteSource> source = open_payload(plan);
     info.file_bytes = bytes_on_disk(plan);
-    return make_sample_reader(std::move(info), std::move(source), step);
+    return make_sample_reader(std::move(info), std::move(source), options, step);
 }
 
 }  // namespace isoatlas::io

@@ -1,5 +1,7 @@
 #include "io/metaimage_header.h"
 
+#include <array>
+
 #include "io/header_text.h"
 #include "io/text.h"
 
@@ -30,6 +32,41 @@ std::optional<std::size_t> find_header_end(std::string_view text) {
     return std::nullopt;
 }
 
+/// Fields that decide something here. Others are those of whoever wrote the file; but one that differs from these in a character only is
+/// damaged, and to ignore it could mean other samples.
+void refuse_damaged_name(const MetaHeader& header, const std::string& name) {
+    static constexpr std::array<std::string_view, 27> kKnown = {"objecttype",
+                                                                "objectsubtype",
+                                                                "ndims",
+                                                                "comment",
+                                                                "dimsize",
+                                                                "elementtype",
+                                                                "headersize",
+                                                                "elementnumberofchannels",
+                                                                "binarydata",
+                                                                "binarydatabyteordermsb",
+                                                                "elementbyteordermsb",
+                                                                "compresseddata",
+                                                                "compresseddatasize",
+                                                                "transformmatrix",
+                                                                "rotation",
+                                                                "orientation",
+                                                                "centerofrotation",
+                                                                "elementspacing",
+                                                                "elementsize",
+                                                                "offset",
+                                                                "position",
+                                                                "origin",
+                                                                "anatomicalorientation",
+                                                                "distanceunits",
+                                                                "elementtointensityfunctionslope",
+                                                                "elementtointensityfunctionoffset",
+                                                                kLastField};
+    for (const std::string_view known : kKnown) {
+        if (is_damaged(name, known)) header.fail(ErrorKind::input, name, "is no field of MetaImage", std::string(known));
+    }
+}
+
 void parse_line(MetaHeader& header, std::string_view line, int number) {
     auto [name, value] = split_field(line);
     if (name.empty()) {
@@ -39,6 +76,7 @@ void parse_line(MetaHeader& header, std::string_view line, int number) {
                                        .expected = "'Name = value'",
                                        .next = "the header is damaged: get the file again"});
     }
+    refuse_damaged_name(header, name);
     header.spelling.emplace(name, printable(trim(line.substr(0, name_end(line)))));
     if (!header.fields.emplace(name, std::move(value)).second) header.fail(ErrorKind::input, name, "the field appears twice", "one value");
 }

@@ -9,6 +9,7 @@
 #include "io/byte_source.h"
 #include "io/formats.h"
 #include "io/nifti_geometry.h"
+#include "io/own_folder.h"
 #include "io/sample_reader.h"
 #include "io/text.h"
 
@@ -191,6 +192,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     const std::string header_path = partner(path, ".img", ".hdr") ? find_partner(path, ".img", ".hdr") : path;
     const NiftiHeader header = read_header(header_path);
     const std::string data_path = !header.pair ? header_path : header_path == path ? find_partner(path, ".hdr", ".img") : path;
+    if (!options.follow_links && data_path != header_path) require_own_folder(path, data_path == path ? header_path : data_path);
     if (header.pair && data_path == header_path) {
         throw Error(ErrorKind::input, {.file = path,
                                        .where = "header",
@@ -213,7 +215,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     info.description = header.description;
     info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
     const std::int64_t offset = data_offset(header_path, header, info.notes);
-    return make_sample_reader(std::move(info), open_samples(data_path, offset), step);
+    return make_sample_reader(std::move(info), open_samples(data_path, offset), options, step);
 }
 
 }  // namespace isoatlas::io

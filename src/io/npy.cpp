@@ -169,7 +169,7 @@ std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOption
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
     std::unique_ptr<ByteSource> source = open_file_source(path, header.data_offset);
     info.file_bytes = file_size(path);
-    return make_sample_reader(std::move(info), std::move(source), step);
+    return make_sample_reader(std::move(info), std::move(source), options, step);
 }
 
 }  // namespace isoatlas::io

@@ -115,8 +115,10 @@ std::int64_t skip_count(const NrrdHeader& header, const std::string& field, std:
     return count;
 }
 
-PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, ValueType type, std::int64_t bytes) {
+PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, ValueType type, std::int64_t bytes, const OpenOptions& options) {
     PayloadPlan plan;
+    plan.skip_rest = options.skip_rest;
+    plan.follow_links = options.follow_links;
     plan.header_path = header.path;
     plan.files = data_files(header);
     plan.encoding = encoding;
@@ -169,11 +171,12 @@ std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptio
     VolumeInfo info = describe_volume(header, axes, encoding);
     info.notes.insert(info.notes.begin(), notes.begin(), notes.end());
     const TimeStep step = choose_time_step(path, options, axes.volumes);
-    const PayloadPlan plan = payload_plan(header, encoding.encoding, info.type, sample_bytes(path, info.extent, info.type, step.count));
+    const PayloadPlan plan =
+        payload_plan(header, encoding.encoding, info.type, sample_bytes(path, info.extent, info.type, step.count), options);
     std::unique_ptr<ByteSource> source = open_payload(plan);
     if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
     info.file_bytes = bytes_on_disk(plan);
-    return make_sample_reader(std::move(info), std::move(source), step);
+    return make_sample_reader(std::move(info), std::move(source), options, step);
 }
 
 }  // namespace isoatlas::io

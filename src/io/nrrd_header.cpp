@@ -69,6 +69,21 @@ void check_magic(const std::string& path, std::string_view line) {
                                                                       .next = "write the file again as NRRD0005"});
 }
 
+/// A field that differs from a known one in a character is that one, damaged: to ignore it could mean other samples.
+void refuse_damaged_name(const NrrdHeader& header, std::string_view name) {
+    const std::string given = lower(trim(name));
+    for (const std::string_view field : kFields) {
+        std::string joined(field);
+        std::erase(joined, ' ');
+        if (!is_damaged(given, field) && !is_damaged(given, joined)) continue;
+        throw Error(ErrorKind::input, {.file = header.path,
+                                       .where = "header",
+                                       .what = quoted(given) + " is no field of NRRD",
+                                       .expected = quoted(field),
+                                       .next = "the header is damaged: get the file again or correct it"});
+    }
+}
+
 void add_once(NrrdHeader& header, std::map<std::string, std::string>& target, const std::string& name, std::string_view value) {
     if (!target.emplace(name, std::string(trim(value))).second) {
         header.fail(ErrorKind::input, name, "the field appears twice", "one value");
@@ -87,11 +102,15 @@ void parse_line(NrrdHeader& header, std::string_view line, int number) {
     }
     if (pair == colon) {
         const std::string key(trim(line.substr(0, pair)));
+        for (const char* known : {"calibration_slope", "calibration_intercept"}) {
+            if (is_damaged(key, known)) header.fail(ErrorKind::input, printable(key), "is no key that is known", known);
+        }
         header.values.insert_or_assign(key, std::string(trim(line.substr(pair + 2))));
         return;
     }
     const std::string field = canonical(line.substr(0, colon));
     if (field.empty()) {
+        refuse_damaged_name(header, line.substr(0, colon));
         header.notes.push_back("unknown header field " + quoted(line.substr(0, colon)) + " ignored");
         return;
     }

@@ -1,5 +1,6 @@
 // RAW: samples and nothing else. What they are comes from the options, from a JSON sidecar and from the file name, in this order
 // (see raw_description.h); options that contradict the sidecar are an error, a name gives way to both.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include "io/byte_source.h"
 #include "io/file_access.h"
 #include "io/formats.h"
+#include "io/own_folder.h"
 #include "io/raw_description.h"
 #include "io/sample_reader.h"
 
@@ -31,9 +33,22 @@ void guess(const std::optional<T>& from_name, std::optional<T>& known, const cha
     notes.push_back(std::string(what) + " taken from the file name");
 }
 
+/// What a file says wrongly is noted and taken as 1; what a user says wrongly can be corrected at once.
+void check_spacing(const std::string& path, const Vec3& spacing) {
+    if (std::all_of(spacing.begin(), spacing.end(), [](double length) { return std::isfinite(length) && length != 0; })) return;
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = "--spacing has an axis whose samples are no distance apart",
+                                   .expected = "numbers other than 0",
+                                   .next = "correct --spacing, or leave it out"});
+}
+
 RawDescription collect(const std::string& path, const OpenOptions& options) {
     RawDescription known;
-    if (const std::optional<std::string> sidecar = find_sidecar(path)) known = read_sidecar(*sidecar);
+    if (const std::optional<std::string> sidecar = find_sidecar(path)) {
+        if (!options.follow_links) require_own_folder(path, *sidecar);
+        known = read_sidecar(*sidecar);
+    }
+    if (options.spacing) check_spacing(path, *options.spacing);
     take(path, "--dims", options.dims, known.dims);
     take(path, "--type", options.type, known.type);
     take(path, "--endian", options.big_endian, known.big_endian);
@@ -84,7 +99,8 @@ std::string what_fits(const Extent& extent, ValueType type, std::int64_t skip, s
         return "the size fits a last dimension of " + std::to_string(holds / layer) + " with this type";
     }
     if (holds > voxels * sample) {
-        return "if the file begins with a header, add --skip " + std::to_string(skip + holds - voxels * sample);
+        return "if the file begins with a header, add --skip " + std::to_string(skip + holds - voxels * sample) +
+               "; if something follows the samples, pass --skip-rest";
     }
     const std::int64_t samples = holds / sample;
     const auto edge = static_cast<std::int64_t>(std::llround(std::cbrt(static_cast<double>(samples))));
@@ -108,7 +124,7 @@ Extent extent_of(const std::string& path, const std::vector<std::int64_t>& dims)
     return extent;
 }
 
-void check_size(const std::string& path, const Extent& extent, ValueType type, std::int64_t skip, std::int64_t file_bytes) {
+void check_size(const std::string& path, const Extent& extent, ValueType type, std::int64_t skip, std::int64_t file_bytes, bool skip_rest) {
     const std::int64_t wanted = sample_bytes(path, extent, type);
     if (skip < 0 || skip > file_bytes) {
         throw Error(ErrorKind::input, {.file = path,
@@ -117,7 +133,7 @@ void check_size(const std::string& path, const Extent& extent, ValueType type, s
                                        .next = "correct --skip"});
     }
     const std::int64_t holds = file_bytes - skip;
-    if (holds == wanted) return;
+    if (holds == wanted || (holds > wanted && skip_rest)) return;
     throw Error(ErrorKind::input, {.file = path,
                                    .what = "the file holds " + std::to_string(holds) + " bytes of samples",
                                    .expected = std::to_string(wanted) + " for these dims and " + name_of(type),
@@ -141,13 +157,13 @@ std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOption
     if (!known.big_endian && size_of(info.type) > 1) info.notes.push_back("byte order not given: little endian assumed");
     info.file_bytes = file_bytes;
     const std::int64_t skip = known.skip_bytes.value_or(0);
-    check_size(path, info.extent, info.type, skip, file_bytes);
+    check_size(path, info.extent, info.type, skip, file_bytes, options.skip_rest);
     for (int axis = 0; known.spacing && axis < info.extent.rank; ++axis) set_axis_spacing(info, axis, (*known.spacing)[axis]);
     if (known.origin) info.geometry.origin = *known.origin;
     if (!known.space.empty()) info.geometry.space = known.space;
     info.geometry.unit = known.unit;
     const TimeStep step = choose_time_step(path, options, 1);
-    return make_sample_reader(std::move(info), open_file_source(path, skip), step);
+    return make_sample_reader(std::move(info), open_file_source(path, skip), options, step);
 }
 
 }  // namespace isoatlas::io

@@ -7,6 +7,7 @@
 #include "io/file_access.h"
 #include "io/raw_description.h"
 #include "io/text.h"
+#include "isoatlas/text.h"
 
 namespace isoatlas::io {
 namespace {
@@ -85,6 +86,9 @@ void read_key(const std::string& path, const std::string& key, const Json& value
         description.skip_bytes = read_skip(path, value);
     } else if (key == "spacing") {
         description.spacing = read_vector(path, key, value, 1);
+        for (const double length : *description.spacing) {
+            if (length == 0) fail(path, key, "distances other than 0");
+        }
     } else if (key == "origin") {
         description.origin = read_vector(path, key, value, 0);
     } else if (key == "unit") {
@@ -109,12 +113,12 @@ std::optional<std::string> find_sidecar(const std::string& path) {
 RawDescription read_sidecar(const std::string& sidecar_path) {
     if (file_size(sidecar_path) > kLongestSidecar) fail(sidecar_path, "", "a JSON object of less than 1 MiB");
     const std::vector<std::byte> bytes = read_header_bytes(sidecar_path, kLongestSidecar);
-    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string text = decoded_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (nested_too_deep(text)) fail(sidecar_path, "", "a flat JSON object");
     const Json object = Json::parse(text, nullptr, /*allow_exceptions=*/false);
     if (!object.is_object()) fail(sidecar_path, "", "a JSON object like {\"dims\": [64, 64, 64], \"type\": \"uint8\"}");
     RawDescription description;
-    description.notes.push_back("described by " + std::filesystem::path(sidecar_path).filename().string());
+    description.notes.push_back("described by " + shown_name(std::filesystem::path(sidecar_path).filename().string()));
     for (const auto& [key, value] : object.items()) read_key(sidecar_path, key, value, description);
     return description;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/check.h"
+#include "isoatlas/text.h"
 
 namespace isoatlas::io {
 namespace {
@@ -17,12 +18,16 @@ std::string shape_text(const Extent& extent) {
 
 class SampleReader final : public VolumeReader {
 public:
-    SampleReader(VolumeInfo info, std::unique_ptr<ByteSource> source, const TimeStep& step)
-        : source_(std::move(source)), slice_bytes_(info.extent.slice() * static_cast<std::int64_t>(size_of(info.type))) {
+    SampleReader(VolumeInfo info, std::unique_ptr<ByteSource> source, bool skip_rest, const TimeStep& step)
+        : source_(std::move(source)),
+          skip_rest_(skip_rest),
+          slice_bytes_(info.extent.slice() * static_cast<std::int64_t>(size_of(info.type))) {
         info_ = std::move(info);
+        tidy_texts(info_);
         info_.slab_readable = source_->random_access();
         begin_ = step.index * info_.extent.size[2] * slice_bytes_;
-        last_step_ = step.index + 1 == step.count;
+        wanted_ = step.count * info_.extent.size[2] * slice_bytes_;
+        if (source_->random_access()) check_end();
     }
 
     void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) override {
@@ -31,20 +36,23 @@ public:
         source_->seek(begin_ + z_begin * slice_bytes_);
         source_->read(out);
         if (needs_swap(info_.big_endian)) swap_bytes(out, size_of(info_.type));
-        if (last_step_ && z_end == info_.extent.size[2] && z_begin < z_end) check_end();
+        if (z_end == info_.extent.size[2] && z_begin < z_end) check_end();
     }
 
 private:
     void check_end() {
         if (end_checked_) return;
+        const std::int64_t rest = require_end(*source_, wanted_, skip_rest_);
         end_checked_ = true;
-        if (!source_->at_end()) info_.notes.push_back("bytes behind the samples were ignored (" + source_->file() + ")");
+        if (rest == 0) return;
+        const std::string bytes = std::to_string(rest) + (rest == 1 ? " byte behind the samples was" : " bytes behind the samples were");
+        info_.notes.push_back(bytes + " left out (" + shown_name(source_->file()) + ")");
     }
 
     std::unique_ptr<ByteSource> source_;
+    bool skip_rest_;
     std::int64_t slice_bytes_;
-    std::int64_t begin_ = 0;
-    bool last_step_ = true;
+    std::int64_t begin_ = 0, wanted_ = 0;  ///< of this volume; of all volumes
     bool end_checked_ = false;
 };
 
@@ -96,7 +104,8 @@ TimeStep choose_time_step(const std::string& path, const OpenOptions& options, s
     return {index, count};
 }
 
-std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source, const TimeStep& step) {
+std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source, const OpenOptions& options,
+                                                 const TimeStep& step) {
     const std::int64_t wanted = sample_bytes(info.path, info.extent, info.type, step.count);
     const std::int64_t bound = source->size_bound();
     if (wanted > bound) {
@@ -110,7 +119,13 @@ std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_pt
                      .expected = std::to_string(wanted) + " bytes for " + volumes + shape_text(info.extent) + " " + name_of(info.type),
                      .next = "the file is truncated or its header is wrong: get it again"});
     }
-    return std::make_unique<SampleReader>(std::move(info), std::move(source), step);
+    return std::make_unique<SampleReader>(std::move(info), std::move(source), options.skip_rest, step);
+}
+
+void tidy_texts(VolumeInfo& info) {
+    info.description = header_text(info.description, /*lines=*/true);
+    for (std::string* text : {&info.value_unit, &info.geometry.unit, &info.geometry.space}) *text = header_text(*text);
+    for (std::string& note : info.notes) note = header_text(note);
 }
 
 void swap_bytes(std::span<std::byte> samples, std::size_t bytes_per_sample) {

@@ -25,9 +25,13 @@ struct TimeStep {
 
 /// Reads info.extent samples of info.type (info.big_endian: swapped) that start at position step.index * bytes of one volume of the
 /// source. Sets info.slab_readable. Throws Error{input}, before anything is allocated, when the source cannot hold step.count volumes.
-/// When the last slice of the last volume has been read the end of the stream is checked; bytes that follow become a note.
+/// Bytes behind the last volume are Error{input}, or a note with options.skip_rest: at once with random access, else when the last slice of
+/// the volume has been read, and the stream behind it to its end.
 [[nodiscard]] std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source,
-                                                               const TimeStep& step = {});
+                                                               const OpenOptions& options, const TimeStep& step = {});
+
+/// Makes the texts of a header UTF-8 without control characters. Every reader calls it.
+void tidy_texts(VolumeInfo& info);
 
 /// Reverses the bytes of every sample in place (between big and little endian).
 void swap_bytes(std::span<std::byte> samples, std::size_t bytes_per_sample);

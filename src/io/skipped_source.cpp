@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "io/byte_source.h"
@@ -11,7 +12,10 @@ public:
     SkippedSource(std::unique_ptr<ByteSource> source, std::int64_t begin) : source_(std::move(source)), begin_(begin) {}
     void read(std::span<std::byte> out) override { source_->read(out); }
     void seek(std::int64_t offset) override { source_->seek(begin_ + offset); }
-    bool at_end() override { return source_->at_end(); }
+    std::int64_t payload_bytes(std::int64_t most) override {
+        const std::int64_t all = std::min(most, std::numeric_limits<std::int64_t>::max() - begin_ - 1) + begin_;
+        return std::max<std::int64_t>(source_->payload_bytes(all) - begin_, 0);
+    }
     bool random_access() const override { return source_->random_access(); }
     std::int64_t size_bound() const override { return std::max<std::int64_t>(source_->size_bound() - begin_, 0); }
     const std::string& file() const override { return source_->file(); }

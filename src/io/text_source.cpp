@@ -49,8 +49,12 @@ bool parse_sample(std::string_view word, ValueType type, std::byte* out) {
 
 class TextSource final : public ByteSource {
 public:
-    TextSource(std::unique_ptr<ByteSource> text, ValueType type)
-        : text_(std::move(text)), type_(type), sample_bytes_(static_cast<std::int64_t>(size_of(type))), text_bytes_(text_->size_bound()) {}
+    TextSource(std::unique_ptr<ByteSource> text, ValueType type, TextEnd end)
+        : text_(std::move(text)),
+          type_(type),
+          end_(end),
+          sample_bytes_(static_cast<std::int64_t>(size_of(type))),
+          text_bytes_(text_->size_bound()) {}
 
     void read(std::span<std::byte> out) override {  // whole samples: every reader of samples asks for those
         for (std::size_t done = 0; done < out.size(); done += static_cast<std::size_t>(sample_bytes_)) next_sample(out.data() + done);
@@ -61,9 +65,13 @@ public:
         std::byte ignored[8];
         while (samples_read_ < sample) next_sample(ignored);
     }
-    bool at_end() override {
-        skip_separators();
-        return at_ == chunk_.size() && consumed_ == text_bytes_;
+    std::int64_t payload_bytes(std::int64_t most) override {
+        std::byte ignored[8];
+        for (skip_separators(); !is_at_end(); skip_separators()) {
+            if (samples_read_ > most / sample_bytes_) return most + 1;
+            next_sample(ignored);
+        }
+        return samples_read_ * sample_bytes_;
     }
     bool random_access() const override { return false; }
     std::int64_t size_bound() const override {
@@ -100,19 +108,26 @@ private:
         word_.clear();
         while ((at_ < chunk_.size() || refill()) && !is_separator(chunk_[at_]) && word_.size() < kLongestWord) word_ += chunk_[at_++];
         if (word_.empty()) fail("the text ends early", "one more number");
+        if (is_at_end() && end_ == TextEnd::separator) {
+            fail("the text ends with " + quoted(word_) + ", which may be the beginning of a longer number", "a line end behind it",
+                 "the file is truncated: get it again; if it is whole, add a line end");
+        }
         if (!parse_sample(word_, type_, out)) fail(quoted(word_) + " is not a sample", std::string("a ") + name_of(type_) + " number");
         ++samples_read_;
     }
-    [[noreturn]] void fail(const std::string& what, const std::string& expected) const {
+    [[nodiscard]] bool is_at_end() const { return at_ == chunk_.size() && consumed_ == text_bytes_; }
+    [[noreturn]] void fail(const std::string& what, const std::string& expected,
+                           const std::string& next = "the file is truncated or damaged: get it again") const {
         throw Error(ErrorKind::input, {.file = file(),
                                        .where = "number " + std::to_string(samples_read_ + 1) + " of the samples",
                                        .what = what,
                                        .expected = expected,
-                                       .next = "the file is truncated or damaged: get it again"});
+                                       .next = next});
     }
 
     std::unique_ptr<ByteSource> text_;
     ValueType type_;
+    TextEnd end_;
     std::int64_t sample_bytes_;
     std::int64_t text_bytes_;
     std::int64_t consumed_ = 0;  // characters read into chunks
@@ -123,8 +138,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ByteSource> open_text_source(std::unique_ptr<ByteSource> text, ValueType type) {
-    return std::make_unique<TextSource>(std::move(text), type);
+std::unique_ptr<ByteSource> open_text_source(std::unique_ptr<ByteSource> text, ValueType type, TextEnd end) {
+    return std::make_unique<TextSource>(std::move(text), type, end);
 }
 
 }  // namespace isoatlas::io

@@ -23,6 +23,7 @@ public:
     TiffReader(VolumeInfo info, TiffFile file, const PageChoice& choice, std::int64_t contiguous)
         : file_(std::move(file)), choice_(choice), contiguous_(contiguous), page_bytes_(file_.pages()[0].bytes()) {
         info_ = std::move(info);
+        tidy_texts(info_);
     }
 
     void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) override {
@@ -124,7 +125,7 @@ bool looks_like_tiff(FirstBytes first, const std::string&) {
 }
 
 std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptions& options) {
-    TiffFile file(path);
+    TiffFile file(path, options.skip_rest);
     const TiffPage page = file.pages()[0];
     const TiffDescription description = parse_tiff_description(file.tags().description);
     const std::int64_t behind = pages_behind(file, description);

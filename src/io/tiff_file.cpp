@@ -3,73 +3,21 @@
 #include <tiffio.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <utility>
 
 #include "base/check.h"
+#include "io/byte_source.h"
 #include "io/file_access.h"
 #include "io/text.h"
+#include "io/tiff_client.h"
+#include "io/tiff_directory.h"
+#include "io/tiff_lengths.h"
 
 namespace isoatlas::io {
 
 namespace {
-
-constexpr std::size_t kLongestMessage = 400;
-
-/// What libtiff reads from and talks to. No exception may pass through its frames.
-struct Client {
-    std::string path;
-    std::unique_ptr<File> file;
-    std::int64_t position = 0;
-    std::string messages;  ///< what libtiff said since the last clear
-
-    void say(const std::string& text) {
-        if (messages.size() + text.size() < kLongestMessage) messages += (messages.empty() ? "" : "; ") + text;
-    }
-};
-
-Client& client_of(thandle_t handle) { return *static_cast<Client*>(handle); }
-
-tmsize_t read_bytes(thandle_t handle, void* data, tmsize_t count) {
-    Client& client = client_of(handle);
-    std::span<std::byte> out(static_cast<std::byte*>(data), static_cast<std::size_t>(std::max<tmsize_t>(count, 0)));
-    try {
-        const std::size_t done = read_available(*client.file, client.path, client.position, out);
-        client.position += static_cast<std::int64_t>(done);
-        return static_cast<tmsize_t>(done);
-    } catch (const Error& error) {
-        client.say(error.text().what);
-        return -1;
-    }
-}
-
-tmsize_t write_bytes(thandle_t, void*, tmsize_t) { return -1; }
-
-toff_t seek_bytes(thandle_t handle, toff_t offset, int origin) {
-    Client& client = client_of(handle);
-    const std::int64_t base = origin == SEEK_CUR ? client.position : origin == SEEK_END ? client.file->size() : 0;
-    std::int64_t position = 0;
-    if (__builtin_add_overflow(base, static_cast<std::int64_t>(offset), &position) || position < 0) return static_cast<toff_t>(-1);
-    client.position = position;
-    return static_cast<toff_t>(position);
-}
-
-int close_bytes(thandle_t) { return 0; }
-
-toff_t size_of_bytes(thandle_t handle) { return static_cast<toff_t>(client_of(handle).file->size()); }
-
-int on_error(TIFF*, void* data, const char*, const char* format, va_list arguments) {
-    char text[256];
-    std::vsnprintf(text, sizeof text, format, arguments);
-    static_cast<Client*>(data)->say(text);
-    return 1;  // handled: nothing is printed
-}
-
-int on_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }  // unknown tags and the like: no loss for us
 
 /// The most bytes that one compressed byte can stand for: what a strip claims beyond is a lie. Source: the longest match or run of
 /// each code over its shortest symbol (LZW: a 12-bit code for 4096 bytes; ZSTD: a 4-byte run-length block for 128 KiB).
@@ -92,15 +40,17 @@ std::int64_t largest_ratio(int compression) {
 }  // namespace
 
 struct TiffFile::Handle {
-    Client client;
+    TiffClient client;
     TIFF* tiff = nullptr;
     std::vector<TiffPage> pages;
     std::int64_t previews = 0;
     TiffTags tags;
     std::uint64_t current = 0;  ///< offset of the directory that is loaded
-    std::vector<std::byte> tile;
+    std::vector<std::byte> tile, packed;
+    bool skip_rest;  ///< a strip or tile may decode to more than its pixels
 
-    explicit Handle(const std::string& path) : client{.path = path, .file = open_file(path), .messages = {}} {}
+    Handle(const std::string& path, bool may_skip_rest)
+        : client{.path = path, .file = open_file(path), .messages = {}}, skip_rest(may_skip_rest) {}
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
     ~Handle() {
@@ -109,13 +59,16 @@ struct TiffFile::Handle {
 
     void open();
     void list_pages();
-    void require_link() const;
+    [[nodiscard]] std::vector<TiffEntry> directory_entries() const;
+    void check_entries(const std::vector<TiffEntry>& entries) const;
     [[nodiscard]] TiffPage describe_page() const;
     [[nodiscard]] ValueType sample_type() const;
     void check_page(const TiffPage& page) const;
     void check_pieces(const TiffPage& page) const;
     void read_tags();
     void load(std::int64_t page);
+    void check_piece(std::uint32_t piece, std::int64_t wanted, const std::string& where);
+    [[nodiscard]] std::int64_t decoded_bytes(std::uint32_t piece, std::int64_t wanted);
     void read_strips(std::span<std::byte> out, const std::string& where);
     void read_tiles(const TiffPage& page, std::span<std::byte> out, const std::string& where);
     void copy_tile(const TiffPage& page, std::int64_t x, std::int64_t y, std::span<std::byte> out) const;
@@ -139,15 +92,7 @@ struct TiffFile::Handle {
 };
 
 void TiffFile::Handle::open() {
-    TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-    if (options == nullptr) throw Error(ErrorKind::resource, {.file = client.path, .what = "not enough memory to open the file"});
-    TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, &client);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, &client);
-    // libtiff itself needs compressed strips, tables and codec states: in proportion to the file, never to what it claims.
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options, (std::int64_t{64} << 20) + 2 * client.file->size());
-    tiff = TIFFClientOpenExt(client.path.c_str(), "rmc", &client, read_bytes, write_bytes, seek_bytes, close_bytes, size_of_bytes, nullptr,
-                             nullptr, options);
-    TIFFOpenOptionsFree(options);
+    tiff = open_tiff_client(client);
     if (tiff == nullptr) corrupt("header", "cannot be read as TIFF");
     list_pages();
 }
@@ -156,7 +101,7 @@ void TiffFile::Handle::list_pages() {
     do {
         client.messages.clear();
         current = TIFFCurrentDirOffset(tiff);
-        require_link();
+        const std::vector<TiffEntry> entries = directory_entries();
         constexpr std::uint32_t kPreview = FILETYPE_REDUCEDIMAGE | FILETYPE_MASK;
         if ((tag<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0) & kPreview) != 0 && !pages.empty()) {
             ++previews;
@@ -164,6 +109,7 @@ void TiffFile::Handle::list_pages() {
             continue;
         }
         const TiffPage page = describe_page();
+        check_entries(entries);
         if (pages.empty()) read_tags();
         check_page(page);
         pages.push_back(page);
@@ -173,19 +119,24 @@ void TiffFile::Handle::list_pages() {
     if (!client.messages.empty() || TIFFLastDirectory(tiff) == 0) corrupt(next_page(), "its directory cannot be read");
 }
 
-/// A directory ends with the offset of the next one. libtiff takes a missing one for the end of the file: pages would be lost silently.
-void TiffFile::Handle::require_link() const {
-    const bool big = TIFFIsBigTIFF(tiff) != 0;
-    std::array<std::byte, 8> raw{};
-    const auto count_bytes = std::span(raw).first(big ? 8 : 2);
-    read_fully(*client.file, client.path, static_cast<std::int64_t>(current), count_bytes);
-    if (TIFFIsBigEndian(tiff) == 0) std::reverse(count_bytes.begin(), count_bytes.end());
-    std::uint64_t entries = 0;
-    for (const std::byte byte : count_bytes) entries = entries << 8 | std::to_integer<std::uint64_t>(byte);
-    const auto room = static_cast<std::uint64_t>(client.file->size()) - current;  // libtiff has read the entries
-    if (entries > room || (big ? 8 + 20 * entries + 8 : 2 + 12 * entries + 4) > room) {
-        corrupt(next_page(), "the file ends inside the directory of this page");
-    }
+/// libtiff takes a missing link to the next directory for the end of the file: pages would be lost silently.
+std::vector<TiffEntry> TiffFile::Handle::directory_entries() const {
+    auto entries = read_tiff_entries(*client.file, client.path, current, TIFFIsBigTIFF(tiff) != 0, TIFFIsBigEndian(tiff) != 0);
+    if (!entries) corrupt(next_page(), "the file ends inside the directory of this page");
+    return std::move(*entries);
+}
+
+void TiffFile::Handle::check_entries(const std::vector<TiffEntry>& entries) const {
+    const std::string doubt = doubtful_tag(entries);
+    if (!doubt.empty()) corrupt(next_page(), "its directory is damaged: " + doubt);
+    const std::uint64_t listed = pieces_listed(entries),
+                        wanted = TIFFIsTiled(tiff) != 0 ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+    if (listed <= wanted || skip_rest) return;
+    throw Error(ErrorKind::input, {.file = client.path,
+                                   .where = next_page(),
+                                   .what = "its directory lists " + std::to_string(listed) + " strips or tiles",
+                                   .expected = std::to_string(wanted) + " for its size",
+                                   .next = "the file is damaged, or its program writes more than the pixels: then pass --skip-rest"});
 }
 
 TiffPage TiffFile::Handle::describe_page() const {
@@ -248,6 +199,10 @@ void TiffFile::Handle::check_pieces(const TiffPage& page) const {
     const std::uint64_t full = tiled ? TIFFTileSize64(tiff) : TIFFStripSize64(tiff);
     const std::int64_t ratio = largest_ratio(page.compression);
     if (pieces == 0 || full == 0) corrupt(next_page(), "its strips or tiles are not described");
+    const bool is_deflate = page.compression == COMPRESSION_DEFLATE || page.compression == COMPRESSION_ADOBE_DEFLATE;
+    if (is_deflate && tag<std::uint16_t>(TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) != FILLORDER_MSB2LSB) {
+        unsupported("the bits of its deflate streams are in reverse order", "FillOrder 1", "save it again with another program");
+    }
     for (std::uint32_t piece = 0; piece < pieces; ++piece) {
         const bool last_strip = !tiled && piece + 1 == pieces;
         const std::uint64_t wanted = last_strip ? static_cast<std::uint64_t>(page.bytes()) - (pieces - 1) * full : full;
@@ -281,6 +236,34 @@ void TiffFile::Handle::load(std::int64_t page) {
     current = directory;
 }
 
+/// How many bytes a strip or tile decodes to, with its checksum compared where its code has one; `wanted` where that cannot be known.
+std::int64_t TiffFile::Handle::decoded_bytes(std::uint32_t piece, std::int64_t wanted) {
+    const int compression = tag<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    const auto offset = static_cast<std::int64_t>(TIFFGetStrileOffset(tiff, piece));
+    const std::int64_t room = client.file->size() - offset;
+    const auto bytes = static_cast<std::int64_t>(std::min(TIFFGetStrileByteCount(tiff, piece), static_cast<std::uint64_t>(room)));
+    if (compression == COMPRESSION_DEFLATE || compression == COMPRESSION_ADOBE_DEFLATE) {
+        return inflated_bytes(client.path, offset, bytes, wanted + kMostRest);
+    }
+    if (compression != COMPRESSION_LZW && compression != COMPRESSION_PACKBITS) return wanted;
+    packed.resize(static_cast<std::size_t>(bytes));
+    read_fully(*client.file, client.path, offset, packed);
+    return compression == COMPRESSION_LZW ? lzw_bytes(packed).value_or(wanted) : packbits_bytes(packed);
+}
+
+/// libtiff stops when it has enough bytes: before the checksum of deflate, and before bytes that should not be there.
+void TiffFile::Handle::check_piece(std::uint32_t piece, std::int64_t wanted, const std::string& where) {
+    const std::int64_t found = decoded_bytes(piece, wanted);
+    if (found == wanted || (found > wanted && skip_rest)) return;
+    throw Error(ErrorKind::input,
+                {.file = client.path,
+                 .where = where,
+                 .what = "it decodes to " + std::to_string(found) + (found > wanted + kMostRest ? " bytes or more" : " bytes"),
+                 .expected = std::to_string(wanted) + " bytes",
+                 .next = found > wanted ? "the file is damaged, or its program writes more than the pixels: then pass --skip-rest"
+                                        : "the file is damaged or incomplete: copy or export it again"});
+}
+
 void TiffFile::Handle::read_strips(std::span<std::byte> out, const std::string& where) {
     const auto strip_bytes = static_cast<std::size_t>(TIFFStripSize64(tiff));
     std::uint32_t strip = 0;
@@ -290,6 +273,7 @@ void TiffFile::Handle::read_strips(std::span<std::byte> out, const std::string& 
         if (TIFFReadEncodedStrip(tiff, strip, part.data(), wanted) != wanted) {
             corrupt(where + ", strip " + std::to_string(strip), "cannot be read");
         }
+        check_piece(strip, wanted, where + ", strip " + std::to_string(strip));
     }
 }
 
@@ -303,6 +287,7 @@ void TiffFile::Handle::read_tiles(const TiffPage& page, std::span<std::byte> out
             if (TIFFReadEncodedTile(tiff, number, tile.data(), wanted) != wanted) {
                 corrupt(where + ", tile " + std::to_string(number), "cannot be read");
             }
+            check_piece(number, wanted, where + ", tile " + std::to_string(number));
             copy_tile(page, x, y, out);
         }
     }
@@ -319,7 +304,7 @@ void TiffFile::Handle::copy_tile(const TiffPage& page, std::int64_t x, std::int6
     }
 }
 
-TiffFile::TiffFile(const std::string& path) : handle_(std::make_unique<Handle>(path)) { handle_->open(); }
+TiffFile::TiffFile(const std::string& path, bool skip_rest) : handle_(std::make_unique<Handle>(path, skip_rest)) { handle_->open(); }
 TiffFile::~TiffFile() = default;
 TiffFile::TiffFile(TiffFile&&) noexcept = default;
 TiffFile& TiffFile::operator=(TiffFile&&) noexcept = default;

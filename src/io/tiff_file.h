@@ -1,4 +1,4 @@
-// TiffFile: the pages of a TIFF or BigTIFF file as samples. The only place that knows libtiff.
+// TiffFile: the pages of a TIFF or BigTIFF file as samples. Only this and tiff_client.h know libtiff.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,8 @@ struct TiffTags {
 /// Messages of libtiff become part of the error; nothing is printed. Not thread safe.
 class TiffFile {
 public:
-    explicit TiffFile(const std::string& path);
+    /// skip_rest: strips and tiles may decode to more bytes than the page has.
+    explicit TiffFile(const std::string& path, bool skip_rest = false);
     ~TiffFile();
     TiffFile(TiffFile&&) noexcept;
     TiffFile& operator=(TiffFile&&) noexcept;
@@ -56,7 +57,8 @@ public:
     [[nodiscard]] std::string encoding() const;
     /// Offset of the first sample when the first page is uncompressed and in one piece, else -1.
     [[nodiscard]] std::int64_t contiguous_offset();
-    /// Decodes a page, host byte order. out.size() == pages()[page].bytes(). Throws Error{input} naming the page.
+    /// Decodes a page, host byte order. out.size() == pages()[page].bytes(). Throws Error{input} naming the page: also when the checksum of
+    /// a deflate stream is wrong, or when a strip or tile of deflate, LZW or PackBits does not decode to exactly its pixels.
     void read(std::int64_t page, std::span<std::byte> out);
     /// The bytes of the file themselves.
     void read_raw(std::int64_t offset, std::span<std::byte> out);

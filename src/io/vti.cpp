@@ -38,7 +38,20 @@ pugi::xml_document parse(const std::string& path, const XmlSkeleton& skeleton) {
     return document;
 }
 
+/// Attributes with a default that decide samples: one that differs from them in a character is damaged, and a default would be wrong.
+void check_root(const std::string& path, const pugi::xml_node& root) {
+    for (const pugi::xml_attribute given : root.attributes()) {
+        for (const char* known : {"byte_order", "header_type", "compressor"}) {
+            if (is_damaged(given.name(), known)) bad_xml(path, "VTKFile", "has an attribute " + quoted(given.name()), known);
+        }
+    }
+    const std::string_view order = attribute(root, "byte_order");
+    if (!order.empty() && order != "LittleEndian" && order != "BigEndian")
+        bad_xml(path, "VTKFile byte_order", quoted(order), "LittleEndian or BigEndian");
+}
+
 VtkFile describe_file(const std::string& path, const pugi::xml_node& root, const XmlSkeleton& skeleton) {
+    check_root(path, root);
     VtkFile file;
     file.path = path;
     file.big_endian = attribute(root, "byte_order") == "BigEndian";
@@ -104,17 +117,20 @@ VtkArray describe_array(const std::string& path, const pugi::xml_node& node) {
 }
 
 /// The array to read: the active scalars, else the first with one component.
-pugi::xml_node choose_array(const pugi::xml_node& data, std::vector<std::string>& notes) {
+pugi::xml_node choose_array(const std::string& path, const pugi::xml_node& data, std::vector<std::string>& notes) {
     const std::string_view active = attribute(data, "Scalars");
     pugi::xml_node first, chosen;
     std::int64_t usable = 0;
+    bool is_there = active.empty();
     for (const pugi::xml_node node : data.children()) {
+        is_there = is_there || attribute(node, "Name") == active;
         if (!is_element(node, "DataArray") || components(node) != 1) continue;
         ++usable;
         if (!first) first = node;
         if (!active.empty() && attribute(node, "Name") == active && !chosen) chosen = node;
     }
     if (usable > 1) {
+        if (!is_there) bad_xml(path, data.name(), "the active scalars are " + quoted(active), "the name of an array of the file");
         const pugi::xml_node taken = chosen ? chosen : first;
         notes.push_back("the file has " + std::to_string(usable) + " scalar arrays: " + quoted(attribute(taken, "Name")) + " is read" +
                         (chosen ? " (its active scalars)" : " (the first)"));
@@ -132,7 +148,7 @@ struct Choice {
 Choice choose_data(const std::string& path, const pugi::xml_node& piece, std::vector<std::string>& notes) {
     for (const bool cells : {false, true}) {
         const pugi::xml_node data = piece.child(cells ? "CellData" : "PointData");
-        const pugi::xml_node array = choose_array(data, notes);
+        const pugi::xml_node array = choose_array(path, data, notes);
         if (!array) continue;
         if (cells) notes.push_back("the file has values of cells, not of points: each cell is taken as one sample at its centre");
         return {.array = array, .cells = cells};
@@ -179,7 +195,8 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     const XmlSkeleton skeleton = read_xml_skeleton(path);
     const pugi::xml_document document = parse(path, skeleton);
     const pugi::xml_node root = document.document_element(), grid = find_grid(path, root), piece = only_piece(path, grid);
-    const VtkFile file = describe_file(path, root, skeleton);
+    VtkFile file = describe_file(path, root, skeleton);
+    file.skip_rest = options.skip_rest;
     (void)choose_time_step(path, options, 1);
     VolumeInfo info;
     info.path = path;
@@ -204,7 +221,7 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     }
     if (info.extent.rank == 2) info.notes.push_back("the grid has a single slice along z: read as a 2D image");
     auto source = open_vtk_array(file, array, info.extent.voxels());
-    return make_sample_reader(std::move(info), std::move(source));
+    return make_sample_reader(std::move(info), std::move(source), options);
 }
 
 }  // namespace isoatlas::io

@@ -50,19 +50,18 @@ std::int64_t read_word(ByteSource& source, const VtkFile& file, const VtkArray& 
 /// The bytes [offset, offset + length) of another source.
 class PartSource final : public ByteSource {
 public:
-    PartSource(std::unique_ptr<ByteSource> inner, std::int64_t offset, std::int64_t length)
-        : inner_(std::move(inner)), offset_(offset), length_(length) {
+    /// is_last: nothing may follow in the other source (appended arrays are followed by others).
+    PartSource(std::unique_ptr<ByteSource> inner, std::int64_t offset, std::int64_t length, bool is_last)
+        : inner_(std::move(inner)), offset_(offset), length_(length), is_last_(is_last) {
         inner_->seek(offset_);
     }
-    void read(std::span<std::byte> out) override {
-        inner_->read(out);
-        position_ += static_cast<std::int64_t>(out.size());
+    void read(std::span<std::byte> out) override { inner_->read(out); }
+    void seek(std::int64_t offset) override { inner_->seek(offset_ + offset); }
+    std::int64_t payload_bytes(std::int64_t most) override {
+        if (!is_last_) return most < length_ ? most + 1 : length_;
+        const std::int64_t all = std::min(most, std::numeric_limits<std::int64_t>::max() - offset_ - 1) + offset_;
+        return std::max<std::int64_t>(inner_->payload_bytes(all) - offset_, 0);
     }
-    void seek(std::int64_t offset) override {
-        inner_->seek(offset_ + offset);
-        position_ = offset;
-    }
-    bool at_end() override { return position_ >= length_; }
     bool random_access() const override { return inner_->random_access(); }
     std::int64_t size_bound() const override { return std::min(length_, std::max<std::int64_t>(inner_->size_bound() - offset_, 0)); }
     const std::string& file() const override { return inner_->file(); }
@@ -70,7 +69,7 @@ public:
 private:
     std::unique_ptr<ByteSource> inner_;
     std::int64_t offset_, length_;
-    std::int64_t position_ = 0;
+    bool is_last_;
 };
 
 /// Where the blocks of a compressed array are.
@@ -104,7 +103,7 @@ public:
         }
     }
     void seek(std::int64_t offset) override { position_ = offset; }
-    bool at_end() override { return position_ >= table_.bytes(); }
+    std::int64_t payload_bytes(std::int64_t most) override { return most < table_.bytes() ? most + 1 : table_.bytes(); }
     bool random_access() const override { return inner_->random_access(); }
     std::int64_t size_bound() const override { return table_.bytes(); }
     const std::string& file() const override { return inner_->file(); }
@@ -182,7 +181,7 @@ std::unique_ptr<ByteSource> open_encoded(const VtkFile& file, const VtkArray& ar
 
 std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, std::int64_t count) {
     if (array.format == VtkFormat::ascii) {
-        return open_text_source(open_file_source(file.path, array.begin, array.end - array.begin), array.type);
+        return open_text_source(open_file_source(file.path, array.begin, array.end - array.begin), array.type, TextEnd::anything);
     }
     const std::int64_t wanted = count * static_cast<std::int64_t>(size_of(array.type));
     std::unique_ptr<ByteSource> source = open_encoded(file, array);
@@ -192,9 +191,10 @@ std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& 
         length = source->size_bound();
     } else {
         length = read_word(*source, file, array);
-        source = std::make_unique<PartSource>(std::move(source), file.wide_headers ? 8 : 4, length);
+        source = std::make_unique<PartSource>(std::move(source), file.wide_headers ? 8 : 4, length, array.format == VtkFormat::binary);
     }
-    if (length != wanted)
+    if (length > wanted && !file.skip_rest) refuse_rest(file.path, length - wanted);
+    if (length < wanted)
         bad_array(file, array, "it has " + std::to_string(length) + " bytes", std::to_string(wanted) + " bytes for the extent");
     return source;
 }

@@ -21,6 +21,7 @@ struct VtkFile {
     bool compressed = false;      ///< vtkZLibDataCompressor
     std::int64_t appended = -1;   ///< offset of the appended section; -1: none
     bool appended_is_raw = true;  ///< else base64
+    bool skip_rest = false;       ///< an array may hold more samples than the extent
 };
 
 struct VtkArray {
@@ -32,7 +33,8 @@ struct VtkArray {
 };
 
 /// The `count` samples of an array, in the byte order of the file (ascii: of this machine). Random access for appended raw.
-/// Throws Error{input}, before anything of that size is allocated, when the array cannot hold exactly `count` samples.
+/// Throws Error{input}, before anything of that size is allocated, when the array cannot hold exactly `count` samples (with
+/// skip_rest: at least so many).
 [[nodiscard]] std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, std::int64_t count);
 
 /// "ascii", "base64", "raw", "raw zlib", ...: for the user.

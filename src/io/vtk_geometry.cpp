@@ -133,7 +133,9 @@ std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, std
     line.big_endian = array.format == VtkFormat::ascii ? needs_swap(false) : file.big_endian;
     line.extent = {.rank = 3, .size = {count, 1, 1}};
     (void)sample_bytes(file.path, line.extent, line.type);
-    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, open_vtk_array(file, array, count));
+    OpenOptions options;
+    options.skip_rest = file.skip_rest;
+    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, open_vtk_array(file, array, count), options);
     std::vector<std::byte> bytes(static_cast<std::size_t>(count) * size_of(array.type));
     reader->read(0, 1, bytes);
     switch (array.type) {

@@ -12,6 +12,7 @@ public:
     FileStatus status_of_name(const std::string& path) override { return below_.status_of_name(path); }
     OpenedFile open(const std::string& path) override { return below_.open(path); }
     std::string link(const std::string& path) override { return below_.link(path); }
+    std::string resolved(const std::string& path) override { return below_.resolved(path); }
     OpenedFile open_stream(const std::string& path) override { return below_.open_stream(path); }
     OpenedFile create(const std::string& path, unsigned mode) override { return below_.create(path, mode); }
     OpenedFile create_unnamed(const std::string& folder, unsigned mode) override { return below_.create_unnamed(folder, mode); }

@@ -215,8 +215,9 @@ TEST(VolumeHeaders, OddReferences) {
     const test::TestFolder folder;
     const std::string start = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n";
     std::string bytes;
-    EXPECT_TRUE(load_by_the_rules(folder.write("self.nhdr", "x"), start + "data file: self.nhdr\n", bytes));
-    EXPECT_EQ(bytes, start.substr(0, 8));
+    EXPECT_FALSE(load_by_the_rules(folder.write("self.nhdr", "x"), start + "data file: self.nhdr\n", bytes));
+    EXPECT_TRUE(load_by_the_rules(folder.write("self.nhdr", "x"), start + "byte skip: -1\ndata file: self.nhdr\n", bytes));
+    EXPECT_EQ(bytes, std::string("lf.nhdr\n"));
     EXPECT_FALSE(load_by_the_rules(folder.write("folder.nhdr", "x"), start + "data file: .\n", bytes));
     EXPECT_FALSE(load_by_the_rules(folder.write("huge.nhdr", "x"), start + "data file: s%d.raw 1 1000000000000 1\n", bytes));
     EXPECT_FALSE(load_by_the_rules(folder.write("long.nhdr", "x"), start + "data file: " + std::string(5000, 'x') + "\n", bytes));

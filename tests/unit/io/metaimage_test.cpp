@@ -49,7 +49,8 @@ TEST(MetaImage, EveryTypeEndianAndCompression) {
             EXPECT_EQ(reader->info().slab_readable, more.find("Compressed") == std::string::npos);
             EXPECT_EQ(reader->info().file_bytes, static_cast<std::int64_t>(std::filesystem::file_size(path)));
             for (std::int64_t slices = 1; slices <= 3; ++slices) EXPECT_EQ(test::read_all(*reader, slices), samples);
-            EXPECT_TRUE(reader->info().notes.empty());
+            const bool guessed = bytes > 1 && more.find("ByteOrder") == std::string::npos;
+            EXPECT_EQ(reader->info().notes.size(), guessed ? 1U : 0U);
         }
     }
 }

@@ -120,7 +120,8 @@ TEST(Raw, SizesThatDoNotFit) {
     };
     EXPECT_EQ(next({10, 10, 5}, ValueType::u8), "the size fits these dims with --type uint16 or int16");
     EXPECT_EQ(next({10, 10, 9}, ValueType::u8), "the size fits a last dimension of 10 with this type");
-    EXPECT_EQ(next({3, 3, 3}, ValueType::u8), "if the file begins with a header, add --skip 973");
+    EXPECT_EQ(next({3, 3, 3}, ValueType::u8),
+              "if the file begins with a header, add --skip 973; if something follows the samples, pass --skip-rest");
     EXPECT_EQ(next({11, 11, 11}, ValueType::u8), "the size fits --dims 10x10x10 with this type");
     EXPECT_EQ(next({7, 7, 77}, ValueType::f64), "the size fits --dims 5x5x5 with this type");
     EXPECT_EQ(next({7, 7, 77}, ValueType::f32), "check --dims, --type and --skip");

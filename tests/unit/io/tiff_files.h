@@ -18,10 +18,11 @@ struct TiffRecipe {
     int tile = 0;  ///< side of a tile; 0: strips
     int samples_per_pixel = 1;
     int photometric = PHOTOMETRIC_MINISBLACK;
-    std::string description;
+    std::string description{};
     float x_resolution = 0, y_resolution = 0;
     int resolution_unit = 0;
-    int bits = 0;  ///< 0: those of the type
+    int bits = 0;       ///< 0: those of the type
+    int predictor = 0;  ///< 0: none is written
 };
 
 /// Samples in host byte order, page after page; tiles are padded with zeros.
@@ -43,6 +44,7 @@ inline void write_tiff_file(const std::string& path, const TiffRecipe& r, const 
                      : is_signed         ? SAMPLEFORMAT_INT
                                          : SAMPLEFORMAT_UINT);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, r.compression);
+        if (r.predictor != 0) TIFFSetField(tiff, TIFFTAG_PREDICTOR, r.predictor);
         if (!r.description.empty() && z == 0) TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, r.description.c_str());
         if (r.x_resolution > 0) {
             TIFFSetField(tiff, TIFFTAG_XRESOLUTION, static_cast<double>(r.x_resolution));

@@ -1,0 +1,15 @@
+// Which files a header may name: those of its own folder. A volume from a stranger must not make a store or a page of other files.
+#pragma once
+
+#include <string>
+
+namespace isoatlas::io {
+
+/// Throws Error{input} when `file`, with all links followed, does not lie in the folder of `header` or below it. Its own folder is the one
+/// that the path of the header names, and the one where the header lies when that path is a link. Nothing is opened, and the message does
+/// not tell whether there is such a file.
+void require_own_folder(const std::string& header, const std::string& file);
+/// The same for a file that was found in a folder of slices.
+void require_inside(const std::string& folder, const std::string& file);
+
+}  // namespace isoatlas::io
