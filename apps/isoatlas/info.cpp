@@ -134,9 +134,9 @@ void print_geometry(std::ostream& out, const VolumeInfo& info) {
 
 void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values, const Arguments& arguments) {
     std::ostream& out = terminal.out();
-    out << terminal.bold(info.path) << '\n';
+    out << terminal.bold(shown_name(info.path)) << '\n';
     out << "format       " << info.format << ", " << info.encoding << (info.big_endian ? ", big endian" : "")
-        << (info.data_file.empty() ? "" : ", samples in " + info.data_file) << '\n';
+        << (info.data_file.empty() ? "" : ", samples in " + shown_name(info.data_file)) << '\n';
     if (!info.description.empty()) out << "description  " << info.description << '\n';
     out << "samples      " << extent_text(info.extent) << "  " << name_of(info.type) << "  (" << count_text(info.extent.voxels())
         << " voxels, " << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
@@ -181,6 +181,7 @@ int run_info(const Arguments& arguments, Terminal& terminal) {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
         info = reader->info();
         values = read_values(*reader, session);
+        info.notes = reader->info().notes;  // what is known at the end of the file only
     }
     if (arguments.voxel_units) info.geometry = Geometry{};
     if (arguments.json) {

@@ -69,7 +69,7 @@ Context Session::context() {
 std::string Session::describe(const VolumeInfo& info, const ValueRange& range) {
     const Scale scale(info);
     const Vec3& spacing = info.geometry.spacing;
-    std::string line = fmt::format("{}  {}  {}  {}", info.path, info.format, extent_text(info.extent), name_of(info.type));
+    std::string line = fmt::format("{}  {}  {}  {}", shown_name(info.path), info.format, extent_text(info.extent), name_of(info.type));
     if (info.geometry.coordinates[0].empty()) {
         line += fmt::format("  spacing {:.5g} x {:.5g}", spacing[0], spacing[1]);
         if (info.extent.rank == 3) line += fmt::format(" x {:.5g}", spacing[2]);
@@ -173,6 +173,8 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.open.spacing) text += vector("--spacing", *arguments.open.spacing);
     if (arguments.open.origin) text += vector("--origin", *arguments.open.origin);
     if (arguments.open.time_step) text += fmt::format(" --time-step {}", *arguments.open.time_step);
+    if (arguments.open.skip_rest) text += " --skip-rest";
+    if (arguments.open.follow_links) text += " --follow-links";
     if (arguments.missing.action == MissingPolicy::Action::below) text += " --missing below";
     if (arguments.missing.action == MissingPolicy::Action::replace) text += fmt::format(" --missing {}", arguments.missing.value);
     if (arguments.missing.no_data) text += fmt::format(" --no-data {}", *arguments.missing.no_data);

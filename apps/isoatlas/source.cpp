@@ -22,7 +22,8 @@ void check_store_options(const Arguments& arguments, const Atlas& atlas) {
         refuse("--interpolant", std::string("--interpolant ") + name_of(atlas.interpolant()));
     if (arguments.tunnel_height > 0) refuse("--tunnel-height", fmt::format("a tunnel height of {}", atlas.tunnel_height()));
     const OpenOptions& open = arguments.open;
-    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.spacing || open.origin || open.time_step)
+    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.spacing || open.origin || open.time_step || open.skip_rest ||
+        open.follow_links)
         refuse("an option of the reader", "what the volume file said");
     if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
 }

@@ -33,6 +33,13 @@ def main():
     write("nrrd", "detached", nrrd(4, plain + "encoding: raw\nbyte skip: -1\ndata file: v.raw\n", b""))
     write("nrrd", "series", nrrd(4, plain + "encoding: raw\nbyte skip: 9\ndata file: s%03d.raw 1 4 1 2\n", b""))
     write("nrrd", "list", nrrd(4, plain + "encoding: raw\nbyte skip: 9\ndata file: LIST\na\nb\n", b""))
+    write("nrrd", "longer", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES + b"more", mtime=0)))
+    write("nrrd", "members", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES[:20], mtime=0) + gzip.compress(SAMPLES[20:], mtime=0)))
+    write("nrrd", "behind", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES, mtime=0) + b"garbage"))
+    write("nrrd", "elsewhere", nrrd(4, plain + "encoding: raw\nbyte skip: -1\ndata file: ../v.raw\n", b""))
+    latin = 'content: Sch\xe4del\nspace units: "\xb5m" "\xb5m" "\xb5m"\nsample units: \xb0C\n'.encode("latin-1")
+    write("nrrd", "latin", b"NRRD0004\n" + oriented.replace('space units: "mm" "mm" "mm"\n', "").encode() + b"encoding: raw\n" + latin + b"\n" + SAMPLES)
+    write("nrrd", "cut", nrrd(2, "type: int\ndimension: 2\nsizes: 2 2\nencoding: ascii\n", b"1 2 3 4"))
     time = "type: uchar\ndimension: 4\nsizes: 2 3 4 2\nkinds: space space space time\nencoding: raw\n"
     write("nrrd", "time", nrrd(4, time, SAMPLES))
     write("nrrd", "colour", nrrd(4, "type: uchar\ndimension: 3\nsizes: 3 4 4\nkinds: RGB-color domain domain\nencoding: raw\n", SAMPLES))
@@ -45,6 +52,8 @@ def main():
     packed = zlib.compress(SAMPLES)
     write("metaimage", "raw", (meta + local).encode() + SAMPLES)
     write("metaimage", "zlib", (meta + f"CompressedData = True\nCompressedDataSize = {len(packed)}\n" + local).encode() + packed)
+    write("metaimage", "longer", (meta + "CompressedData = True\nComment = Sch\xe4del\n" + local).encode("latin-1") + zlib.compress(SAMPLES + b"more"))
+    write("metaimage", "damaged", (meta.replace("BinaryDataByteOrderMSB ", "BinaryDataByteOrderMSB0") + local).encode() + SAMPLES)
     write("metaimage", "detached", (meta + "HeaderSize = -1\nElementDataFile = v.raw\n").encode())
     write("metaimage", "list", (meta + "HeaderSize = 5\nElementDataFile = LIST\na\nb\nc\n").encode())
     write("metaimage", "series", (meta + "HeaderSize = 5\nElementDataFile = s%03d.raw 1 4 1\n").encode())
@@ -63,6 +72,7 @@ def main():
             write("npy", f"{name}{version}", b"\x93NUMPY" + bytes([version, 0]) + length + text + SAMPLES)
 
     write("raw", "all", b'{"dims": [2, 3, 4], "type": "int16", "endian": "big", "skip": 3, "spacing": [1, 2, 0.5], "origin": [0, 0, 0], "unit": "um", "space": "RAS"}')
+    write("raw", "zeros", b'{"dims": [2, 3, 4], "type": "u8", "spacing": [0, 1, 1], "unit": "\xb5m"}')
     write("raw", "few", b'{"dims": [2, 3], "type": "u8"}')
     write("raw", "name", b"foo_512x512x128_float32_be.raw")
 

@@ -91,6 +91,7 @@ int open_and_read(const Open& open, const std::uint8_t* data, std::size_t size) 
         try {
             isoatlas::OpenOptions options;
             if (step >= 0) options.time_step = step;
+            options.skip_rest = step >= 0;
             const std::unique_ptr<isoatlas::VolumeReader> reader = open(std::string("fuzz"), options);
             check_info(reader->info());
             read_twice(*reader);

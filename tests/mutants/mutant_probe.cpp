@@ -13,6 +13,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
+#include "mutants/damaged_inputs.h"
 #include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/finer.h"
@@ -153,6 +154,10 @@ void check_requests() {
 int main() try {
     check_outputs();
     check_requests();
+    if (const std::string promise = mutants::broken_promise_of_readers(); !promise.empty()) {
+        std::printf("does not hold: %s\n", promise.c_str());
+        return 1;
+    }
     std::mt19937 random(20240501);
     const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     for (int trial = 0; trial < 400; ++trial) {

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-STAGES = ("base", "field", "critical", "tree", "zones", "query", "mesh")  # what the probe runs
+STAGES = ("base", "io", "field", "critical", "tree", "zones", "query", "mesh")  # what the probe runs
 FILES = ("server/request_head.cpp",)                                      # and of others
 
 
