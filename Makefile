@@ -7,7 +7,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo test check build install format lint bench table131 fuzz asan tsan coverage clean
+.PHONY: help demo test check build install format lint bench memory table131 fuzz asan tsan coverage clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -36,6 +36,10 @@ lint: ## clang-tidy over src and apps
 
 bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster; writes build/bench/*.json and docs/performance.md
 	@scripts/bench.sh
+
+memory: build ## does --memory hold? volumes of all kinds, sizes and budgets; writes docs/memory.md
+	@mkdir -p build/bench
+	@/usr/bin/python3 bench/memory/matrix.py build/release/bin/isoatlas -o build/bench/memory.json --page docs/memory.md
 
 table131: build ## the dissertation's table 13.1 beside ours; writes docs/performance.md
 	@python3 bench/table131.py build/release/bin/isoatlas ../shared/data

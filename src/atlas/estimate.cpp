@@ -80,7 +80,10 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const double window =
         options.gaussian > 0 ? static_cast<double>(2 * gaussian_radius(filtered_info(info, options), options.gaussian)[2] + 1) : 0;
     const std::int64_t filter = rounded(window * static_cast<double>(info.extent.slice()) * sizeof(double));
-    estimate.memory_least = filter + std::max(kLeastMemory, kProgram + workers * 8 * info.extent.slice() + rounded(voxels / 64));
+    // Slices that every thread holds; what is kept of every brick; counts of levels, of every part that is counted on its own.
+    const std::int64_t slices = workers * 8 * info.extent.slice(), bricks = rounded(voxels / 16);
+    const std::int64_t census = (2 * std::int64_t{workers} + 1) * 40 * rounded(std::clamp(voxels / 256, 256.0, 65535.0));
+    estimate.memory_least = filter + std::max(kLeastMemory, kProgram + slices + bricks + census);
     estimate.uses_scratch = estimate.memory > estimate.budget / 5 * 3;
     const double stored = elements > voxels / 2 ? 3 : 7;  // bytes an element; of noise without order and values
     estimate.store_bytes = rounded(voxels * sample + elements * stored);

@@ -1,11 +1,13 @@
 #include "base/memory_limit.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -14,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -28,7 +31,6 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kLeastPiece = std::size_t{1} << 20;  // smaller arrays stay in memory
 constexpr std::size_t kPage = 4096;
 thread_local bool keeps_in_memory = false;  // KeepInMemory
 
@@ -51,11 +53,26 @@ int open_scratch(const std::string& folder) {
     return file;
 }
 
-std::int64_t resident_memory(int statm) {
+struct Resident {
+    std::int64_t all, of_files;  ///< bytes
+};
+
+Resident resident_memory(int statm) {
     char text[128] = {};
-    if (::pread(statm, text, sizeof text - 1, 0) <= 0) return 0;
-    long long pages = 0, resident = 0;
-    return std::sscanf(text, "%lld %lld", &pages, &resident) == 2 ? resident * static_cast<std::int64_t>(kPage) : 0;
+    if (::pread(statm, text, sizeof text - 1, 0) <= 0) return {0, 0};
+    char* next = text;
+    std::array<std::int64_t, 3> pages{};  // size, resident, of these of files
+    for (std::int64_t& count : pages) count = std::strtoll(next, &next, 10);
+    return {pages[1] * static_cast<std::int64_t>(kPage), pages[2] * static_cast<std::int64_t>(kPage)};
+}
+
+/// What vectors give back goes back to the system: the allocator would keep up to 32 MB for each thread, and more the more is freed.
+void keep_heap_small() {
+    constexpr int kMapped = 1 << 18, kKept = 1 << 18, kArenas = 2;
+    (void)::mallopt(M_MMAP_THRESHOLD, kMapped);
+    (void)::mallopt(M_TRIM_THRESHOLD, kKept);
+    (void)::mallopt(M_ARENA_MAX, kArenas);
+    (void)::malloc_trim(0);
 }
 
 /// The arrays in the scratch file, and the thread that watches them.
@@ -75,8 +92,11 @@ public:
         limit_ = users_ > 0 ? std::min<std::int64_t>(limit_, limit) : limit;
         if (users_++ > 0) return;
         folder_ = folder;
-        in_memory_ = 0;
+        kept_bytes_ = 0;
+        kept_.clear();
+        keep_heap_small();
         statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+        program_ = resident_memory(statm_).of_files;
         active_ = true;
     }
     void stop() {
@@ -97,12 +117,12 @@ public:
     [[nodiscard]] std::int64_t limit() const noexcept { return active_ ? limit_.load() : 0; }
 
     void* take(std::size_t bytes) {
-        if (!active_ || bytes < kLeastPiece) return nullptr;
+        if (!active_ || bytes < kLeastScratch) return nullptr;
         const std::size_t size = rounded(bytes);
         std::unique_lock lock(mutex_);
-        if (keeps_in_memory &&
-            static_cast<double>(in_memory_ + static_cast<std::int64_t>(bytes)) <= kInMemory * static_cast<double>(limit_)) {
-            in_memory_ += static_cast<std::int64_t>(bytes);
+        if (keeps_in_memory && kept_bytes_ + static_cast<std::int64_t>(bytes) <= at_random()) {
+            kept_bytes_ += static_cast<std::int64_t>(bytes);
+            ++kept_[bytes];
             return nullptr;
         }
         if (file_ < 0) file_ = open_scratch(folder_);
@@ -118,15 +138,17 @@ public:
         --calls_;
         if (mapped == MAP_FAILED) scratch_failed(folder_, reason);
         pieces_.emplace(static_cast<char*>(mapped), Piece{offset, size});
+        lock.unlock();
+        if (left() < static_cast<std::int64_t>(size)) make_room(static_cast<std::int64_t>(size));  // it may be filled at once
         return mapped;
     }
 
     bool give(void* memory, std::size_t bytes) noexcept {
-        if (bytes < kLeastPiece) return false;
+        if (bytes < kLeastScratch) return false;
         std::unique_lock lock(mutex_);
         const auto found = pieces_.find(static_cast<char*>(memory));
         if (found == pieces_.end()) {
-            in_memory_ = std::max<std::int64_t>(in_memory_ - static_cast<std::int64_t>(bytes), 0);
+            forget_kept(bytes);
             return false;
         }
         const Piece piece = found->second;
@@ -159,16 +181,46 @@ public:
     }
     [[noreturn]] void failed(int error) { scratch_failed(folder_, error); }
 
+    [[nodiscard]] std::int64_t at_random() const noexcept { return std::max(limit_ - kElse, limit_ / 4) / 20 * 13; }
+
     /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then.
     std::int64_t check() {
-        const std::int64_t left = limit_ - limit_ / 20 * 3 - resident_memory(statm_);
-        if (left > 0) return left;
-        const std::lock_guard lock(mutex_);
-        for (const auto& [memory, piece] : pieces_) ::madvise(memory, piece.size, MADV_DONTNEED);
-        return 0;
+        if (const std::int64_t before = left(); before > 0) return before;
+        make_room(limit_ / 8);
+        return left();
     }
 
 private:
+    [[nodiscard]] std::int64_t left() const { return limit_ - std::max(limit_ / 20 * 3, kReserve) - resident_memory(statm_).all; }
+
+    /// Unmaps arrays, part after part in turn, until so many bytes are left or nothing is mapped.
+    void make_room(std::int64_t bytes) {
+        const std::lock_guard lock(mutex_);
+        const std::size_t part = static_cast<std::size_t>(std::max<std::int64_t>(limit_ / 32, kLeastScratch)) / kPage * kPage;
+        for (std::size_t round = 0; round < pieces_.size() + 1; ++round) {
+            auto piece = pieces_.upper_bound(next_unmapped_);
+            if (piece != pieces_.begin()) --piece;
+            for (; piece != pieces_.end(); ++piece) {
+                const auto& [memory, it] = *piece;
+                std::size_t from = next_unmapped_ > memory ? static_cast<std::size_t>(next_unmapped_ - memory) : 0;
+                for (; from < it.size; from += part) {
+                    // Another thread may have been here; little is not worth it when other memory takes the room.
+                    const Resident resident = resident_memory(statm_);
+                    if (left() >= bytes || resident.of_files - program_ < kWorthIt) return;
+                    ::madvise(memory + from, std::min(part, it.size - from), MADV_DONTNEED);
+                    next_unmapped_ = memory + from + std::min(part, it.size - from);
+                }
+            }
+            next_unmapped_ = nullptr;
+            if (round > 0) return;
+        }
+    }
+
+    // What is on its way into memory while nobody looks.
+    static constexpr std::int64_t kReserve = std::int64_t{10} << 20;
+    static constexpr std::int64_t kElse = std::int64_t{40} << 20;    // what is in memory anyway: the program, tiles, pages of the file
+    static constexpr std::int64_t kWorthIt = std::int64_t{2} << 20;  // less is not worth unmapping, when other memory takes the room
+
     struct Piece {
         off_t offset;
         std::size_t size;
@@ -185,6 +237,14 @@ private:
         unused_.erase(best);
         if (all > size) unused_.emplace(offset + static_cast<off_t>(size), all - size);
         return offset;
+    }
+
+    /// An array that is not in the file: if one of its size was kept in memory, it is that one, or will be.
+    void forget_kept(std::size_t bytes) {
+        const auto found = kept_.find(bytes);
+        if (found == kept_.end()) return;
+        kept_bytes_ -= static_cast<std::int64_t>(bytes);
+        if (--found->second == 0) kept_.erase(found);
     }
 
     void add_unused(const Piece& piece) {
@@ -228,13 +288,16 @@ private:
     std::atomic<bool> active_ = false;
     bool stop_ = false;
     std::atomic<std::int64_t> limit_ = 0;
-    std::int64_t in_memory_ = 0;
+    std::int64_t program_ = 0;           // resident bytes of files before there were arrays
+    std::int64_t kept_bytes_ = 0;        // of arrays that were kept in memory
+    std::map<std::size_t, int> kept_{};  // how many of each size
     std::string folder_;
     int file_ = -1;
     std::atomic<int> statm_ = -1;
     int calls_ = 0;  // that use the file right now
     std::size_t end_ = 0;
     std::map<char*, Piece> pieces_;
+    char* next_unmapped_ = nullptr;
     std::map<off_t, std::size_t> unused_;  // parts of the file, from offset to size; no two are neighbours
 };
 
@@ -258,29 +321,6 @@ void transfer(const void* array, std::span<Byte> bytes, const Call& call) {
     ISOATLAS_CHECK(found);
 }
 
-/// The limit of a control group, or of its parents; nothing when there is none.
-std::int64_t control_group_limit() {
-    std::ifstream own("/proc/self/cgroup");
-    std::int64_t least = INT64_MAX;
-    const auto look = [&](const std::string& path) {
-        std::ifstream file(path);
-        std::int64_t bytes = 0;
-        if (file >> bytes && bytes > 0) least = std::min(least, bytes);
-    };
-    for (std::string line; std::getline(own, line);) {
-        const std::size_t colon = line.rfind(':');
-        if (line.rfind("0::", 0) == 0) {
-            for (std::string path = line.substr(colon + 1);; path.resize(path.rfind('/'))) {
-                look("/sys/fs/cgroup" + path + "/memory.max");
-                if (path.empty() || path == "/") break;
-            }
-        } else if (line.find(":memory:") != std::string::npos) {
-            look("/sys/fs/cgroup/memory" + line.substr(colon + 1) + "/memory.limit_in_bytes");
-        }
-    }
-    return least;
-}
-
 }  // namespace
 
 MemoryLimit::MemoryLimit(std::int64_t bytes, const std::string& folder) : holds_(bytes > 0) {
@@ -293,11 +333,6 @@ MemoryLimit::~MemoryLimit() {
 
 KeepInMemory::KeepInMemory() : before_(std::exchange(keeps_in_memory, true)) {}
 KeepInMemory::~KeepInMemory() { keeps_in_memory = before_; }
-
-std::int64_t available_memory() {
-    const std::int64_t machine = static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
-    return std::min(machine, control_group_limit());
-}
 
 std::int64_t peak_memory() {
     std::ifstream status("/proc/self/status");  // getrusage() would count what the program before exec() had
@@ -312,9 +347,24 @@ std::int64_t peak_memory() {
 
 void* take_scratch(std::size_t bytes) { return scratch().take(bytes); }
 bool give_scratch(void* memory, std::size_t bytes) noexcept { return scratch().give(memory, bytes); }
-void check_memory() {
-    if (scratch().active()) scratch().check();
+std::size_t check_memory() {
+    constexpr std::int64_t kLeast = std::int64_t{1} << 18;
+    static const std::int64_t threads = std::max(1U, std::thread::hardware_concurrency());
+    if (!scratch().active()) return std::numeric_limits<std::size_t>::max();
+    return static_cast<std::size_t>(std::max(scratch().check() / (2 * threads), kLeast));
 }
+std::size_t PacedCheck::look() {
+    if (!scratch().active()) return std::numeric_limits<std::size_t>::max();
+    static thread_local long faults_before = 0;
+    static thread_local std::size_t left = 0;
+    rusage usage{};
+    ::getrusage(RUSAGE_THREAD, &usage);
+    const long faults = usage.ru_minflt + usage.ru_majflt;
+    const std::size_t used = static_cast<std::size_t>(faults - std::exchange(faults_before, faults)) * kTouch;
+    left = used < left ? left - used : check_memory();
+    return left;
+}
+std::int64_t memory_at_random() noexcept { return scratch().active() ? scratch().at_random() : std::numeric_limits<std::int64_t>::max(); }
 bool is_scratch(const void* memory) {
     return scratch().locate(memory, [](int, off_t) {});
 }

@@ -29,8 +29,11 @@ private:
 /// The smallest limit that leaves room for the program itself and some pages of every array.
 inline constexpr std::int64_t kLeastMemory = std::int64_t{80} << 20;
 
-/// The share of the limit for arrays that stay in memory.
-inline constexpr double kInMemory = 0.65;
+/// Arrays of fewer bytes stay in memory.
+inline constexpr std::size_t kLeastScratch = std::size_t{1} << 20;
+
+/// Bytes for arrays that stay in memory, of the limit in force: what is accessed at random may take so much. Nothing is in force: no bound.
+[[nodiscard]] std::int64_t memory_at_random() noexcept;
 
 /// Memory that this process may use: of the machine, or less when a control group says so.
 [[nodiscard]] std::int64_t available_memory();
@@ -38,7 +41,7 @@ inline constexpr double kInMemory = 0.65;
 /// The most memory that was ever resident, in bytes.
 [[nodiscard]] std::int64_t peak_memory();
 
-/// While one lives, arrays that this thread makes stay in memory as long as they take less than their share of the limit (kInMemory): those
+/// While one lives, arrays that this thread makes stay in memory as long as they take no more than memory_at_random() together: those
 /// that are accessed at random, where every touch of the scratch file would cost a page.
 class KeepInMemory {
 public:
@@ -56,18 +59,26 @@ private:
 [[nodiscard]] void* take_scratch(std::size_t bytes);
 [[nodiscard]] bool give_scratch(void* memory, std::size_t bytes) noexcept;
 /// Looks after the limit at once, as the watcher may be late on a busy machine: after every block of work (parallel.h), and now and then in
-/// long loops that read many arrays at a time. Cost: about a microsecond, nothing where no limit is in force.
-void check_memory();
-/// Calls it now and then in a loop: what a thread brings into memory between two calls must be little.
+/// long loops that read many arrays at a time. Returns how many bytes this thread may bring into memory before it must look again, one of
+/// as many threads as there are processors. Cost: about a microsecond, nothing where no limit is in force.
+std::size_t check_memory();
+/// Calls it in a loop as soon as the steps may have used up what the last call allowed: so the limit does not depend on the watcher. What
+/// they did use up is known from the page faults of the thread, which cost less to ask for.
 class PacedCheck {
 public:
-    void step() {
-        if (++steps_ % kSteps == 0) check_memory();
+    /// bytes: that the step may bring into memory, on average where it runs in order; kTouch for every array that it goes anywhere in.
+    void step(std::size_t bytes = 64) {
+        if (bytes < allowed_) {
+            allowed_ -= bytes;
+        } else {
+            allowed_ = look();
+        }
     }
+    static constexpr std::size_t kTouch = std::size_t{1} << 16;  ///< the system maps 16 pages at a touch
 
 private:
-    static constexpr std::uint32_t kSteps = 1 << 12;
-    std::uint32_t steps_ = 0;
+    [[nodiscard]] static std::size_t look();
+    std::size_t allowed_ = std::size_t{1} << 16;
 };
 
 /// Does a part of an array lie in the scratch file? Then read_scratch and write_scratch copy from and to it without making it resident.

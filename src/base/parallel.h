@@ -2,8 +2,11 @@
 // Where the system refuses a thread, Error{resource}.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+
+#include "base/memory_limit.h"
 
 namespace isoatlas {
 
@@ -18,8 +21,14 @@ template <class Work>
 void for_each_index(int threads, std::size_t n, const Work& work) {
     constexpr std::size_t kBlock = std::size_t{1} << 16;
     for_each_block(threads, static_cast<std::int64_t>((n + kBlock - 1) / kBlock), [&](std::int64_t block) {
+        constexpr std::size_t kTogether = 64;
         const std::size_t first = block * kBlock, last = n - first < kBlock ? n : first + kBlock;
-        for (std::size_t i = first; i < last; ++i) work(i);
+        PacedCheck memory;
+        for (std::size_t begin = first; begin < last; begin += kTogether) {
+            const std::size_t end = std::min(begin + kTogether, last);
+            for (std::size_t i = begin; i < end; ++i) work(i);
+            memory.step((end - begin) * (PacedCheck::kTouch / 8));  // many a step goes anywhere
+        }
     });
 }
 

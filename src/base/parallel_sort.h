@@ -1,5 +1,6 @@
 // Sorting on several threads: samples cut the keys into buckets, buckets are sorted on their own, small enough for the cache.
 // The order must be strict and total: then the result does not depend on threads, chunks nor buckets.
+// Keys that are all alike make one bucket: where memory is limited it is sorted in pieces that are merged (external_sort.h).
 #pragma once
 
 #include <algorithm>
@@ -9,9 +10,11 @@
 #include <vector>
 
 #include "base/big_vector.h"
+#include "base/external_sort.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/part_streams.h"
+#include "base/sort_by_steps.h"
 
 namespace isoatlas {
 
@@ -51,40 +54,9 @@ private:
     double steps_ = 0, low_ = 0, factor_ = 0;
 };
 
-/// Sorts items by before(p, q), which agrees with key: equal steps over the keys nearly sort them, insertion does the rest.
-/// Cost: O(n) when keys are spread evenly, O(n log n) at worst.
-template <class T, class Key, class Before>
-void sort_by_steps(std::span<T> items, const Key& key, const Before& before) {
-    constexpr std::size_t kFew = 32, kCrowd = 16;
-    const std::size_t n = items.size();
-    double low = 0, factor = 0;
-    if (n > kFew) {
-        const auto [least, most] = std::minmax_element(items.begin(), items.end(), [&](const T& p, const T& q) { return key(p) < key(q); });
-        low = key(*least);
-        factor = static_cast<double>(n - 1) / (key(*most) - low);
-    }
-    if (!(factor > 0 && factor < 1e300)) return std::sort(items.begin(), items.end(), before);
-    const auto step_of = [&](const T& item) { return std::min(n - 1, static_cast<std::size_t>((key(item) - low) * factor)); };
-    const std::vector<T> unsorted(items.begin(), items.end());
-    std::vector<std::size_t> end(n, 0);  // of every step; first its number of items, then where its next item goes
-    for (const T& item : unsorted) ++end[step_of(item)];
-    std::size_t next = 0;
-    for (std::size_t& step : end) next += std::exchange(step, next);
-    for (const T& item : unsorted) items[end[step_of(item)]++] = item;
-    for (std::size_t step = 0, first = 0; step < n; first = end[step++]) {
-        if (end[step] - first > kCrowd) std::sort(items.begin() + first, items.begin() + end[step], before);
-    }
-    for (std::size_t i = 1; i < n; ++i) {
-        const T item = items[i];
-        std::size_t place = i;
-        for (; place > 0 && before(item, items[place - 1]); --place) items[place] = items[place - 1];
-        items[place] = item;
-    }
-}
-
 /// Hands all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double):
-/// key(p) < key(q) implies before(p, q). allocate(n) is called once, before the first put. Consumes the chunks. Cost: O(n log n) time, a
-/// second copy of the items.
+/// key(p) < key(q) implies before(p, q). allocate(n) is called once, before the first put. Puts come from several threads, in any order.
+/// Consumes the chunks. Cost: O(n log n) time, a second copy of the items.
 template <class T, class Key, class Before, class Allocate, class Put>
 void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
                  const Put& put) {
@@ -94,9 +66,12 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMostBuckets);
     std::vector<double> sample;
     const std::size_t stride = std::max<std::size_t>(1, n / (kSampled * count));
+    PacedCheck sampled;
     for (const BigVector<T>& chunk : chunks) {
-        for (std::size_t i = 0; i < chunk.size(); i += stride) sample.push_back(key(chunk[i]));
-        check_memory();
+        for (std::size_t i = 0; i < chunk.size(); i += stride) {
+            sampled.step(stride * sizeof(T));
+            sample.push_back(key(chunk[i]));
+        }
     }
     const Buckets buckets(std::move(sample), count);
 
@@ -135,8 +110,11 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         writers.finish();
     });
     allocate(n);
+    const std::size_t most = is_scratch(sorted.data()) ? sortable_items<T>(threads) : n;
+    const auto bucket_of = [&](std::size_t b) { return std::span(sorted).subspan(first[b], first[b + 1] - first[b]); };
     for_each_block(threads, static_cast<std::int64_t>(count), [&](std::int64_t b) {
-        std::span<T> bucket = std::span(sorted).subspan(first[b], first[b + 1] - first[b]);
+        std::span<T> bucket = bucket_of(b);
+        if (bucket.size() > most) return;
         std::vector<T> buffer;
         if (is_scratch(bucket.data())) {
             (void)part_in_memory<T>(bucket, buffer);
@@ -145,6 +123,11 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         sort_by_steps(bucket, key, before);
         put(first[b], std::span<const T>(bucket));
     });
+    for (std::size_t b = 0; b < count; ++b) {
+        if (bucket_of(b).size() <= most) continue;
+        sort_large(threads, bucket_of(b), most, key, before,
+                   [&](std::size_t from, std::span<const T> items) { put(first[b] + from, items); });
+    }
 }
 
 }  // namespace isoatlas

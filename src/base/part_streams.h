@@ -66,15 +66,17 @@ template <class T>
 class PartReaders {
 public:
     /// first: item of each part, and of the end.
-    PartReaders(std::span<const T> all, std::span<const std::size_t> first) : buffered_(is_scratch(all.data())) {
-        const std::size_t parts = first.size() - 1;
-        items_ = buffered_items<T>(parts);
-        parts_.reserve(parts);
-        for (std::size_t p = 0; p < parts; ++p) {
-            const std::span<const T> part = all.subspan(first[p], first[p + 1] - first[p]);
-            parts_.push_back(buffered_ ? Part{{}, part, {}} : Part{part, {}, {}});
-        }
+    PartReaders(std::span<const T> all, std::span<const std::size_t> first) : items_(buffered_items<T>(first.size() - 1)) {
+        parts_.reserve(first.size() - 1);
+        for (std::size_t p = 0; p + 1 < first.size(); ++p) add(all.subspan(first[p], first[p + 1] - first[p]));
     }
+    /// parts: of any arrays.
+    explicit PartReaders(std::span<const std::span<const T>> parts) : items_(buffered_items<T>(parts.size())) {
+        parts_.reserve(parts.size());
+        for (const std::span<const T> part : parts) add(part);
+    }
+    [[nodiscard]] std::size_t parts() const { return parts_.size(); }
+    [[nodiscard]] bool has_next(std::size_t p) const { return !parts_[p].ready.empty() || !parts_[p].rest.empty(); }
     /// The next item of a part that has one.
     [[nodiscard]] const T& next(std::size_t p) {
         Part& part = parts_[p];
@@ -90,6 +92,13 @@ private:
         std::vector<T> buffer;
     };
 
+    void add(std::span<const T> part) {
+        if (is_scratch(part.data())) {
+            parts_.push_back({{}, part, {}});
+        } else {
+            parts_.push_back({part, {}, {}});
+        }
+    }
     void fill(Part& part) {
         part.buffer.resize(std::min(items_, part.rest.size()));
         read_scratch(part.rest.data(), std::as_writable_bytes(std::span(part.buffer)));
@@ -97,8 +106,7 @@ private:
         part.rest = part.rest.subspan(part.buffer.size());
     }
 
-    bool buffered_;
-    std::size_t items_ = 0;
+    std::size_t items_;
     std::vector<Part> parts_;
 };
 

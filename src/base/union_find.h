@@ -2,17 +2,20 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 #include "base/big_vector.h"
+#include "base/memory_limit.h"
 
 namespace isoatlas {
 
 template <class Id>
 class UnionFind {
 public:
-    explicit UnionFind(std::size_t count = 0) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Id{0}); }
+    explicit UnionFind(std::size_t count = 0) : parent_(count) {
+        PacedCheck memory;
+        for (std::size_t x = 0; x < count; ++x) parent_[x] = static_cast<Id>(x), memory.step(sizeof(Id));
+    }
 
     [[nodiscard]] Id find(Id x) {
         while (parent_[x] != x) {
@@ -37,7 +40,8 @@ public:
     }
     /// The root of every element.
     [[nodiscard]] BigVector<Id> roots() && {
-        for (Id x = 0; x < parent_.size(); ++x) parent_[x] = find(x);
+        PacedCheck memory;
+        for (Id x = 0; x < parent_.size(); ++x) parent_[x] = find(x), memory.step(PacedCheck::kTouch);
         return std::move(parent_);
     }
     [[nodiscard]] std::size_t size() const { return parent_.size(); }

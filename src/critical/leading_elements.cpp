@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "base/parallel.h"
 #include "base/part_streams.h"
 
@@ -33,6 +34,7 @@ LeadingChunks<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const
                               int threads) {
     LeadingChunks<Id> result(chunks.size());
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
+        result[c] = scratch_chunk<LeadingElement<Id>>();
         result[c].resize(chunks[c].size());
         const std::size_t first = 0;
         PartWriters<LeadingElement<Id>> elements(result[c], {&first, 1});

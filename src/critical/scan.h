@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/big_vector.h"
+#include "base/paced_fill.h"
 #include "field/grid.h"
 #include "field/order.h"
 
@@ -22,7 +23,7 @@ struct SlabScan {
 
     /// -0.0 becomes 0.0: which of two equal elements comes first must not show in what is reported.
     void add(const KeyedElement& element) {
-        if (chunks.empty() || chunks.back().size() == kChunk) chunks.emplace_back();
+        if (chunks.empty() || chunks.back().size() == kChunk) chunks.push_back(scratch_chunk<KeyedElement>());
         chunks.back().push_back({element.value + 0.0, element.code});
     }
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/base64_source.h"
+#include "io/block_inflater.h"
 #include "io/sample_reader.h"
 #include "io/text.h"
 #include "io/text_source.h"
@@ -94,8 +95,16 @@ public:
         while (!out.empty()) {
             const std::int64_t block = position_ / table_.block_bytes;
             if (position_ >= table_.bytes()) bad_array(file_, array_, "the data end early", std::to_string(out.size()) + " more bytes");
-            load(block);
             const auto begin = static_cast<std::size_t>(position_ - block * table_.block_bytes);
+            if (is_large(block)) {
+                const auto left = static_cast<std::size_t>(table_.bytes_of(block)) - begin;
+                const std::size_t count = std::min(out.size(), left);
+                stream(block, static_cast<std::int64_t>(begin), out.first(count));
+                out = out.subspan(count);
+                position_ += static_cast<std::int64_t>(count);
+                continue;
+            }
+            load(block);
             const std::size_t count = std::min(out.size(), block_.size() - begin);
             std::memcpy(out.data(), block_.data() + begin, count);
             out = out.subspan(count);
@@ -137,12 +146,40 @@ private:
         }
         table_.data_begin = (count + 3) * word;
     }
+    /// Too large to be decompressed as a whole.
+    [[nodiscard]] bool is_large(std::int64_t block) const {
+        constexpr std::int64_t kWhole = std::int64_t{1} << 20;
+        const auto index = static_cast<std::size_t>(block);
+        return table_.bytes_of(block) > kWhole || table_.begin[index + 1] - table_.begin[index] > kWhole;
+    }
+    /// Bytes of a large block from an offset on: what lies before it is decompressed, and forgotten.
+    void stream(std::int64_t block, std::int64_t offset, std::span<std::byte> out) {
+        const auto index = static_cast<std::size_t>(block);
+        if (!inflater_) inflater_ = std::make_unique<BlockInflater>();
+        if (streamed_ != block || inflater_->position() > offset) {
+            inner_->seek(table_.data_begin + table_.begin[index]);
+            inflater_->start(table_.begin[index + 1] - table_.begin[index], table_.bytes_of(block));
+        }
+        streamed_ = -1, loaded_ = -1;
+        std::array<std::byte, 1 << 14> passed;
+        const auto read = [&](std::span<std::byte> bytes) {
+            const std::string problem = inflater_->read(*inner_, bytes);
+            if (problem.empty()) return;
+            bad_array(file_, array_, "block " + std::to_string(block) + " is corrupt (" + problem + ")",
+                      std::to_string(table_.bytes_of(block)) + " bytes");
+        };
+        while (inflater_->position() < offset) {
+            read(std::span(passed).first(static_cast<std::size_t>(std::min<std::int64_t>(1 << 14, offset - inflater_->position()))));
+        }
+        read(out);
+        streamed_ = block;
+    }
     void load(std::int64_t block) {
         if (block == loaded_) return;
         const auto index = static_cast<std::size_t>(block);
         compressed_.resize(static_cast<std::size_t>(table_.begin[index + 1] - table_.begin[index]));
         block_.resize(static_cast<std::size_t>(table_.bytes_of(block)));
-        loaded_ = -1;
+        loaded_ = streamed_ = -1;
         inner_->seek(table_.data_begin + table_.begin[index]);
         inner_->read(compressed_);
         uLongf size = block_.size();
@@ -162,6 +199,8 @@ private:
     BlockTable table_;
     std::int64_t position_ = 0, loaded_ = -1;
     std::vector<std::byte> block_, compressed_;
+    std::unique_ptr<BlockInflater> inflater_;
+    std::int64_t streamed_ = -1;  ///< the block that inflater_ reads
 };
 
 /// The header and the data of an array as bytes.

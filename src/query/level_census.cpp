@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/sample_types.h"
 
@@ -125,10 +126,12 @@ CensusPart count_layers(const T* slab, std::int64_t begin, const Extent& extent,
     const Binning bin(values);
     const auto slice_at = [&](std::int64_t z) { return z < 0 || z >= extent.size[2] ? nullptr : slab + (z - begin) * extent.slice(); };
     Slice<T> slice(extent), above(extent);
+    PacedCheck memory;
     slice.load(slice_at(first), bin);
     for (std::int64_t z = first; z < last; ++z) {
         if (extent.rank == 3) above.load(slice_at(z + 1), bin);
         for (std::int64_t y = -1; y < extent.size[1]; ++y) {
+            memory.step(2 * extent.size[0] * sizeof(T));
             count_row(slice, extent.rank == 3 ? &above : nullptr, y, extent.size[0], part);
         }
         std::swap(slice, above);
@@ -139,9 +142,14 @@ CensusPart count_layers(const T* slab, std::int64_t begin, const Extent& extent,
 LevelCensus take_census(const VolumeView& volume, const Context& context) {
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const Extent& extent = volume.info->extent;
-        const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+        T low = samples[0], high = samples[0];
+        PacedCheck memory;
+        for (std::size_t row = 0; row < samples.size(); row += extent.size[0], memory.step(extent.size[0] * sizeof(T))) {
+            const auto [least, most] = std::ranges::minmax(samples.subspan(row, extent.size[0]));
+            low = std::min(low, least), high = std::max(high, most);
+        }
         std::vector<double> values =
-            census_values(static_cast<double>(*low), static_cast<double>(*high), std::is_integral_v<T>, extent.voxels());
+            census_values(static_cast<double>(low), static_cast<double>(high), std::is_integral_v<T>, extent.voxels());
         const std::int64_t first = extent.rank == 3 ? -1 : 0, layers = extent.size[2] - first;
         const std::int64_t blocks = std::min<std::int64_t>(layers, 2 * std::int64_t{thread_count(context.threads)});
         std::vector<CensusPart> parts(static_cast<std::size_t>(blocks), CensusPart(0));

@@ -20,7 +20,7 @@ public:
         BigVector<Id> depth(n);
         PacedCheck memory;
         for (std::size_t k = 0; k < n; ++k) {
-            memory.step();
+            memory.step(2 * PacedCheck::kTouch);
             const std::size_t x = down ? n - 1 - k : k;
             const Id p = parent[x], far = x == p ? p : jump_[p];
             depth[x] = x == p ? 0 : depth[p] + 1;

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "base/parallel.h"
 
 namespace isoatlas {
@@ -27,8 +29,10 @@ struct ShrinkingTree {
 
     /// Fills in the children. Returns how many each node has.
     [[nodiscard]] BigVector<std::uint8_t> gather_children() {
-        BigVector<std::uint8_t> count(node.size(), std::uint8_t{0});
+        BigVector<std::uint8_t> count = filled<std::uint8_t>(node.size(), std::uint8_t{0});
+        PacedCheck memory;
         for (std::size_t x = 0; x < node.size(); ++x) {
+            memory.step(PacedCheck::kTouch);
             if (x + kAhead < node.size()) __builtin_prefetch(&node[parent(x + kAhead)], 1);
             if (is_root(x)) continue;
             node[parent(x)].*Children ^= static_cast<Id>(x);
@@ -84,17 +88,20 @@ ContourTree<Id> contour_tree(std::span<const Id> join_parents, BigVector<Id> spl
     ContourTree<Id> tree;
     tree.degree = count;
     tree.other.resize(nodes);
-    tree.half_chi.assign(nodes, Signed{0});  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
+    fill_fresh(tree.half_chi, nodes,
+               Signed{0});  // until its arc is made: sum(above) + delta_chi - sum(below) over the arcs made at the node
     if (!delta_chi.empty()) {
         for (std::size_t x = 0; x + 1 < nodes; ++x) tree.half_chi[x] = delta_chi[x];
         tree.half_chi[nodes - 1] = -1;  // the outside closes every contour like a minimum
     }
 
     std::size_t arcs = 0;
+    PacedCheck memory;
     const std::size_t outside = nodes - 1;
     for (std::size_t seed = 0; seed < outside; ++seed) {
         // Follow the chain of leaves that this one uncovers; earlier seeds that become leaves are taken by the chain itself.
         for (std::size_t x = seed; x != outside && (count[x] == kUpperLeaf || count[x] == kLowerLeaf);) {
+            memory.step(4 * PacedCheck::kTouch);
             const bool upper = count[x] == kUpperLeaf;
             const Id y = upper ? remove<Id>(x, join, split) : remove<Id>(x, split, join);
             tree.other[x] = y;

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "base/union_find.h"
 
 namespace isoatlas {
@@ -15,7 +15,7 @@ BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> v
     UnionFind<Id> sets(n);
     PacedCheck memory;
     for (std::size_t x = 0; x <= n; ++x) {
-        memory.step();
+        memory.step(PacedCheck::kTouch);
         if (tree.has_arc(x) && !has_length(tree, value, x)) sets.join(tree.upper(x), tree.lower(x));
     }
     return std::move(sets).roots();
@@ -63,19 +63,27 @@ BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id
         }
     }
     BigVector<LevelKind> kind(n);
-    for (std::size_t i = 0; i < n; ++i) kind[i] = kinds[8 * tree.degree[i] + 4 + change_of(i)];
+    PacedCheck memory;
+    for (std::size_t i = 0; i < n; ++i) {
+        memory.step();
+        kind[i] = kinds[8 * tree.degree[i] + 4 + change_of(i)];
+    }
     // Levels of several elements, one run of equal values after the other.
-    std::vector<Balance<Id>> balance;
+    BigVector<Balance<Id>> balance;  // of few values: nearly all elements
     for (std::size_t first = 0, end = 1; first < n; first = end++) {
         while (end < n && value[end] == value[first]) ++end;
         if (end == first + 1) continue;
-        balance.assign(end - first, Balance<Id>{0, 0, 0});
+        fill_fresh(balance, end - first, Balance<Id>{0, 0, 0});
         for (std::size_t i = first; i < end; ++i) {
+            memory.step(PacedCheck::kTouch);
             Balance<Id>& of = balance[level[i] - first];
             of += balance_of(i);
             if (level[i] != static_cast<Id>(i)) --of.k, --of.m;
         }
-        for (std::size_t r = first; r < end; ++r) kind[r] = kind_of(balance[r - first]);
+        for (std::size_t r = first; r < end; ++r) {
+            memory.step(sizeof(Balance<Id>));
+            kind[r] = kind_of(balance[r - first]);
+        }
     }
     return kind;
 }

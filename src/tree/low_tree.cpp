@@ -4,6 +4,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/memory_limit.h"
 #include "base/union_find.h"
 
 namespace isoatlas {
@@ -15,8 +16,10 @@ struct LowerEnds {
     BigVector<Id> first, end;
 
     explicit LowerEnds(const ContourTree<Id>& tree) : first(tree.nodes() + 1, Id{0}), end(tree.nodes()) {
+        PacedCheck memory;
         const auto for_arcs = [&](auto&& visit) {
             for (std::size_t x = 0; x < tree.nodes(); ++x) {
+                memory.step(2 * PacedCheck::kTouch);
                 if (tree.has_arc(x)) visit(tree.upper(x), tree.lower(x));
             }
         };
@@ -38,7 +41,9 @@ LowTree<Id> low_tree(const ContourTree<Id>& contours) {
     LowTree<Id> tree{BigVector<Id>(n), BigVector<Id>(n)};
     const LowerEnds<Id> lower(contours);
     UnionFind<Id> sets(n);
+    PacedCheck memory;
     for (std::size_t x = n; x-- > 0;) {
+        memory.step(4 * PacedCheck::kTouch);
         tree.parent[x] = tree.lowest[x] = static_cast<Id>(x);
         for (const Id y : lower.of(x)) {
             const Id top = sets.find(y);  // the highest node of its component

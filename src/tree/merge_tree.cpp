@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "base/union_find.h"
 #include "field/order.h"
 
@@ -64,7 +65,7 @@ private:
 /// count(i): branches of element i on the side that is swept first; names(i): of their components.
 template <class Id, class Count, class Names>
 BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
-    BigVector<Id> parent(n + 1, static_cast<Id>(n));
+    BigVector<Id> parent = filled<Id>(n + 1, static_cast<Id>(n));
     Sweep<Id> sweep(extrema, parent);
     PacedCheck memory;
     for (std::size_t i = 0; i < n; ++i) {
@@ -76,7 +77,7 @@ BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count,
 
 template <class Id, class Count, class Names>
 BigVector<Id> sweep_up(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
-    BigVector<Id> parent(n + 1, Id{0});
+    BigVector<Id> parent = filled<Id>(n + 1, Id{0});
     Sweep<Id> sweep(extrema, parent);
     sweep.start(Id{0}, static_cast<Id>(n));  // the outside
     PacedCheck memory;

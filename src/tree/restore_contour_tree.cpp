@@ -1,6 +1,9 @@
 // What follows from the arcs of a contour tree alone.
 #include "tree/contour_tree.h"
 
+#include "base/memory_limit.h"
+#include "base/paced_fill.h"
+
 namespace isoatlas {
 namespace {
 
@@ -10,8 +13,10 @@ constexpr std::uint8_t kMostArcs = 2;  // above, and below
 template <class Id>
 bool count_arcs(ContourTree<Id>& tree) {
     const std::size_t nodes = tree.nodes();
-    tree.degree.assign(nodes, std::uint8_t{0});
+    fill_fresh(tree.degree, nodes, std::uint8_t{0});
+    PacedCheck memory;
     for (std::size_t x = 0; x < nodes; ++x) {
+        memory.step(PacedCheck::kTouch);
         if (tree.other[x] >= nodes) return false;
         if (!tree.has_arc(x)) continue;
         std::uint8_t& below_upper = tree.degree[tree.upper(x)];
@@ -31,7 +36,7 @@ bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> d
     using Signed = typename ContourTree<Id>::Signed;
     const std::size_t nodes = tree.nodes();
     if (nodes == 0 || !count_arcs(tree)) return false;
-    tree.half_chi.assign(nodes, Signed{0});
+    fill_fresh(tree.half_chi, nodes, Signed{0});
     if (!delta_chi.empty()) {
         for (std::size_t x = 0; x + 1 < nodes; ++x) tree.half_chi[x] = delta_chi[x];
         tree.half_chi[nodes - 1] = -1;
@@ -39,8 +44,11 @@ bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> d
     BigVector<std::uint8_t> waits_for(nodes);  // arcs that are not finished, its own included
     for (std::size_t x = 0; x < nodes; ++x) waits_for[x] = static_cast<std::uint8_t>(tree.above(x) + tree.below(x));
     std::size_t finished = 0;
+    PacedCheck memory;
     for (std::size_t seed = 0; seed + 1 < nodes; ++seed) {
+        memory.step();
         for (std::size_t x = seed; x + 1 < nodes && waits_for[x] == 1;) {
+            memory.step(3 * PacedCheck::kTouch);
             const std::size_t y = tree.other[x];
             if (y == x) return false;
             if (y < x) tree.half_chi[x] = static_cast<Signed>(-tree.half_chi[x]);
@@ -60,13 +68,16 @@ BigVector<Id> join_tree_of(const ContourTree<Id>& tree) {
     const std::size_t nodes = tree.nodes();
     BigVector<std::array<Id, kMostArcs>> above(nodes);
     for (std::size_t x = 0; x < nodes; ++x) above[x] = {static_cast<Id>(x), static_cast<Id>(x)};
+    PacedCheck memory;
     for (std::size_t x = 0; x < nodes; ++x) {
         if (!tree.has_arc(x)) continue;
+        memory.step(PacedCheck::kTouch);
         std::array<Id, kMostArcs>& neighbours = above[tree.lower(x)];
         neighbours[neighbours[0] == tree.lower(x) ? 0 : 1] = tree.upper(x);
     }
     BigVector<Id> parent(nodes), root(nodes);
     for (std::size_t x = 0; x < nodes; ++x) {
+        memory.step(4 * PacedCheck::kTouch);
         parent[x] = root[x] = static_cast<Id>(x);
         for (Id r : above[x]) {
             while (root[r] != r) {

@@ -1,8 +1,9 @@
 #include "zones/active_index.h"
 
 #include <algorithm>
-#include <numeric>
 #include <ranges>
+
+#include "base/memory_limit.h"
 
 namespace isoatlas {
 
@@ -13,12 +14,16 @@ ActiveZones<Id>::ActiveZones(const AnalysisArrays<Id>& arrays)
       climber_(arrays.tree.parent),
       highest_(arrays.tree.size()),
       largest_child_(arrays.tree.size()),
-      object_voxels_(arrays.voxels.begin(), arrays.voxels.end()) {
+      object_voxels_(arrays.tree.size()) {
     const CriticalityTree<Id>& tree = arrays.tree;
-    object_voxels_.resize(tree.size(), Id{0});
-    std::iota(highest_.begin(), highest_.end(), Id{0});
-    std::iota(largest_child_.begin(), largest_child_.end(), Id{0});
+    PacedCheck memory;
+    for (std::size_t e = 0; e < tree.size(); ++e) {
+        memory.step();
+        object_voxels_[e] = e < arrays.voxels.size() ? arrays.voxels[e] : Id{0};
+        highest_[e] = largest_child_[e] = static_cast<Id>(e);
+    }
     for (std::size_t e = 0; e < tree.size(); ++e) {  // children come before their parents
+        memory.step(4 * PacedCheck::kTouch);
         if (tree.is_root(e)) continue;
         const std::size_t p = tree.parent[e];
         object_voxels_[p] += object_voxels_[e];

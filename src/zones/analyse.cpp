@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "critical/basins.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
@@ -56,7 +57,7 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
     const CriticalityTree<Id>& tree = arrays.tree;
     const HeavyPaths<Id, ComparisonValue<T>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element}, maxima, context.threads);
     release(maxima);
-    arrays.voxels.assign(arrays.tree.size(), Id{0});
+    fill_fresh(arrays.voxels, arrays.tree.size(), Id{0});
     for_each_slab_of(slab_height(grid.extent, context), context, {"zones", 4, kPhases}, grid.extent.size[2], [&](const Slab& slab) {
         const std::size_t first = slab.z_begin * grid.extent.slice(), count = (slab.z_end - slab.z_begin) * grid.extent.slice();
         label_zones<T, Id>({grid.samples + first, count}, paths, std::span<Id>(arrays.zone).subspan(first, count), arrays.voxels);
@@ -66,12 +67,15 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
 /// Is every basin (arrays.zone) that of a maximum, and does every object begin at one? HeavyPaths takes it for granted.
 template <class Id>
 bool fit(const AnalysisArrays<Id>& arrays, const Extent& extent) {
-    const auto is_maximum = [](std::uint64_t code) { return ElementCode{code}.h0() == 0; };
+    PacedCheck memory;
+    const auto is_maximum = [&](std::uint64_t code) { return memory.step(sizeof code), ElementCode{code}.h0() == 0; };
     const BigVector<Id> maxima = elements_of_maxima<Id>(arrays.code, extent);
     if (static_cast<std::size_t>(std::ranges::count_if(arrays.code, is_maximum)) != maxima.size()) return false;  // one voxel twice
-    if (!std::ranges::all_of(arrays.zone, [&](Id entry) { return Basins<Id>::number(entry) < maxima.size(); })) return false;
+    const auto exists = [&](Id entry) { return memory.step(sizeof(Id)), Basins<Id>::number(entry) < maxima.size(); };
+    if (!std::ranges::all_of(arrays.zone, exists)) return false;
     std::vector<bool> is_reached(arrays.tree.size(), false);
     for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
+        memory.step(2 * PacedCheck::kTouch);
         if (!is_reached[e] && !is_maximum(arrays.code[arrays.tree.top[e]])) return false;
         is_reached[arrays.tree.parent[e]] = true;  // parents come after their children
     }

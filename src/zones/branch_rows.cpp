@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "zones/select_branches.h"
 #include "zones/stable_isovalue.h"
 #include "zones/trunk_rows.h"
@@ -63,18 +64,21 @@ private:
     /// Histograms along the kept branches: own voxels by height, whole merged branches at the height where they merge.
     [[nodiscard]] std::vector<BranchHistogram> histograms(const std::vector<std::int64_t>& kept) const {
         const bool integer = !is_floating(volume_.info->type);
-        BigVector<std::int64_t> slot(branches_.branch.size(), std::int64_t{-1});
+        BigVector<std::int64_t> slot = filled<std::int64_t>(branches_.branch.size(), std::int64_t{-1});
         std::vector<BranchHistogram> result;
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const Branch& b = branches_.branch[kept[k]];
             slot[kept[k]] = static_cast<std::int64_t>(k);
             result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
         }
+        PacedCheck memory;
         tree_.for_heights(volume_, [&](std::size_t v, double height) {
+            memory.step(PacedCheck::kTouch / 2);
             const std::int64_t k = slot[branches_.of_event[tree_.zone[v]]];
             if (k >= 0) result[k].add(height, 1);
         });
         for (std::size_t i = 1; i < branches_.branch.size(); ++i) {
+            memory.step(sizeof(Branch) + PacedCheck::kTouch / 4);
             const Branch& b = branches_.branch[i];
             const std::int64_t k = slot[b.parent];
             if (k >= 0) result[k].add(b.merges, static_cast<double>(b.voxels));
@@ -218,11 +222,12 @@ template <class Id>
 std::vector<std::int64_t> closest_around(const SideTree<Id>& tree, const std::vector<BranchRow>& rows) {
     constexpr std::int64_t none = -1;
     const std::vector<std::size_t> order = by_event(rows);
-    BigVector<std::int64_t> first(tree.size(), none);  // per event: the first place in `order` of it or of the next one below with rows
+    // Per event: the first place in `order` of it or of the next one below with rows.
+    BigVector<std::int64_t> first = filled<std::int64_t>(tree.size(), none);
     for (std::size_t k = order.size(); k-- > 0;) first[rows[order[k]].event] = static_cast<std::int64_t>(k);
     PacedCheck memory;
     for (std::size_t e = tree.size(); e-- > 0;) {
-        memory.step();
+        memory.step(PacedCheck::kTouch);
         if (first[e] == none && !tree.is_root(e)) first[e] = first[tree.parent[e]];
     }
     std::vector<std::int64_t> around(rows.size(), none);

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "isoatlas/active.h"
 #include "zones/select_branches.h"
 #include "zones/stable_isovalue.h"
@@ -16,10 +18,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 template <class Id>
 BigVector<std::int64_t> rows_of_branches(const DarkSide<Id>& dark) {
     const std::vector<BranchRow>& rows = dark.chosen.rows;
-    BigVector<std::int64_t> own(dark.branches.branch.size(), std::int64_t{-1});
+    BigVector<std::int64_t> own = filled<std::int64_t>(dark.branches.branch.size(), std::int64_t{-1});
     for (std::size_t row = 0; row < rows.size(); ++row) own[rows[row].branch] = static_cast<std::int64_t>(row);
-    BigVector<std::int64_t> result = own;
+    BigVector<std::int64_t> result(own.size());
+    PacedCheck memory;
     for (std::size_t i = 0; i < result.size(); ++i) {
+        memory.step(PacedCheck::kTouch);
+        result[i] = own[i];
         for (auto b = static_cast<std::int64_t>(i); b >= 0 && result[i] < 0; b = dark.branches.branch[b].parent) result[i] = own[b];
     }
     return result;

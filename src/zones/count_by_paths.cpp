@@ -1,5 +1,6 @@
 #include "base/bit_ranks.h"
 #include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "base/sample_types.h"
 #include "critical/grid_scan.h"
 #include "field/order.h"
@@ -10,19 +11,22 @@
 namespace isoatlas {
 
 bool paths_fit(std::size_t elements) {
-    constexpr double kBytes = 24;  // an element
-    return !memory_is_limited() || static_cast<double>(elements) * kBytes <= kInMemory * static_cast<double>(memory_limit());
+    constexpr std::int64_t kBytes = 24;  // an element
+    return static_cast<std::int64_t>(elements) <= memory_at_random() / kBytes;
 }
 
 template <class Id>
 BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Extent& extent) {
     const auto is_maximum = [](ElementCode element) { return element.h0() == 0; };
     BitRanks maxima(static_cast<std::size_t>(extent.voxels()));
+    PacedCheck memory;
     for (const std::uint64_t bits : code) {
+        memory.step(PacedCheck::kTouch / 4);
         if (const ElementCode element{bits}; is_maximum(element)) maxima.add(static_cast<std::size_t>(element.index()));
     }
     BigVector<Id> elements(maxima.count());
     for (std::size_t i = 0; i < code.size(); ++i) {
+        memory.step(PacedCheck::kTouch / 2);
         if (const ElementCode element{code[i]}; is_maximum(element)) elements[maxima.rank(element.index())] = static_cast<Id>(i);
     }
     return elements;
@@ -38,7 +42,7 @@ BigVector<Id> voxels_by_paths(const GridView<T>& grid, std::span<const double> v
     const Paths paths({std::span<const Id>(join).first(n), value, {}, {}}, maxima, context.threads);
     release(join);
     release(maxima);
-    BigVector<Id> voxels(n, Id{0});
+    BigVector<Id> voxels = filled<Id>(n, Id{0});
     const std::int64_t slice = grid.extent.slice();
     for_each_slab_of(slab_height(grid.extent, context), context, {"zones", 4, 5}, grid.extent.size[2], [&](const Slab& slab) {
         const std::size_t first = slab.z_begin * slice, count = (slab.z_end - slab.z_begin) * slice;

@@ -25,14 +25,15 @@ struct TiledElements {
 
     TiledElements(std::span<const double> value, std::span<const std::uint64_t> code, const Tiling& tiling)
         : tile(code.size()), first(static_cast<std::size_t>(tiling.count()) + 1, 0), key(code.size()), counted(code.size()) {
+        PacedCheck memory;
         for (std::size_t r = 0; r < code.size(); ++r) {
+            memory.step();
             tile[r] = static_cast<std::uint16_t>(tiling.tile_of(ElementCode{code[r]}));
             ++first[tile[r]];
         }
         std::size_t end = 0;
         for (std::size_t& of_tile : first) end += std::exchange(of_tile, end);
         PartWriters<KeyedElement> keys(key, first);
-        PacedCheck memory;
         for (std::size_t r = 0; r < code.size(); ++r) {
             memory.step();
             keys.put(tile[r], {value[r], ElementCode{code[r]}});
@@ -48,7 +49,9 @@ struct TiledElements {
 /// Values that cut the elements into so many runs, about equal.
 std::vector<double> bounds_of_buckets(std::span<const double> value, std::size_t buckets) {
     std::vector<double> bounds;
+    PacedCheck memory;
     for (std::size_t b = 1; b < buckets; ++b) {
+        memory.step(PacedCheck::kTouch);
         const double bound = value[b * value.size() / buckets];
         if (bounds.empty() || bound < bounds.back()) bounds.push_back(bound);
     }
@@ -63,7 +66,8 @@ std::size_t bucket_count(std::int64_t voxels, std::size_t bytes) {
 
 /// All elements in the order of ranks: counts within tiles are taken over, voxels of open components go to the last element of theirs.
 template <class T, class Id>
-BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elements, std::size_t names, OpenVoxelBuckets<T, Id>& open) {
+BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elements, std::size_t names, OpenVoxelBuckets<T, Id>& open,
+                    int threads) {
     const std::size_t n = value.size();
     BigVector<Id> voxels(n);
     Components<Id, ArrayAllocator<Id>> components;  // marks: the last element
@@ -83,10 +87,10 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
     };
     std::size_t r = 0;
     for (std::size_t bucket = 0; bucket < open.count(); ++bucket) {
-        for (const OpenVoxels<T, Id>& record : open.take(bucket)) {
+        open.take(bucket, threads, [&](const OpenVoxels<T, Id>& record) {
             for (; r < n && value[r] >= static_cast<double>(record.value); ++r) pass(r);
             voxels[components.mark(components.find(record.name))] += record.count;
-        }
+        });
     }
     for (; r < n; ++r) pass(r);
     return voxels;
@@ -109,7 +113,7 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
     release(basins.maximum);
     release(elements.key);
     const KeepInMemory keep;
-    return merge(value, elements, names, open);
+    return merge(value, elements, names, open, context.threads);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type

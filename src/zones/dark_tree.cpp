@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "base/bit_ranks.h"
+#include "base/memory_limit.h"
+#include "base/paced_fill.h"
 #include "base/sample_types.h"
 #include "critical/grid_scan.h"
 #include "critical/leading_elements.h"
@@ -31,7 +33,9 @@ CriticalityTree<Id> dark_events(const AnalysisArrays<Id>& arrays, std::span<cons
     BigVector<Id> join(n + 1), level(n + 1);
     BigVector<LevelKind> kind(n + 1);
     level[0] = 0, kind[0] = LevelKind::minimum;
+    PacedCheck memory;
     for (std::size_t x = 0; x <= n; ++x) {
+        memory.step(128);
         join[n - x] = low.parent[x] == static_cast<Id>(x) ? static_cast<Id>(n + 1) : static_cast<Id>(n - low.parent[x]);
         if (x == n) continue;
         level[n - x] = static_cast<Id>(n - arrays.level[x]);
@@ -44,10 +48,14 @@ CriticalityTree<Id> dark_events(const AnalysisArrays<Id>& arrays, std::span<cons
 template <class Id>
 BigVector<Id> count_contours(const ContourTree<Id>& contours, const CriticalityTree<Id>& tree) {
     const std::size_t n = contours.nodes() - 1;
-    BigVector<Id> count(tree.size(), Id{0});
-    for (std::size_t x = 0; x <= n; ++x)
+    BigVector<Id> count = filled<Id>(tree.size(), Id{0});
+    PacedCheck memory;
+    for (std::size_t x = 0; x <= n; ++x) {
+        memory.step(PacedCheck::kTouch);
         count[tree.event_of_element[n - x]] += static_cast<Id>(contours.above(x) - contours.below(x));  // wraps around and back
+    }
     for (std::size_t e = 0; e < tree.size(); ++e) {
+        memory.step(PacedCheck::kTouch);
         if (!tree.is_root(e)) count[tree.parent[e]] += count[e];
     }
     return count;
@@ -58,7 +66,9 @@ template <class Id>
 BigVector<Id> elements_of_minima(std::span<const std::uint64_t> code, const Extent& extent) {
     BitRanks minima(static_cast<std::size_t>(extent.voxels()));
     const auto for_minima = [&](auto&& visit) {
+        PacedCheck memory;
         for (std::size_t i = 0; i < code.size(); ++i) {
+            memory.step(PacedCheck::kTouch / 4);
             if (const ElementCode element{code[i]}; element.l0() == 0) visit(static_cast<std::size_t>(element.index()), code.size() - i);
         }
     };
@@ -104,8 +114,12 @@ void label_zones(const GridView<T>& grid, const HeavyPaths<Id, ComparisonValue<T
             paths.zones({height.data(), count}, {minimum.data(), count}, scratch, std::span<Id>(dark.zone).subspan(first, count));
         }
     });
-    dark.voxels.assign(dark.tree.size(), Id{0});
-    for (const Id zone : dark.zone) ++dark.voxels[zone];
+    fill_fresh(dark.voxels, dark.tree.size(), Id{0});
+    PacedCheck memory;
+    for (const Id zone : dark.zone) {
+        memory.step(PacedCheck::kTouch / 4);  // zones of neighbours are often the same
+        ++dark.voxels[zone];
+    }
 }
 
 }  // namespace
@@ -116,12 +130,16 @@ DarkTree<Id> make_dark_tree(const GridView<T>& grid, const AnalysisArrays<Id>& a
     const T lowest = *std::min_element(grid.samples, grid.samples + grid.extent.voxels());
     BigVector<double> height(n + 1);
     height[0] = -std::nextafter(static_cast<double>(lowest), -std::numeric_limits<double>::infinity());
-    for (std::size_t x = 0; x < n; ++x) height[n - x] = -arrays.value[x];
+    PacedCheck memory;
+    for (std::size_t x = 0; x < n; ++x) height[n - x] = -arrays.value[x], memory.step();
     DarkTree<Id> dark;
     dark.tree = dark_events(arrays, height, grid.extent.rank);
     dark.contours = count_contours(arrays.contours, dark.tree);
     dark.height.resize(dark.tree.size());
-    for (std::size_t e = 0; e < dark.tree.size(); ++e) dark.height[e] = height[dark.tree.top[e]];
+    for (std::size_t e = 0; e < dark.tree.size(); ++e) {
+        memory.step(PacedCheck::kTouch);
+        dark.height[e] = height[dark.tree.top[e]];
+    }
     const BigVector<Id> minima = elements_of_minima<Id>(arrays.code, grid.extent);
     const HeavyPaths<Id, ComparisonValue<T>> paths({dark.tree.parent, height, dark.tree.top, dark.tree.event_of_element}, minima,
                                                    context.threads);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <vector>
 
+#include "base/memory_limit.h"
 #include "base/sample_types.h"
 #include "critical/basins.h"
 
@@ -24,6 +25,7 @@ public:
             return;
         }
         for (std::size_t first = 0, i = 1; first < zones.size(); first = i++) {  // runs of one zone
+            memory_.step(PacedCheck::kTouch);
             while (i < zones.size() && zones[i] == zones[first]) ++i;
             if (i + kAhead < zones.size()) __builtin_prefetch(shared_.data() + zones[i + kAhead], 1);
             add(zones[first], static_cast<Id>(i - first));
@@ -42,6 +44,7 @@ private:
 
     std::span<Id> shared_;
     std::vector<Id> own_;
+    PacedCheck memory_;
 };
 
 /// Calls visit(first, zones) for block after block. room(first, count): where the zones of a block go.

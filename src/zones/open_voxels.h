@@ -1,7 +1,7 @@
 // Voxels whose component spans several tiles: how many of which value belong to which name, to be read again in descending order.
 //
 // They are kept in buckets of descending ranges of values: tiles write to the end of every bucket, and one bucket at a time is read and
-// sorted.
+// sorted, in memory or, when few values have many voxels, in pieces that are merged.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/big_vector.h"
-#include "base/parallel_sort.h"
+#include "base/external_sort.h"
 #include "base/part_streams.h"
 
 namespace isoatlas {
@@ -45,19 +45,22 @@ public:
         }
     }
 
-    /// The records of a bucket in descending order; they are gone from here.
-    [[nodiscard]] std::vector<Record> take(std::size_t bucket) {
-        std::vector<Record> records;
-        std::vector<Record> buffer;
-        for (Chunk& chunk : buckets_[bucket].chunks) {
-            const std::span<const Record> part = part_in_memory<Record>(std::span(chunk.records).first(chunk.count), buffer);
-            records.insert(records.end(), part.begin(), part.end());
-            release(chunk.records);
+    /// Calls visit(record) for the records of a bucket in descending order; they are gone from here. threads: that may work on it.
+    template <class Visit>
+    void take(std::size_t bucket, int threads, const Visit& visit) {
+        std::vector<Chunk>& chunks = buckets_[bucket].chunks;
+        std::size_t count = 0;
+        for (const Chunk& chunk : chunks) count += chunk.count;
+        if (count <= std::max(kChunk, sortable_items<Record>(1))) {
+            for (const Record& record : sorted(chunks, count)) visit(record);
+        } else {
+            std::vector<std::span<const Record>> runs;
+            for (Chunk& chunk : chunks) {
+                for (const auto run : sort_runs(threads, chunk.items(), sortable_items<Record>(threads), key, before)) runs.push_back(run);
+            }
+            merge_runs<Record>(runs, before, visit);
         }
-        sort_by_steps(
-            std::span(records), [](const Record& record) { return -static_cast<double>(record.value); },
-            [](const Record& p, const Record& q) { return p.value > q.value; });
-        return records;
+        chunks.clear();
     }
 
 private:
@@ -65,11 +68,28 @@ private:
     struct Chunk {
         BigVector<Record> records;
         std::size_t count = 0;  ///< how many there are by now
+        [[nodiscard]] std::span<Record> items() { return std::span(records).first(count); }
     };
     struct Bucket {
         std::vector<Chunk> chunks;
         std::mutex mutex;
     };
+
+    static double key(const Record& record) { return -static_cast<double>(record.value); }
+    static bool before(const Record& p, const Record& q) { return p.value > q.value; }
+
+    /// All records of the chunks, which are given up.
+    [[nodiscard]] static std::vector<Record> sorted(std::vector<Chunk>& chunks, std::size_t count) {
+        std::vector<Record> records, buffer;
+        records.reserve(count);
+        for (Chunk& chunk : chunks) {
+            const std::span<const Record> part = part_in_memory<Record>(chunk.items(), buffer);
+            records.insert(records.end(), part.begin(), part.end());
+            release(chunk.records);
+        }
+        sort_by_steps(std::span(records), key, before);
+        return records;
+    }
 
     static void append(Bucket& bucket, std::span<const Record> records) {
         const std::lock_guard lock(bucket.mutex);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 
 namespace isoatlas {
@@ -23,8 +24,10 @@ Value rounded_down(double v) {
 template <class Id>
 BigVector<HeavyNode<Id>> weigh(const DescendingTree<Id>& tree) {
     BigVector<HeavyNode<Id>> nodes(tree.size());
-    for (std::size_t e = 0; e < nodes.size(); ++e) nodes[e] = {static_cast<Id>(e), 1, 1};
+    PacedCheck memory;
+    for (std::size_t e = 0; e < nodes.size(); ++e) nodes[e] = {static_cast<Id>(e), 1, 1}, memory.step();
     for (std::size_t e = 0; e < nodes.size(); ++e) {
+        memory.step(2 * PacedCheck::kTouch);
         if (e + kAhead < nodes.size()) __builtin_prefetch(nodes.data() + tree.parent[e + kAhead], 1);
         if (tree.is_root(e)) continue;
         const Id p = tree.parent[e];
@@ -39,7 +42,10 @@ BigVector<HeavyNode<Id>> weigh(const DescendingTree<Id>& tree) {
 }  // namespace
 
 template <class Id, class Value>
-HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads) : stops_(tree.size() + kSteps) {
+HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads) {
+    const KeepInMemory keep;
+    stops_.resize(tree.size() + kSteps);
+    bucket_.resize(tree.size());
     std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, 0});
     BigVector<HeavyNode<Id>> nodes = weigh(tree);
     const BigVector<Path> laid = lay_out(tree, nodes);
@@ -56,7 +62,6 @@ HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<cons
         paths_[m] = laid[path_of[m]];
         paths_[m].below = name[paths_[m].below];
     });
-    bucket_.resize(tree.size());
     for (const Path& path : laid) prepare_scale(path);
     for_each_index(threads, laid.size(), [&](std::size_t path) { make_buckets(laid[path]); });
 }
@@ -66,7 +71,9 @@ template <class Id, class Value>
 auto HeavyPaths<Id, Value>::lay_out(const DescendingTree<Id>& tree, std::span<HeavyNode<Id>> nodes) -> BigVector<Path> {
     BigVector<Path> paths;
     Id end = 0;
+    PacedCheck memory;
     for (std::size_t e = tree.size(); e-- > 0;) {
+        memory.step(3 * PacedCheck::kTouch);
         if (e >= kAhead) __builtin_prefetch(nodes.data() + tree.parent[e - kAhead]);
         HeavyNode<Id>& node = nodes[e];
         const HeavyNode<Id>& parent = nodes[tree.is_root(e) ? static_cast<Id>(e) : tree.parent[e]];
@@ -99,7 +106,9 @@ void HeavyPaths<Id, Value>::make_buckets(const Path& path) {
     if (!is_long(path)) return;
     Id* const first_in = bucket_.data() + path.first + 1;
     Id next = 0;
+    PacedCheck memory;
     for (Id p = path.first; p < path.end; ++p) {
+        memory.step();
         const Id last = bucket_of(path, stops_[p].value) - path.first - 1;
         while (next <= last) first_in[next++] = p;
     }
@@ -125,11 +134,15 @@ Id HeavyPaths<Id, Value>::end_of_bucket(const Path& path, Value x) const {
 template <class Id, class Value>
 void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch,
                                   std::span<Id> zone) const {
+    // Where paths lie in the scratch file every access may bring pages of it.
+    const std::size_t bytes = is_scratch(paths_.data()) || is_scratch(stops_.data()) ? PacedCheck::kTouch : 0;
+    PacedCheck memory;
     std::size_t climbing = x.size();
     for (std::size_t i = 0; i < climbing; ++i) scratch[i] = static_cast<std::uint32_t>(i);
     while (climbing > 0) {  // one jump for all that still climb
         std::size_t kept = 0;
         for (std::size_t k = 0; k < climbing; ++k) {
+            memory.step(bytes);
             const std::uint32_t i = scratch[k];
             const Path& at = paths_[path[i]];
             const bool jump = at.value_below >= x[i];
@@ -140,15 +153,18 @@ void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, 
         climbing = kept;
     }
     for (std::size_t i = 0; i < x.size(); ++i) {  // zone: first the bucket, then the position where the search starts, then the zone
+        memory.step(bytes);
         zone[i] = bucket_of(paths_[path[i]], x[i]);
         __builtin_prefetch(bucket_.data() + zone[i]);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
+        memory.step(bytes);
         if (zone[i] != paths_[path[i]].first) zone[i] = bucket_[zone[i]];
         __builtin_prefetch(stops_.data() + zone[i]);
         __builtin_prefetch(stops_.data() + zone[i] + kSteps - 1);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
+        memory.step(2 * bytes);
         const Stop* stop = stops_.data() + zone[i];
         // The first steps without branches: nobody can predict them. Once a stop is high enough it stays the answer.
         bool on = true;

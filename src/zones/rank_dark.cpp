@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/memory_limit.h"
 #include "field/order.h"
 #include "isoatlas/active.h"
 #include "isoatlas/dark_objects.h"
@@ -107,7 +108,8 @@ DarkTable dark_table(const VolumeView& volume, const Analysis& analysis, const A
                      const NoiseModel& noise, std::int64_t top) {
     DarkTable table;
     table.noise = noise.sigma;
-    for (const Branch& b : side.branches.branch) table.branches += b.parent >= 0 && b.appears > b.merges;
+    PacedCheck memory;
+    for (const Branch& b : side.branches.branch) table.branches += b.parent >= 0 && b.appears > b.merges, memory.step(sizeof b);
     std::vector<BranchRow> rows = side.chosen.rows;
     if (top > 0 && static_cast<std::int64_t>(rows.size()) > top) rows.resize(static_cast<std::size_t>(top));
     const std::vector<std::int64_t> around = closest_around(side.tree, rows);

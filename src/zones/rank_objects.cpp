@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/memory_limit.h"
 #include "field/order.h"
 #include "isoatlas/objects.h"
 #include "zones/analysis_data.h"
@@ -28,7 +29,8 @@ public:
                                     const std::vector<std::int64_t>& around_dark) const {
         ObjectTable table;
         table.noise = noise.sigma;
-        for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges;
+        PacedCheck memory;
+        for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges, memory.step(sizeof b);
         BranchRows chosen = branch_rows(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
         const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, dark, around_dark);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/memory_limit.h"
+#include "base/paced_fill.h"
+
 namespace isoatlas {
 namespace {
 
@@ -30,7 +33,7 @@ BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& bran
         for (std::size_t i = 0; i < measure.size(); ++i) measure[i] = one * static_cast<double>(branches.branch[i].voxels);
         return measure;
     }
-    BigVector<double> object(tree.size(), 0.0);
+    BigVector<double> object = filled<double>(tree.size(), 0.0);
     for (std::size_t v = 0; v < tree.zone.size(); ++v)
         object[tree.zone[v]] += voxel_measure(info.geometry, info.extent, static_cast<std::int64_t>(v));
     for (std::size_t e = 0; e < tree.size(); ++e) {
@@ -72,7 +75,9 @@ std::vector<std::int64_t> essential_branches(const Branches& branches, std::int6
     const std::int64_t least = least_voxels(voxels);
     std::vector<std::int64_t> kept{0};
     const BigVector<Branch>& all = branches.branch;
+    PacedCheck memory;
     for (std::size_t i = 1; i < all.size(); ++i) {
+        memory.step(sizeof(Branch));
         const Branch& b = all[i];
         if (b.hypervolume < kRelativeSize * all[1].hypervolume) break;  // sorted by hypervolume
         const double sigma = noise.at(sign * b.merges);

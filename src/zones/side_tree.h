@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/memory_limit.h"
 #include "field/volume_view.h"
 #include "zones/analysis_data.h"
 
@@ -28,7 +29,11 @@ struct SideTree {
     template <class Visit>
     void for_heights(const VolumeView& volume, Visit&& visit) const {
         visit_samples(volume, [&](auto samples) {
-            for (std::size_t v = 0; v < samples.size(); ++v) visit(v, sign * static_cast<double>(samples[v]));
+            PacedCheck memory;
+            for (std::size_t v = 0; v < samples.size(); ++v) {
+                memory.step(sizeof samples[v] + sizeof(Id));
+                visit(v, sign * static_cast<double>(samples[v]));
+            }
         });
     }
 };
@@ -37,7 +42,11 @@ struct SideTree {
 template <class Id>
 [[nodiscard]] BigVector<double> event_values(const AnalysisArrays<Id>& arrays) {
     BigVector<double> values(arrays.tree.size());
-    for (std::size_t e = 0; e < values.size(); ++e) values[e] = arrays.value[arrays.tree.top[e]];
+    PacedCheck memory;
+    for (std::size_t e = 0; e < values.size(); ++e) {
+        memory.step(PacedCheck::kTouch);
+        values[e] = arrays.value[arrays.tree.top[e]];
+    }
     return values;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "critical/scan.h"
 #include "tree/contour_tree.h"
@@ -35,7 +36,11 @@ void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank,
 
 BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
     BigVector<std::int8_t> delta(code.size());
-    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
+    PacedCheck memory;
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+        memory.step(sizeof(std::uint64_t) + 1);
+        delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
+    }
     return delta;
 }
 

@@ -1,6 +1,7 @@
 // VTK XML: formats, byte orders, header types, zlib blocks, geometry, choice of arrays, damage.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include "unit/io/hostile_files.h"
 #include "unit/io/volume_files.h"
 
@@ -129,6 +130,55 @@ TEST(Vti, EveryTypeAndStorage) {
             expect_slabs_equal_whole(path);
         }
     }
+}
+
+/// One block of more than a megabyte is decompressed as it is read: forwards, backwards, to its checksum.
+TEST(Vti, OneLargeBlock) {
+    const TestFolder folder;
+    constexpr std::uint64_t kSide = 128;
+    std::string samples(kSide * kSide * kSide, '\0');
+    std::uint32_t state = 1;
+    for (char& sample : samples) sample = static_cast<char>((state = state * 1664525 + 1013904223) >> 28);
+    const std::string extent = "0 127 0 127 0 127";
+    const auto file = [&](std::string block, std::uint64_t bytes) {
+        std::string words;
+        for (const std::uint64_t word : {std::uint64_t{1}, bytes, std::uint64_t{0}, std::uint64_t{block.size()}}) {
+            for (int i = 0; i < 8; ++i) words += static_cast<char>(word >> (8 * i));
+        }
+        return "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+               "compressor=\"vtkZLibDataCompressor\">\n<ImageData WholeExtent=\"" +
+               extent + "\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"" + extent +
+               "\">\n<PointData Scalars=\"s\"><DataArray type=\"UInt8\" Name=\"s\" format=\"appended\" "
+               "offset=\"0\"/></PointData></Piece></ImageData>\n"
+               "<AppendedData encoding=\"raw\">_" +
+               words + block + "</AppendedData></VTKFile>";
+    };
+    const std::string block = zlib(samples);
+    const std::string path = folder.write("v.vti", file(block, samples.size()));
+    ASSERT_EQ(read_all(*open_volume(path), 5), samples);
+    const auto reader = open_volume(path);
+    for (const std::int64_t z : {std::int64_t{100}, std::int64_t{3}, std::int64_t{127}, std::int64_t{0}}) {
+        std::vector<std::byte> slice(kSide * kSide);
+        reader->read(z, z + 1, slice);
+        ASSERT_EQ(std::memcmp(slice.data(), samples.data() + z * kSide * kSide, slice.size()), 0) << z;
+    }
+    const auto refused = [&](const std::string& bytes) {
+        try {
+            (void)read_all(*open_volume(folder.write("bad.vti", file(bytes, samples.size()))), 5);
+            return false;
+        } catch (const Error& error) {
+            return error.kind() == ErrorKind::input;
+        }
+    };
+    std::string flipped = block;
+    flipped.back() = static_cast<char>(flipped.back() ^ 1);  // of the checksum
+    EXPECT_TRUE(refused(flipped));
+    flipped = block;
+    flipped[block.size() / 2] = static_cast<char>(flipped[block.size() / 2] ^ 4);
+    EXPECT_TRUE(refused(flipped));
+    EXPECT_TRUE(refused(block.substr(0, block.size() - 3)));
+    EXPECT_TRUE(refused(zlib(samples + "x")));
+    EXPECT_TRUE(refused(zlib(samples.substr(1))));
 }
 
 /// Samples that look like XML must not be parsed.

@@ -1,0 +1,41 @@
+// Filling large arrays while memory is limited: an array that is written in one go would be resident as a whole before anybody looks.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/big_vector.h"
+#include "base/memory_limit.h"
+
+namespace isoatlas {
+
+/// The array has count items of a value; nobody needs what was in it.
+template <class T>
+void fill_fresh(BigVector<T>& array, std::size_t count, const T& value) {
+    constexpr std::size_t kTogether = std::size_t{1} << 13;
+    array.clear();
+    array.resize(count);  // writes nothing
+    PacedCheck memory;
+    for (std::size_t first = 0; first < count; first += kTogether) {
+        const std::size_t some = std::min(kTogether, count - first);
+        memory.step(some * sizeof(T));
+        std::fill_n(array.data() + first, some, value);
+    }
+}
+
+/// An empty array, one of many: while memory is limited it has room enough to lie in the scratch file, as many small ones would add up.
+template <class T>
+[[nodiscard]] BigVector<T> scratch_chunk() {
+    BigVector<T> array;
+    if (memory_is_limited()) array.reserve(kLeastScratch / sizeof(T) + 1);
+    return array;
+}
+
+template <class T>
+[[nodiscard]] BigVector<T> filled(std::size_t count, const T& value) {
+    BigVector<T> array;
+    fill_fresh(array, count, value);
+    return array;
+}
+
+}  // namespace isoatlas
