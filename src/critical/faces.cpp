@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 #ifdef __SSE2__
@@ -57,22 +59,8 @@ bool face_above_face(const CellElements& cell, int g, int f) {
 
 FaceCorners corners_of(const CellElements& cell, int f) {
     const std::array<int, 4>& c = kFaceCorners[f];
-    return {{cell.value[c[0]], cell.value[c[1]], cell.value[c[2]], cell.value[c[3]]}, static_cast<int>(cell.bd_high >> f & 1)};
-}
-
-/// Is no corner within a distance of s? False where that is not a number.
-bool are_corners_apart(const std::array<double, 8>& value, double s, double distance) {
-#ifdef __SSE2__
-    const __m128d at = _mm_set1_pd(s), most = _mm_set1_pd(distance), sign = _mm_set1_pd(-0.0);
-    int apart = 3;
-    for (int k = 0; k < 8; k += 2) {
-        const __m128d difference = _mm_andnot_pd(sign, _mm_sub_pd(_mm_load_pd(value.data() + k), at));
-        apart &= _mm_movemask_pd(_mm_cmpgt_pd(difference, most));
-    }
-    return apart == 3;
-#else
-    return std::all_of(value.begin(), value.end(), [=](double v) { return std::abs(v - s) > distance; });
-#endif
+    const int high = static_cast<int>(cell.bd_high >> f & 1);
+    return {cell.value[c[1 - high]], cell.value[c[3 - high]], cell.value[c[high]], cell.value[c[high + 2]]};
 }
 
 struct Comparison {
@@ -97,6 +85,18 @@ Comparison compare_corners(const std::array<double, 8>& value, double s) {
     return result;
 }
 
+/// Bit k: corner k is above s.
+int corners_above(const std::array<double, 8>& value, double s) {
+    int above = 0;
+#ifdef __SSE2__
+    const __m128d threshold = _mm_set1_pd(s);
+    for (int k = 0; k < 8; k += 2) above |= _mm_movemask_pd(_mm_cmpgt_pd(_mm_load_pd(value.data() + k), threshold)) << k;
+#else
+    for (int k = 0; k < 8; ++k) above |= (value[k] > s) << k;
+#endif
+    return above;
+}
+
 int corners_above_face(const CellElements& cell, int f) {
     auto [above, equal] = compare_corners(cell.value, cell.face_value[f]);
     if (equal == 0) return above;
@@ -105,6 +105,16 @@ int corners_above_face(const CellElements& cell, int f) {
         if (equal >> k & 1 && 2 * cell.voxel[k] > key) above |= 1 << k;
     }
     return above;
+}
+
+/// Type of face f: the corners above it are known.
+std::uint8_t default_type(const CellElements& cell, const CellTable& table, int f, int above) {
+    int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
+    for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {
+        const int g = std::countr_zero(others);
+        joined |= face_above_face(cell, g, f) << g;
+    }
+    return static_cast<std::uint8_t>(table.highs_joined[64 * above + joined] & 1 << f);
 }
 
 }  // namespace
@@ -142,28 +152,6 @@ void find_face_values(CellElements& cell) {
     }
 }
 
-bool estimate_face_values(CellElements& cell) {
-    std::array<double, 6> error{};
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-        const int f = std::countr_zero(rest);
-        const ApproximateValue estimate = approximate_face_value(corners_of(cell, f));
-        // Twice: rounding may move the values that are compared by as much.
-        const double most = 2 * estimate.error;
-        bool is_clear = are_corners_apart(cell.value, estimate.value, most);
-        for (unsigned others = cell.ambiguous & ((1U << f) - 1); others != 0; others &= others - 1) {
-            const int g = std::countr_zero(others);
-            is_clear &= std::abs(cell.face_value[g] - estimate.value) > most + error[g];
-        }
-        if (!is_clear) {
-            find_face_values(cell);
-            return true;
-        }
-        cell.face_value[f] = estimate.value;
-        error[f] = most;
-    }
-    return false;
-}
-
 bool element_below(const CellElements& cell, int element, int other) {
     const auto key = [&cell](int e) {
         return e < 8 ? std::tuple(cell.value[e], 2 * cell.voxel[e], std::int64_t{0})
@@ -176,15 +164,47 @@ std::uint8_t default_face_types(const CellElements& cell, const CellTable& table
     std::uint8_t types = 0;
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
-        const int above = corners_above_face(cell, f);
-        int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
-        for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {
-            const int g = std::countr_zero(others);
-            joined |= face_above_face(cell, g, f) << g;
-        }
-        types |= static_cast<std::uint8_t>(table.highs_joined[64 * above + joined] & 1 << f);
+        types |= default_type(cell, table, f, corners_above_face(cell, f));
     }
     return types;
+}
+
+EstimatedTypes estimate_default_types(CellElements& cell, const CellTable& table) {
+    std::array<int, 6> above{};
+    std::array<double, 6> error{};
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
+        const ApproximateValue estimate = approximate_face_value(corners_of(cell, f));
+        error[f] = 2 * estimate.error;  // twice: the exact values that it stands for are rounded
+        cell.face_value[f] = estimate.value;
+        above[f] = corners_above(cell.value, estimate.value + error[f]);
+        bool is_clear =
+            error[f] < std::numeric_limits<double>::infinity() && above[f] == corners_above(cell.value, estimate.value - error[f]);
+        for (unsigned others = cell.ambiguous & ((1U << f) - 1); others != 0; others &= others - 1) {
+            const int g = std::countr_zero(others);
+            is_clear &= std::abs(cell.face_value[g] - estimate.value) > error[f] + error[g];
+        }
+        if (!is_clear) {
+            find_face_values(cell);
+            return {default_face_types(cell, table), true};
+        }
+    }
+    std::uint8_t types = 0;
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
+        types |= default_type(cell, table, f, above[f]);
+    }
+    return {types, false};
+}
+
+EstimatedTypes default_types_of_small(CellElements& cell, const CellTable& table) {
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
+        const std::array<int, 4>& c = kFaceCorners[f];
+        const double a = cell.value[c[0]], b = cell.value[c[1]], cc = cell.value[c[2]], d = cell.value[c[3]];
+        cell.face_value[f] = (a * cc - b * d) / ((a + cc) - (b + d));
+    }
+    return {default_face_types(cell, table), false};
 }
 
 template bool faces_of_slice(const GridView<std::uint8_t>&, std::int64_t, bool, std::span<std::uint8_t>);

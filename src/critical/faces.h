@@ -34,10 +34,6 @@ struct CellElements {
 /// Fills in the ambiguous faces of a cell from its corners.
 void find_ambiguous_faces(CellElements& cell);
 
-/// Face values good enough for the default types, from `value`, `ambiguous` and `bd_high`: exact, or so far from all other values of the
-/// cell that their order with them is the same. Returns whether they are exact.
-bool estimate_face_values(CellElements& cell);
-
 /// Face values rounded down (field/face.h).
 void find_face_values(CellElements& cell);
 
@@ -47,5 +43,17 @@ bool element_below(const CellElements& cell, int element, int other);
 /// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this
 /// cell by elements above F; clear = type L, the Lows are joined below.
 std::uint8_t default_face_types(const CellElements& cell, const CellTable& table = cell_table());
+
+struct EstimatedTypes {
+    std::uint8_t types;
+    bool has_face_values;  ///< `face_value` is exact; else it is good for the types alone
+};
+
+/// Default types from `value`, `voxel`, `ambiguous` and `bd_high`. Estimates of the face values decide where they are far enough from all
+/// other values of the cell.
+EstimatedTypes estimate_default_types(CellElements& cell, const CellTable& table);
+
+/// The same for samples of 8 or 16 bits: quotients of exact numbers, rounded to nearest, are in the order of the exact values.
+EstimatedTypes default_types_of_small(CellElements& cell, const CellTable& table);
 
 }  // namespace isoatlas

@@ -70,9 +70,9 @@ private:
         const int mine = faces[i], of_next = next[i], of_y = faces[i + n], of_x = faces[i + 1];
         cell.ambiguous = far(mine | mine >> 1, of_next | of_next >> 1, of_y | of_y >> 1, of_x | of_x >> 1);
         cell.bd_high = far(mine >> 1, of_next >> 1, of_y >> 1, of_x >> 1);
-        const bool is_exact = estimate_face_values(cell);
-        unsigned types = default_face_types(cell, table_);
-        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types, is_exact);
+        const EstimatedTypes found = kIsSmall<T> ? default_types_of_small(cell, table_) : estimate_default_types(cell, table_);
+        unsigned types = found.types;
+        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types, found.has_face_values);
         high[i] += static_cast<std::uint8_t>(types & 0b010101);
         high_next[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
         high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);

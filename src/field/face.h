@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -27,13 +26,11 @@ constexpr Diagonal high_diagonal(T a, T b, T c, T d) {
 struct FaceCorners {
     double lowest, low, high_1, high_2;  ///< lowest <= low <= high_1, high_2
 
-    FaceCorners(double a, double b, double c, double d, Diagonal highs) : FaceCorners({a, b, c, d}, highs == Diagonal::bd) {}
-    /// corner: a b c d. Without branches.
-    FaceCorners(const std::array<double, 4>& corner, int first_high)
-        : lowest(std::min(corner[1 - first_high], corner[3 - first_high])),
-          low(std::max(corner[1 - first_high], corner[3 - first_high])),
-          high_1(corner[first_high]),
-          high_2(corner[first_high + 2]) {}
+    FaceCorners(double low_1, double low_2, double high, double other_high)
+        : lowest(std::min(low_1, low_2)), low(std::max(low_1, low_2)), high_1(high), high_2(other_high) {}
+    FaceCorners(double a, double b, double c, double d, Diagonal highs)
+        : FaceCorners(highs == Diagonal::ac ? b : a, highs == Diagonal::ac ? d : c, highs == Diagonal::ac ? a : b,
+                      highs == Diagonal::ac ? c : d) {}
     [[nodiscard]] double lowest_high() const { return std::min(high_1, high_2); }
 };
 
@@ -65,10 +62,13 @@ inline double small_face_value(double a, double b, double c, double d) {
                            : (remainder > 0 ? next_below(quotient) : quotient + 0.0);
 }
 
+template <class T>
+inline constexpr bool kIsSmall = std::is_integral_v<T> && sizeof(T) <= 2;
+
 /// Value of the face point: the saddle of the bilinear interpolant, rounded down; between the highest Low and the lowest High.
 template <class T>
 inline double disambiguation_value(T a, T b, T c, T d, Diagonal highs) {
-    if constexpr (std::is_integral_v<T> && sizeof(T) <= 2) return small_face_value(a, b, c, d);
+    if constexpr (kIsSmall<T>) return small_face_value(a, b, c, d);
     return rounded_face_value(FaceCorners(a, b, c, d, highs));
 }
 
