@@ -36,22 +36,6 @@ ValueRange range_of(VolumeReader& reader) {
     return range;
 }
 
-BuildOptions options_of(const Arguments& arguments, const VolumeInfo& info) {
-    BuildOptions options;
-    options.analysis.interpolant = arguments.interpolant;
-    options.missing = arguments.missing;
-    options.memory = arguments.memory;
-    options.restart = arguments.restart;
-    options.gaussian = arguments.gaussian.value_or(0);
-    if (arguments.voxel_units) options.geometry = voxel_geometry();
-    if (arguments.tunnel_height_in_percent) {
-        options.tunnel_height_percent = arguments.tunnel_height;
-    } else if (arguments.tunnel_height > 0) {
-        options.analysis.tunnel_height = arguments.tunnel_height / std::abs(info.calibration.slope);
-    }
-    return options;
-}
-
 Json estimate_json(const BuildEstimate& estimate) {
     Json json;
     json["critical_elements"] = estimate.critical_elements;
@@ -113,6 +97,7 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
         json["bytes"] = report.bytes;
         json["sample_bytes"] = static_cast<std::int64_t>(raw);
         json["resumed"] = report.resumed;
+        json["not_used"] = report.not_used;
         json["peak_memory"] = report.peak_memory;
         json["left_behind"] = report.left_behind;
         print(terminal, json);
@@ -126,6 +111,24 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
 
 }  // namespace
 
+BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info) {
+    BuildOptions options;
+    options.analysis.interpolant = arguments.interpolant;
+    options.missing = arguments.missing;
+    options.memory = arguments.memory;
+    options.restart = arguments.restart;
+    options.gaussian = arguments.gaussian.value_or(0);
+    options.time_step = arguments.open.time_step;
+    options.is_replaceable = arguments.verb != "build";
+    if (arguments.voxel_units) options.geometry = voxel_geometry();
+    if (arguments.tunnel_height_in_percent) {
+        options.tunnel_height_percent = arguments.tunnel_height;
+    } else if (arguments.tunnel_height > 0) {
+        options.analysis.tunnel_height = arguments.tunnel_height / std::abs(info.calibration.slope);
+    }
+    return options;
+}
+
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
                         const std::function<void(const Progress&)>& watch) {
     BuildReport report;
@@ -137,9 +140,10 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
             if (watch) watch(progress);
         };
         const WritingGuard guard("stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
-        report = build_atlas(arguments.output, reader, options_of(arguments, reader.info()), context);
+        report = build_atlas(arguments.output, reader, build_options(arguments, reader.info()), context);
     }
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
+    for (const std::string& phases : report.not_used) terminal.say("note: " + phases);
     for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
     if (!report.left_behind.empty())
         terminal.say("note: the store is complete; " + report.left_behind + " stays" + others_in(report.left_behind));
@@ -153,7 +157,7 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
                     {.file = arguments.file, .what = "is a store already", .expected = "a volume", .next = "name the volume file"});
     }
     const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
-    if (arguments.dry_run) return dry_run(arguments, terminal, *reader, options_of(arguments, reader->info()));
+    if (arguments.dry_run) return dry_run(arguments, terminal, *reader, build_options(arguments, reader->info()));
     const BuildReport report = build_store(arguments, terminal, *reader);
     print_report(arguments, terminal, reader->info(), report);
     return 0;

@@ -9,9 +9,7 @@
 #include "values.h"
 
 namespace isoatlas::cli {
-namespace {
 
-/// A store has its own answer to everything that is decided while it is built.
 void check_store_options(const Arguments& arguments, const Atlas& atlas) {
     const auto refuse = [&](const char* option, const std::string& has) {
         throw Error(ErrorKind::usage, {.file = arguments.file,
@@ -26,9 +24,12 @@ void check_store_options(const Arguments& arguments, const Atlas& atlas) {
         open.follow_links)
         refuse("an option of the reader", "what the volume file said");
     if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
+    if (arguments.verb != "atlas" && arguments.verb != "view") return;  // others do it to what is in the store
+    const double gaussian = atlas.info().gaussian;
+    if (arguments.gaussian && *arguments.gaussian != gaussian)
+        refuse("--gaussian", gaussian > 0 ? fmt::format("--gaussian {}", gaussian) : "samples as they are");
+    if (arguments.voxel_units && atlas.info().geometry != voxel_geometry()) refuse("--voxel", "the geometry of the volume");
 }
-
-}  // namespace
 
 Source::Source(const Arguments& arguments, Terminal& terminal) : arguments_(arguments), session_(arguments, terminal) {
     if (!is_atlas(arguments.file)) {

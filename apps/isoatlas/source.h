@@ -13,6 +13,9 @@
 
 namespace isoatlas::cli {
 
+/// A store has its own answer to everything that is decided while it is built: throws Error{usage} when an option contradicts it.
+void check_store_options(const Arguments& arguments, const Atlas& atlas);
+
 class Source {
 public:
     /// Opens arguments.file, prints one line about it and the notes of the reader.

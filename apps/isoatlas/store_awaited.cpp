@@ -6,6 +6,7 @@
 
 #include "interrupt.h"
 #include "session.h"
+#include "source.h"
 #include "store_beside.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -73,21 +74,27 @@ void check_is_volume(const Arguments& arguments, const VolumeInfo& info) {
 }
 
 bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string& store) {
-    if (is_atlas(arguments.file)) return true;
-    if (!arguments.restart && is_fresh(store, arguments)) {
-        terminal.say("note: " + store + " is there already" + (arguments.read_only ? "" : "; --restart builds it anew"));
+    if (is_atlas(arguments.file)) {
+        check_store_options(arguments, Atlas(arguments.file));
         return true;
     }
-    if (build_state(store)) return false;
+    if (arguments.read_only || build_state(store)) {  // nothing is replaced, or by somebody else
+        const Beside beside = look_beside(store, arguments);
+        if (!arguments.restart && beside.is_usable()) return is_usable(store, arguments, terminal);
+        if (build_state(store)) return false;
+        const std::string why = beside.differs.empty() ? "" : " with these options (" + beside.differs + ")";
+        no_store(arguments, store, "it has no store" + why + ", and --read-only writes none");
+    }
+    if (!arguments.restart && is_usable(store, arguments, terminal)) return true;
     check_is_volume(arguments, open_volume(arguments.file, arguments.open)->info());
-    if (arguments.read_only) no_store(arguments, store, "it has no store that is newer than it, and --read-only writes none");
     return false;
 }
 
 void await_store(const Arguments& arguments, Terminal& terminal, const std::string& store,
                  const std::function<void(const BuildState&)>& tell) {
-    while (!await_others(store, tell)) {
-        if (arguments.read_only || arguments.file == store) no_store(arguments, store, "the build that was waited for has left no store");
+    const auto is_right = [&] { return arguments.file == store || is_usable(store, arguments, terminal); };
+    while (!await_others(store, tell) || !is_right()) {
+        if (arguments.read_only || arguments.file == store) no_store(arguments, store, "the build that was waited for has left no store of it");
         try {
             return build(arguments, terminal, store, tell);
         } catch (const Error&) {

@@ -1,7 +1,12 @@
-// The store of a volume in the current folder: built when somebody wants to see what is in the volume, used again while it is of that.
+// The store of a volume in the current folder: built when somebody wants to see what is in the volume, used again while it is what a build
+// with these options would write.
+//
+// It is a cache: one that `isoatlas FILE` or `isoatlas view` has made is made anew when volume or options are others, and what differs is
+// said. One that the user has built (`isoatlas build`) is never replaced without --restart: then the difference is an error.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "arguments.h"
 
@@ -15,10 +20,25 @@ class Terminal;
 /// scan.atlas.html and scan.html stand beside scan.atlas.
 [[nodiscard]] std::string store_beside(const std::string& page);
 
-/// Is there a store of arguments.file as it is now: newer than it, and with its samples? Two scans may have one name.
-[[nodiscard]] bool is_fresh(const std::string& store, const Arguments& arguments);
+/// What lies where the store of arguments.file would be built.
+struct Beside {
+    bool is_there = false;        ///< a file or anything else
+    bool is_store = false;        ///< that can be opened
+    bool is_replaceable = false;  ///< BuildOptions::is_replaceable
+    bool is_present = true;       ///< Atlas::has_present_values()
+    std::string differs;          ///< what it was made of, or with, otherwise; "": it is of this volume with these options
 
-/// arguments.file if it is a store; else `store`, built from it unless it is fresh.
+    [[nodiscard]] bool is_usable() const { return is_store && differs.empty(); }
+};
+
+/// Compares header, options and samples; of more than 1 GiB of samples, the times of the files. Throws Error: input (a damaged store, no
+/// volume), cancelled.
+[[nodiscard]] Beside look_beside(const std::string& store, const Arguments& arguments);
+
+/// Can the store be used? Says so, or why it is built anew. Throws Error{usage} when something is in the way that is not to be replaced.
+[[nodiscard]] bool is_usable(const std::string& store, const Arguments& arguments, Terminal& terminal);
+
+/// arguments.file if it is a store; else `store`, built from it unless it is usable.
 [[nodiscard]] std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store);
 
 }  // namespace isoatlas::cli

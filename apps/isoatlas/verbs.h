@@ -19,6 +19,8 @@ int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
+/// What the options say about a build of a volume.
+[[nodiscard]] BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info);
 /// Builds arguments.output and says what there is to say about it. watch: hears the progress too; may be empty.
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
                         const std::function<void(const Progress&)>& watch = {});

@@ -40,7 +40,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const std::vecto
     for (const CheckResult& check : checks) {
         failed += check.holds ? 0 : 1;
         if (check.holds && arguments.quiet) continue;
-        terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<26}", check.name) << check.detail << '\n';
+        terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<25} ", check.name) << check.detail << '\n';
     }
     terminal.out() << shown_name(arguments.file) << ": "
                    << (failed == 0 ? "all " + counted(all, "guarantee") + " hold"

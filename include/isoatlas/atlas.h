@@ -72,7 +72,7 @@ struct CoarseVolume {
     std::vector<float> mean;  ///< of the samples of each cube, x fastest; stored values. Those at the far ends are of what is left
 };
 
-/// Does a file begin like a store? False for files that cannot be read.
+/// Does a file begin like a store, be it a damaged one? False for files that cannot be read.
 [[nodiscard]] bool is_atlas(const std::string& path);
 
 struct AtlasOptions {
@@ -96,6 +96,10 @@ public:
     [[nodiscard]] double tunnel_height() const;         ///< of AnalysisOptions
     [[nodiscard]] std::array<double, 2> range() const;  ///< lowest and highest sample
     [[nodiscard]] std::int64_t file_bytes() const;
+    [[nodiscard]] int version() const;           ///< of the format
+    [[nodiscard]] bool is_replaceable() const;  ///< BuildOptions::is_replaceable
+    /// Does it hold the numbers that this version would find in its samples? Not those of samples of more than 16 bits of versions 1, 2.
+    [[nodiscard]] bool has_present_values() const;
 
     /// The same as cut() and extract() of the volume, with the interpolant of the store whatever the options say. Bricks that the isovalue
     /// does not divide and that no active cell touches are not read. What the query has cost is added to `cost`.

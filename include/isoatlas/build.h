@@ -2,7 +2,8 @@
 //
 // Phases: trees (critical elements, criticality tree, contour tree), zones (their sizes), pack (bricks and trees into one file). What a
 // finished phase has found lies in the folder PATH.build, written, synced and renamed, until the store is there; a second build of the
-// same volume with the same parameters goes on behind it. Anybody can ask where a build is: build_state().
+// same volume with the same parameters goes on behind it. What a phase was made of and with is told in it and compared member by member,
+// samples included. Anybody can ask where a build is: build_state().
 #pragma once
 
 #include <chrono>
@@ -26,6 +27,10 @@ struct BuildOptions {
     double gaussian = 0;      ///< filters the samples first: sigma as of gaussian_filter(); 0: off
     std::int64_t memory = 0;  ///< bytes for the whole process, 64 MiB or more; 0: half of what the machine or its control group has
     bool restart = false;     ///< forgets finished phases
+    /// Which volume of its file the reader reads, as in OpenOptions: told when phases and stores are compared.
+    std::optional<std::int64_t> time_step{};
+    /// Marks the store as one that its maker keeps beside a page and may make anew with other options. The mark changes no answer.
+    bool is_replaceable = false;
 };
 
 /// What a build will take; critical elements are counted in a few slabs of the volume.
@@ -49,6 +54,9 @@ void check_estimate(const BuildEstimate& estimate, const std::string& volume_pat
 
 struct BuildReport {
     std::vector<std::string> resumed;  ///< phases that had been finished before
+    /// Phases that had been finished and were made again, and why: "trees, zones of an earlier build are not used: spacing 1 x 1 x 1
+    /// there, 2 x 2 x 2 here".
+    std::vector<std::string> not_used;
     std::int64_t peak_memory = 0;      ///< most resident memory of the process, bytes
     std::int64_t bytes = 0;            ///< of the store
     std::string left_behind;           ///< the folder of the build when it cannot be removed, though the store is complete; else ""
@@ -61,6 +69,17 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
 
 /// The same for a volume in memory, without a budget.
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
+
+class Atlas;
+
+/// What a store was made of, or with, otherwise than build_atlas(volume, options) would: "spacing 1 x 1 x 1 there, 2 x 2 x 2 here", one for
+/// each; nothing: it is the store that this would write. compare_samples false: the samples are not looked at. Stores of versions 1 and 2
+/// do not tell which samples they were filtered or replaced from: that is told as a difference. Throws as VolumeReader::read(), cancelled.
+/// Cost: nothing when the headers differ; else reads the volume once; memory: some slices.
+[[nodiscard]] std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& volume, const BuildOptions& options,
+                                                         bool compare_samples = true, const Context& context = {});
+/// The same as one phrase; the first few of many.
+[[nodiscard]] std::string joined_differences(const std::vector<std::string>& differences);
 
 /// Where a build is, for those who wait for its store.
 struct BuildState {

@@ -109,7 +109,7 @@ struct Atlas::Data {
 
 bool is_atlas(const std::string& path) try {
     const std::unique_ptr<File> file = io::open_file(path);
-    std::array<std::byte, sizeof store::kMagic> first{};
+    std::array<std::byte, store::kBeginning> first{};
     const std::size_t got = io::read_available(*file, path, 0, first);
     return store::begins_like_a_store(std::span(first).first(got));
 } catch (const Error&) {
@@ -221,6 +221,9 @@ std::vector<std::int64_t> Atlas::histogram(std::span<const double> edges, const 
 
 std::array<double, 2> Atlas::range() const { return data_->samples->range(); }
 std::int64_t Atlas::file_bytes() const { return data_->store.file_size(); }
+int Atlas::version() const { return data_->store.version(); }
+bool Atlas::is_replaceable() const { return data_->store.contents().is_replaceable; }
+bool Atlas::has_present_values() const { return data_->store.contents().has_present_values(); }
 
 Volume Atlas::check(const Context& context) const {
     data_->store.check_all();

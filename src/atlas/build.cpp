@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
+#include "atlas/build_fingerprint.h"
 #include "atlas/build_folder.h"
 #include "atlas/census_arrays.h"
-#include "atlas/object_arrays.h"
+#include "atlas/zone_phase.h"
 #include "base/big_vector.h"
 #include "base/cancel.h"
 #include "base/check.h"
@@ -16,12 +17,9 @@
 #include "isoatlas/error.h"
 #include "store/brick_writer.h"
 #include "store/checksum.h"
-#include "store/event_arrays.h"
 #include "store/pack.h"
 #include "store/tree_arrays.h"
 #include "zones/analyse.h"
-#include "zones/hierarchy.h"
-#include "zones/rank.h"
 
 namespace isoatlas {
 namespace {
@@ -51,13 +49,18 @@ std::uint64_t checksum_of(std::span<const std::byte> samples) {
     return sum.sum();
 }
 
-store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& options) {
+/// fingerprint: of what is asked for. samples: checksum of those in the file; nothing: they are those that are analysed.
+store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, store::Fingerprint fingerprint,
+                            std::optional<std::uint64_t> samples) {
     store::Contents contents;
     contents.volume = *volume.info;
     const std::size_t slash = volume.info->path.rfind('/');
     if (slash != std::string::npos) contents.volume.path = volume.info->path.substr(slash + 1);  // where it lay does not matter
     const std::size_t bytes = static_cast<std::size_t>(volume.info->extent.voxels()) * size_of(volume.info->type);
     contents.parameters = {options.interpolant, options.tunnel_height, checksum_of({volume.bytes, bytes})};
+    const std::uint64_t analysed = contents.parameters.samples_checksum;
+    add_samples(fingerprint, samples.value_or(analysed), analysed);
+    contents.fingerprint = std::move(fingerprint);
     return contents;
 }
 
@@ -107,10 +110,9 @@ public:
 
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
 
-    BuildReport run(const VolumeView& volume, const AnalysisOptions& options) {
-        const store::Contents contents = contents_of(volume, options);
+    BuildReport run(const VolumeView& volume, const AnalysisOptions& options, const store::Contents& contents) {
         std::optional<Analysis> analysis;
-        std::unique_ptr<store::Container> trees = folder_.finished(kTrees, contents);
+        std::unique_ptr<store::Container> trees = finished(kTrees, contents);
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
@@ -118,33 +120,15 @@ public:
             store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis, *volume.info, context_.threads));
             trees = std::make_unique<store::Container>(folder_.file(kTrees));
         }
-        std::unique_ptr<store::Container> zones = folder_.finished(kZones, contents);
+        std::unique_ptr<store::Container> zones = finished(kZones, contents);
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
             if (!analysis) analysis = store::arcs_of(*trees, volume.bytes, context_);
             const Context part = shifted(context_, 1, volume.info->extent);
-            count_voxels(*analysis, volume, part);
-            std::vector<store::PackedArray> arrays = store::zone_arrays(*analysis);
-            ZoneSums sums;
-            if (analysis->element_count() <= kTableElements) {
-                Context quiet = context_;
-                quiet.progress = nullptr;
-                context_.report("objects", 6, kPhases, 0);
-                complete(*analysis, volume, quiet);
-                context_.report("objects", 6, kPhases, 0.3);
-                const BothTables tables = rank_both(volume, *analysis, {.top = kStoredEntries}, quiet);
-                const auto add = [&arrays](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(arrays)); };
-                context_.report("objects", 6, kPhases, 0.9);
-                add(object_arrays(tables.bright));
-                add(dark_arrays(tables.dark));
-                if (store::stores_events(*analysis)) {
-                    add(store::event_arrays(*analysis));
-                    sums = sum_zones(volume, *analysis);
-                    arrays.push_back(store::event_sum_array(sums.height));
-                }
-            }
-            store::pack_store(folder_.file(kZones), contents, arrays);
+            const auto done = [this](double fraction) { context_.report("objects", 6, kPhases, fraction); };
+            const std::unique_ptr<ZonePhase> made = zone_phase(*analysis, volume, context_, part, done);
+            store::pack_store(folder_.file(kZones), contents, made->arrays);
             zones = std::make_unique<store::Container>(folder_.file(kZones));
         }
         analysis.reset();
@@ -154,6 +138,20 @@ public:
     }
 
 private:
+    /// What is not used is reported; phases that have the same wrong with them, together.
+    [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& contents) {
+        std::string why_not;
+        std::unique_ptr<store::Container> found = folder_.finished(phase, contents, why_not);
+        if (why_not.empty()) return found;
+        const std::string reason = " of an earlier build are not used: " + why_not;
+        const bool is_same = !report_.not_used.empty() && report_.not_used.back().ends_with(reason);
+        if (is_same)
+            report_.not_used.back().insert(report_.not_used.back().size() - reason.size(), ", " + phase);
+        else
+            report_.not_used.push_back(phase + reason);
+        return found;
+    }
+
     void pack(const VolumeView& volume, const store::Contents& contents, const std::vector<const store::Container*>& phases) {
         std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context_);
         for (const store::Container* phase : phases) {
@@ -186,18 +184,27 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
         samples.resize(bytes);
         return std::span<std::byte>(samples);
     };
-    VolumeInfo info = io::load_samples(reader, options.missing, allocate, shifted(build.context(), 0, reader.info().extent));
+    SummingReader summed(reader);
+    VolumeInfo info = io::load_samples(summed, options.missing, allocate, shifted(build.context(), 0, reader.info().extent));
     if (options.geometry) info.geometry = *options.geometry;
     if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, build.context());
     const VolumeView volume(info, samples.data());
     AnalysisOptions analysis = options.analysis;
     if (options.tunnel_height_percent > 0) analysis.tunnel_height = options.tunnel_height_percent / 100 * range_of(volume);
-    return build.run(volume, analysis);
+    store::Fingerprint fingerprint = header_fingerprint(reader.info(), options, analysis.tunnel_height);
+    store::Contents contents = contents_of(volume, analysis, std::move(fingerprint), summed.sum());
+    contents.is_replaceable = options.is_replaceable;
+    return build.run(volume, analysis, contents);
 }
 
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
-    return Build(path, false, context).run(volume, options);
+    BuildOptions asked;
+    asked.analysis = options;
+    asked.gaussian = volume.info.gaussian;
+    const store::Contents contents =
+        contents_of(volume, options, header_fingerprint(volume.info, asked, options.tunnel_height), std::nullopt);
+    return Build(path, false, context).run(volume, options, contents);
 }
 
 }  // namespace isoatlas

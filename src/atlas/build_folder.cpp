@@ -65,14 +65,6 @@ std::string text_of(const std::string& lock) try { return text_of(*io::open_file
     return "";
 }
 
-/// Does a phase belong to the same samples, and are its arrays what this version would make?
-bool belongs(const store::Contents& found, const store::Contents& wanted) {
-    return found.version == wanted.version && found.volume.extent == wanted.volume.extent && found.volume.type == wanted.volume.type &&
-           found.parameters.interpolant == wanted.parameters.interpolant &&
-           found.parameters.tunnel_height == wanted.parameters.tunnel_height &&
-           found.parameters.samples_checksum == wanted.parameters.samples_checksum;
-}
-
 }  // namespace
 
 BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(require_target(store_path).path + ".build") {
@@ -121,16 +113,19 @@ BuildFolder::~BuildFolder() {
     if (lock_ && file_system().entries(path_, 2).size() == 1) (void)remove();  // the lock alone: nothing was finished
 }
 
-std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted) const {
+std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted,
+                                                        std::string& why_not) const {
     ISOATLAS_CHECK(is_phase(phase));
     if (!io::file_exists(file(phase))) return nullptr;
     try {
         auto container = std::make_unique<store::Container>(file(phase));
-        if (belongs(container->contents(), wanted)) {
+        why_not = store::joined(store::differences(container->contents().fingerprint, wanted.fingerprint));
+        if (why_not.empty()) {
             container->check_all();
             return container;
         }
-    } catch (const Error&) {  // damaged: it is made again
+    } catch (const Error& error) {  // damaged: it is made again
+        why_not = error.text().where + ": " + error.text().what;
     }
     (void)file_system().remove(file(phase));
     return nullptr;

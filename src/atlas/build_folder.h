@@ -27,8 +27,10 @@ public:
 
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::string file(const std::string& phase) const { return path_ + "/" + phase; }
-    /// A finished phase of this volume and these parameters; null: there is none. Others, and damaged ones, are removed.
-    [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& wanted) const;
+    /// A finished phase with the fingerprint of these contents; null: there is none. Others, and damaged ones, are removed; then why_not
+    /// says what is wrong with it.
+    [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& wanted,
+                                                             std::string& why_not) const;
     /// Says where the build is, for other processes: about once a second, whenever it is called. A disk that refuses is no failure.
     void say(const BuildState& state);
     /// The store is there: removes what the build has made, and the folder when nothing else is in it. Returns whether it is gone.

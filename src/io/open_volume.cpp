@@ -103,6 +103,12 @@ bool has_extension(const std::string& path, const Format& format) {
                                        .next = "the file is damaged or misnamed: get it again"});
     }
     const std::string extension = lower(std::filesystem::path(path).extension().string());
+    if (extension == ".atlas") {  // nothing is left by which it could be told
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "first bytes",
+                                       .what = "the file is named like a store but does not begin like one",
+                                       .next = "the file is damaged or misnamed: build it again from the volume"});
+    }
     std::string next = "convert the file, or give --dims and --type if it is RAW";
     for (const auto& [foreign, hint] : kForeign) {
         if (extension == foreign) next = hint;

@@ -19,6 +19,7 @@ struct RawHeader {
 };
 static_assert(sizeof(RawHeader) == 56);
 constexpr std::size_t kCheckedHeader = 48;
+constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 18;
 
 }  // namespace
 
@@ -36,8 +37,31 @@ std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header) {
     return bytes;
 }
 
+std::vector<ByteRange> checked_ranges(const Contents& contents, const Header& header) {
+    std::vector<ByteRange> ranges;
+    const auto add = [&ranges](std::int64_t offset, std::int64_t bytes) {
+        ranges.push_back({static_cast<std::uint64_t>(offset), static_cast<std::uint64_t>(bytes)});
+    };
+    add(0, kHeaderBytes);
+    add(header.contents_offset, header.contents_bytes);
+    for (const StoredArray& array : contents.arrays) {
+        add(array.checksums, array.index_bytes());
+        if (array.chunk == 0) add(array.offset, array.bytes());
+    }
+    return ranges;
+}
+
 bool begins_like_a_store(std::span<const std::byte> first) {
-    return first.size() >= sizeof kMagic && std::memcmp(first.data(), kMagic, sizeof kMagic) == 0;
+    constexpr int kEnough = 12;  // of the 16 bytes of the name
+    constexpr char kHdf5[] = "\x89HDF\r\n\x1a\n";
+    constexpr std::ptrdiff_t kFew = 8;
+    if (first.size() >= kBeginning && std::memcmp(first.data() + kHeaderBytes, kHdf5, 8) == 0) {  // other programs have user blocks, too
+        const std::span<const std::byte> zeros = first.first(kHeaderBytes).subspan(sizeof(RawHeader));
+        if (std::ranges::count(zeros, std::byte{0}) >= std::ssize(zeros) - kFew) return true;
+    }
+    int same = 0;
+    for (std::size_t i = 0; i < std::min(first.size(), sizeof kMagic); ++i) same += first[i] == static_cast<std::byte>(kMagic[i]) ? 1 : 0;
+    return same >= kEnough;
 }
 
 Container::Container(const std::string& path) : path_(path), file_(io::open_file(path)), file_size_(file_->size()) { read_header(); }
@@ -48,9 +72,10 @@ void Container::damaged(const std::string& where, const std::string& what) const
 }
 
 void Container::read_header() {
-    std::array<std::byte, kHeaderBytes> bytes{};
-    const std::size_t got = io::read_available(*file_, path_, 0, bytes);
-    if (!begins_like_a_store(std::span(bytes).first(got))) {
+    std::array<std::byte, kBeginning> beginning{};
+    const std::size_t got = io::read_available(*file_, path_, 0, beginning);
+    const std::span<const std::byte> bytes = std::span(beginning).first(kHeaderBytes);
+    if (!begins_like_a_store(std::span(beginning).first(got))) {
         throw Error(ErrorKind::input, {.file = path_,
                                        .what = "is no isoatlas store",
                                        .expected = "a file that `isoatlas build` has finished",
@@ -59,6 +84,7 @@ void Container::read_header() {
     RawHeader raw;
     std::memcpy(&raw, bytes.data(), sizeof raw);
     const bool rest_is_zero = std::all_of(bytes.begin() + sizeof raw, bytes.end(), [](std::byte b) { return b == std::byte{0}; });
+    if (std::memcmp(raw.magic, kMagic, sizeof kMagic) != 0) damaged("header", "its first bytes are wrong");
     if (got < bytes.size() || raw.checksum != checksum(std::span(bytes).first(kCheckedHeader)) || !rest_is_zero)
         damaged("header", "its checksum is wrong");
     if (raw.file_size != static_cast<std::uint64_t>(file_size_)) {
@@ -68,9 +94,46 @@ void Container::read_header() {
     if (size < 0 || size > kMostContents || offset < kHeaderBytes || offset > file_size_ - size)
         damaged("header", "the contents lie outside the file");
     header_ = {file_size_, offset, size, raw.contents_checksum};
+    const bool has_frame = check_frame();
     contents_ = contents_of_json(contents_text(), path_, file_size_);
+    if (contents_.version >= 3 && !has_frame) damaged("trailer", "its last bytes are wrong");
     contents_.volume.path = path_;
     contents_.volume.file_bytes = file_size_;
+}
+
+bool Container::check_frame() {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(kTrailerEnd));
+    io::read_fully(*file_, path_, file_size_ - kTrailerEnd, bytes);
+    const std::optional<std::int64_t> size = trailer_bytes(bytes, file_size_);
+    if (!size) return false;
+    bytes.resize(static_cast<std::size_t>(*size));
+    io::read_fully(*file_, path_, file_size_ - *size, bytes);
+    std::optional<Frame> frame = frame_of_trailer(bytes, file_size_);
+    if (!frame) damaged("trailer", "its checksum is wrong");
+    Checksum sum;
+    for (const ByteRange& range : frame->ranges) {
+        for (std::uint64_t done = 0; done < range.bytes; done += bytes.size()) {
+            bytes.resize(static_cast<std::size_t>(std::min(range.bytes - done, kReadAtOnce)));
+            io::read_fully(*file_, path_, static_cast<std::int64_t>(range.offset + done), bytes);
+            sum.add(bytes);
+        }
+    }
+    if (sum.sum() != frame->checksum) damaged("structures of HDF5", "their checksum is wrong");
+    frame_ = std::move(*frame);
+    return true;
+}
+
+void Container::check_nothing_is_left_out() const {
+    std::vector<ByteRange> covered = checked_ranges(contents_, header_);
+    std::ranges::copy(frame_.ranges, std::back_inserter(covered));
+    const std::uint64_t trailer = bytes_of_trailer(frame_).size();
+    covered.push_back({static_cast<std::uint64_t>(file_size_) - trailer, trailer});
+    for (const StoredArray& array : contents_.arrays) {
+        if (array.chunk == 0) continue;
+        for (const StoredChunk& chunk : chunks_of(array, 0, array.blocks())) covered.push_back({chunk.offset, chunk.bytes});
+    }
+    const std::vector<ByteRange> left = outside(std::move(covered), static_cast<std::uint64_t>(file_size_));
+    if (!left.empty()) damaged("byte " + std::to_string(left.front().offset), "it lies under no checksum");
 }
 
 std::vector<std::uint64_t> Container::checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
@@ -177,6 +240,7 @@ void Container::check_all() const {
         for (std::int64_t first = 0; first < array.bytes(); first += array.block)
             read(array, first, std::span(block).first(static_cast<std::size_t>(std::min(array.block, array.bytes() - first))));
     }
+    if (contents_.version >= 3) check_nothing_is_left_out();  // by what is right as far as it is checked
 }
 
 }  // namespace isoatlas::store

@@ -13,6 +13,7 @@
 
 #include "io/file_access.h"
 #include "store/contents.h"
+#include "store/frame.h"
 
 namespace isoatlas::store {
 
@@ -24,7 +25,11 @@ struct Header {
     std::uint64_t contents_checksum = 0;
 };
 [[nodiscard]] std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header);
-/// Does a file begin like a store? `first`: its first 16 bytes or less.
+/// What has checksums of its own: header, contents, arrays and what finds and checks their blocks; without the chunks of arrays.
+[[nodiscard]] std::vector<ByteRange> checked_ranges(const Contents& contents, const Header& header);
+/// Is a file a store, or a store that has been damaged? `first`: its first kBeginning bytes, or all of fewer. Most of the name of the
+/// format, or HDF5's name where it stands in a store, is enough: what else is wrong, the checksums find.
+inline constexpr std::size_t kBeginning = kHeaderBytes + 8;
 [[nodiscard]] bool begins_like_a_store(std::span<const std::byte> first);
 
 /// An open store. Reading is thread safe: it changes nothing.
@@ -35,6 +40,8 @@ public:
 
     [[nodiscard]] const Header& header() const { return header_; }
     [[nodiscard]] const Contents& contents() const { return contents_; }
+    /// Of the format. Values of elements that are not stored but made again from the samples are those of their time.
+    [[nodiscard]] int version() const { return contents_.version; }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::int64_t file_size() const { return file_size_; }
 
@@ -65,11 +72,15 @@ public:
     /// The compressed chunks of an array one after the other, checked.
     void for_each_chunk(const StoredArray& array, const std::function<void(std::span<const std::byte>)>& use) const;
 
-    /// Reads every array that has checksums; throws Error{input} for the first that is damaged.
+    /// Reads every array that has checksums, and looks whether every byte of the file lies under one (not before version 3); throws
+    /// Error{input} for the first that is damaged.
     void check_all() const;
 
 private:
     void read_header();
+    /// Before anything is parsed. Returns whether there is one.
+    bool check_frame();
+    void check_nothing_is_left_out() const;
     void check_inside(const StoredArray& array, std::int64_t first, std::size_t bytes) const;
     [[nodiscard]] std::vector<std::uint64_t> checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
     [[nodiscard]] std::vector<StoredChunk> chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
@@ -81,6 +92,7 @@ private:
     std::unique_ptr<File> file_;
     std::int64_t file_size_ = 0;
     Header header_;
+    Frame frame_;  ///< empty before version 3
     Contents contents_;
 };
 

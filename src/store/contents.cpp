@@ -59,6 +59,19 @@ Json json_of(const VolumeInfo& info) {
     return json;
 }
 
+Json json_of(const Fingerprint& fingerprint) {
+    Json members = Json::object();
+    for (const Fingerprint::Member& member : fingerprint.members) members[member.name] = member.text;
+    return {{"hash", fingerprint.hash()}, {"members", std::move(members)}};
+}
+
+Fingerprint fingerprint_of(const Json& json) {
+    Fingerprint fingerprint;
+    for (const auto& [name, text] : json.at("members").items()) fingerprint.add(name, text.get<std::string>());
+    if (fingerprint.hash() != unsigned_integer(json.at("hash"))) throw Unreadable("the hash of the fingerprint is wrong");
+    return fingerprint;
+}
+
 ValueType value_type(const std::string& name) {
     for (int i = 0; i < 8; ++i) {
         if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
@@ -153,6 +166,11 @@ std::int64_t StoredArray::bytes() const { return count() * size_of_type(type); }
 
 bool Contents::has_array(std::string_view name) const { return std::ranges::find(arrays, name, &StoredArray::name) != arrays.end(); }
 
+bool Contents::has_present_values() const {
+    if (version >= 3) return fingerprint.find("algorithm") != nullptr && *fingerprint.find("algorithm") == std::to_string(kAlgorithmVersion);
+    return size_of(volume.type) <= 2;
+}
+
 const StoredArray& Contents::array(std::string_view name, std::string_view type) const {
     const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const StoredArray& a) { return a.name == name && a.type == type; });
     if (found != arrays.end()) return *found;
@@ -164,6 +182,8 @@ std::string to_json(const Contents& contents) {
     json["parameters"] = {{"interpolant", name_of(contents.parameters.interpolant)},
                           {"tunnel_height", contents.parameters.tunnel_height},
                           {"samples_checksum", contents.parameters.samples_checksum}};
+    if (contents.version >= 3) json["fingerprint"] = json_of(contents.fingerprint);
+    if (contents.is_replaceable) json["replaceable"] = true;
     Json& arrays = json["arrays"] = Json::array();
     for (const StoredArray& a : contents.arrays) {
         arrays.push_back({{"name", a.name},
@@ -196,6 +216,8 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     contents.parameters.interpolant = is_faces ? Interpolant::faces : Interpolant::trilinear;
     contents.parameters.tunnel_height = parameters.at("tunnel_height").get<double>();
     contents.parameters.samples_checksum = unsigned_integer(parameters.at("samples_checksum"));
+    if (contents.version >= 3) contents.fingerprint = fingerprint_of(json.at("fingerprint"));
+    contents.is_replaceable = json.value("replaceable", false);
     for (const Json& entry : json.at("arrays")) {
         contents.arrays.push_back(array_of(entry));
         if (!is_sound(contents.arrays.back(), file_size)) damaged(path, contents.arrays.back().name, "the array lies outside the file");

@@ -11,10 +11,11 @@
 
 #include "isoatlas/analysis.h"
 #include "isoatlas/volume.h"
+#include "store/fingerprint.h"
 
 namespace isoatlas::store {
 
-inline constexpr int kStoreVersion = 2;
+inline constexpr int kStoreVersion = 3;
 inline constexpr int kFirstExactVersion = 3;  // from here on values of saddles are rounded once (critical/element_values.h)
 
 /// Numbers in a row of bytes, little endian, first index slowest.
@@ -53,11 +54,16 @@ struct Contents {
     int version = kStoreVersion;
     VolumeInfo volume;  ///< extent, type, geometry, calibration, value unit; path is the name of the source
     Parameters parameters;
+    Fingerprint fingerprint;      ///< empty in stores of versions 1 and 2
+    bool is_replaceable = false;  ///< made beside a page by those who may make it anew (BuildOptions::is_replaceable)
     std::vector<StoredArray> arrays;
 
     /// Throws Error{input} when there is none of that name and type.
     [[nodiscard]] const StoredArray& array(std::string_view name, std::string_view type) const;
     [[nodiscard]] bool has_array(std::string_view name) const;
+    /// Would this version find the same numbers in the same samples? Face and body points of samples of more than 16 bits have had other
+    /// values in versions 1 and 2, and what follows from them may differ.
+    [[nodiscard]] bool has_present_values() const;
 };
 
 /// Bytes of one number of a type; 0: no such type.

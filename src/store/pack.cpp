@@ -11,6 +11,7 @@
 #include "store/checksum.h"
 #include "store/chunk_codec.h"
 #include "store/container.h"
+#include "store/frame.h"
 #include "store/hdf5_layout.h"
 
 namespace isoatlas::store {
@@ -100,7 +101,8 @@ private:
     std::vector<StoredChunk> chunks_;
 };
 
-void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& source, StoredArray& array) {
+/// Adds the places of its chunks to `places`.
+void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& source, StoredArray& array, std::vector<ByteRange>& places) {
     layout.begin_chunks("/" + source.name, source.type, array.count(), source.chunk);
     ChunkWriter writer(file, layout, array);
     if (source.feed_chunks) {
@@ -108,7 +110,9 @@ void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& sourc
     } else {
         source.feed([&](std::span<const std::byte> bytes) { writer.put(bytes); });
     }
-    const std::span<const std::byte> index = std::as_bytes(std::span(writer.finish()));
+    const std::vector<StoredChunk>& chunks = writer.finish();
+    for (const StoredChunk& chunk : chunks) places.push_back({chunk.offset, chunk.bytes});
+    const std::span<const std::byte> index = std::as_bytes(std::span(chunks));
     array.checksums = layout.add("/chunks/" + source.name, "uint64", {array.blocks(), 3});
     file.write_at(array.checksums, index);
     array.sum = checksum(index);
@@ -121,6 +125,25 @@ void write_array(AtomicFile& file, const PackedArray& source, StoredArray& array
     if (array.block == 0) return;
     file.write_at(array.checksums, sums);
     array.sum = checksum(sums);
+}
+
+/// The frame of what HDF5 has laid out: its pieces, and zeros where it has none.
+Frame frame_of(std::vector<ByteRange> ranges, const std::vector<Hdf5Layout::Piece>& pieces) {
+    Frame frame{std::move(ranges), 0};
+    Checksum sum;
+    std::vector<std::byte> bytes;
+    for (const ByteRange& range : frame.ranges) {
+        bytes.assign(static_cast<std::size_t>(range.bytes), std::byte{0});
+        const auto begin = static_cast<std::int64_t>(range.offset), end = begin + static_cast<std::int64_t>(range.bytes);
+        for (const Hdf5Layout::Piece& piece : pieces) {
+            const std::int64_t first = std::max(begin, piece.offset);
+            const std::int64_t last = std::min(end, piece.offset + static_cast<std::int64_t>(piece.bytes.size()));
+            if (first < last) std::copy_n(piece.bytes.begin() + (first - piece.offset), last - first, bytes.begin() + (first - begin));
+        }
+        sum.add(bytes);
+    }
+    frame.checksum = sum.sum();
+    return frame;
 }
 
 }  // namespace
@@ -140,9 +163,10 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
         contents.arrays.push_back(std::move(array));
     }
     file.reserve(layout.size());
+    std::vector<ByteRange> covered;  // the chunks of arrays, then all else that has checksums of its own
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         if (arrays[i].chunk > 0) {
-            write_chunks(file, layout, arrays[i], contents.arrays[i]);
+            write_chunks(file, layout, arrays[i], contents.arrays[i], covered);
         } else {
             write_array(file, arrays[i], contents.arrays[i]);
         }
@@ -154,9 +178,15 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
     header.contents_offset = layout.add("/contents", "uint8", {header.contents_bytes});
     header.contents_checksum = checksum(bytes);
     file.write_at(header.contents_offset, bytes);
-    for (const Hdf5Layout::Piece& piece : layout.finish()) file.write_at(piece.offset, piece.bytes);
-    header.file_size = std::max(file.size(), layout.size());
-    file.extend(header.file_size);
+    const std::vector<Hdf5Layout::Piece>& pieces = layout.finish();
+    for (const Hdf5Layout::Piece& piece : pieces) file.write_at(piece.offset, piece.bytes);
+    const std::int64_t end = std::max(file.size(), layout.size());
+    file.extend(end);
+    std::ranges::copy(checked_ranges(contents, header), std::back_inserter(covered));
+    const Frame frame = frame_of(outside(std::move(covered), static_cast<std::uint64_t>(end)), pieces);
+    const std::vector<std::byte> trailer = bytes_of_trailer(frame);
+    file.write_at(end, trailer);
+    header.file_size = end + static_cast<std::int64_t>(trailer.size());
     file.write_at(0, bytes_of_header(header));
     file.commit();
     return header.file_size;

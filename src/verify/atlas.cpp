@@ -134,6 +134,8 @@ std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& o
              {join_tree_is_valid(stored), euler_sums_hold(stored), contour_tree_is_a_tree(stored), levels_match_events(stored)})
             results.push_back(check);
         results.push_back(stored_events_follow_from_elements(atlas, stored));
+        (void)readable("stored_tables_are_recomputed", results,
+                       [&] { results.push_back(stored_tables_are_recomputed(atlas, *samples, options.full, context)); });
         if (options.full) {
             const Analysis fresh = analyse(*samples, {.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()}, context);
             results.push_back(zones_partition_voxels(fresh, *samples));

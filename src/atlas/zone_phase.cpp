@@ -1,0 +1,53 @@
+#include "atlas/zone_phase.h"
+
+#include <algorithm>
+
+#include "atlas/object_arrays.h"
+#include "store/event_arrays.h"
+#include "store/tree_arrays.h"
+#include "zones/analyse.h"
+#include "zones/rank.h"
+
+namespace isoatlas {
+namespace {
+
+void add_tables(const Analysis& analysis, const VolumeView& volume, const Context& quiet, const std::function<void(double)>& done,
+                ZonePhase& phase) {
+    const BothTables tables = rank_both(volume, analysis, {.top = kStoredEntries}, quiet);
+    done(0.9);
+    const auto add = [&phase](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(phase.arrays)); };
+    add(object_arrays(tables.bright));
+    add(dark_arrays(tables.dark));
+    if (!store::stores_events(analysis)) return;
+    add(store::event_arrays(analysis));
+    phase.sums = sum_zones(volume, analysis);
+    phase.arrays.push_back(store::event_sum_array(phase.sums.height));
+}
+
+Context silent(Context context) {
+    context.progress = nullptr;
+    return context;
+}
+
+}  // namespace
+
+std::unique_ptr<ZonePhase> zone_phase(Analysis& analysis, const VolumeView& volume, const Context& context, const Context& counting,
+                                      const std::function<void(double)>& done) {
+    auto phase = std::make_unique<ZonePhase>();
+    count_voxels(analysis, volume, counting);
+    phase->arrays = store::zone_arrays(analysis);
+    if (analysis.element_count() > kTableElements) return phase;
+    done(0);
+    complete(analysis, volume, silent(context));
+    done(0.3);
+    add_tables(analysis, volume, silent(context), done, *phase);
+    return phase;
+}
+
+std::unique_ptr<ZonePhase> zone_tables(const Analysis& analysis, const VolumeView& volume, const Context& context) {
+    auto phase = std::make_unique<ZonePhase>();
+    if (analysis.element_count() <= kTableElements) add_tables(analysis, volume, silent(context), [](double) {}, *phase);
+    return phase;
+}
+
+}  // namespace isoatlas

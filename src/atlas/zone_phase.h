@@ -1,0 +1,29 @@
+// The second phase of a build: the voxels of every element, and the tables and sums that follow from the zones.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "field/volume_view.h"
+#include "isoatlas/analysis.h"
+#include "store/pack.h"
+#include "zones/hierarchy.h"
+
+namespace isoatlas {
+
+struct ZonePhase {
+    std::vector<store::PackedArray> arrays;
+    ZoneSums sums;  ///< which the arrays look at
+};
+
+/// analysis: critical elements and arcs; it has zones and trees afterwards, and must live until the arrays are packed. counting: told how
+/// far counting is. done: told what part of ranking is done, 0 to 1. Cost: count_voxels(); and of at most kTableElements elements
+/// complete() and rank_both().
+[[nodiscard]] std::unique_ptr<ZonePhase> zone_phase(Analysis& analysis, const VolumeView& volume, const Context& context,
+                                                    const Context& counting, const std::function<void(double)>& done);
+
+/// Only the tables, events and sums, of an analysis with zones; nothing of more than kTableElements elements.
+[[nodiscard]] std::unique_ptr<ZonePhase> zone_tables(const Analysis& analysis, const VolumeView& volume, const Context& context);
+
+}  // namespace isoatlas

@@ -1,0 +1,127 @@
+// stored_tables_are_recomputed: every array is made once more, as a build makes it, and compared with the stored one byte by byte.
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "atlas/census_arrays.h"
+#include "atlas/zone_phase.h"
+#include "store/brick_writer.h"
+#include "store/tree_arrays.h"
+#include "verify/store_checks.h"
+#include "zones/analyse.h"
+
+namespace isoatlas {
+namespace {
+
+using store::PackedArray;
+using store::StoredArray;
+
+/// A number of an array as text.
+std::string number_text(std::span<const std::byte> bytes, const std::string& type) {
+    const auto read = [bytes]<class T>(T number) {
+        std::memcpy(&number, bytes.data(), sizeof number);
+        return number;
+    };
+    if (type == "uint64") return std::to_string(read(std::uint64_t{}));
+    if (type == "int64") return std::to_string(read(std::int64_t{}));
+    for (int i = 0; i < 8; ++i) {
+        if (type != name_of(static_cast<ValueType>(i))) continue;
+        return visit_type(static_cast<ValueType>(i), [&](auto zero) { return store::exact_text(static_cast<double>(read(zero))); });
+    }
+    return "?";
+}
+
+class Comparison {
+public:
+    explicit Comparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.version() >= 3 && store_.contents().has_present_values()) {}
+
+    [[nodiscard]] const store::Container& store() const { return store_; }
+    [[nodiscard]] bool is_present() const { return is_present_; }
+
+    void compare(const std::vector<PackedArray>& arrays) {
+        for (const PackedArray& array : arrays) compare(array);
+    }
+    /// Only those of these names.
+    void compare(const std::vector<PackedArray>& arrays, const std::set<std::string>& names) {
+        for (const PackedArray& array : arrays) {
+            if (names.contains(array.name)) compare(array);
+        }
+    }
+    void expect_nothing_else() {
+        for (const StoredArray& array : store_.contents().arrays) {
+            if (!seen_.contains(array.name)) check_.fail(array.name + " is stored and nothing is known of it");
+        }
+    }
+    [[nodiscard]] CheckResult result() const {
+        std::string counted = std::to_string(numbers_) + " numbers of " + std::to_string(seen_.size()) + " arrays";
+        if (!is_present_) counted += "; an earlier version made the others, by rules that it does not tell";
+        return check_.result(counted);
+    }
+
+private:
+    void compare(const PackedArray& made) {
+        const auto& arrays = store_.contents().arrays;
+        const auto stored = std::ranges::find(arrays, made.name, &StoredArray::name);
+        if (stored == arrays.end() && !is_present_) return;  // not in stores of those days
+        seen_.insert(made.name);
+        if (stored == arrays.end()) return check_.fail(made.name + " is missing");
+        if (stored->type != made.type || stored->shape != made.shape) return check_.fail(made.name + " has another type or size");
+        std::int64_t first = 0;
+        std::vector<std::byte> part;
+        made.feed([&](std::span<const std::byte> bytes) {
+            part.resize(bytes.size());
+            if (stored->block == 0) store_.read_unchecked(*stored, first, part);
+            if (stored->block > 0) store_.read(*stored, first, part);
+            look(made, first, part, bytes);
+            first += static_cast<std::int64_t>(bytes.size());
+        });
+        numbers_ += stored->count();
+    }
+    /// Bytes of an array from `first` on.
+    void look(const PackedArray& array, std::int64_t first, std::span<const std::byte> stored, std::span<const std::byte> made) {
+        const auto [own, other] = std::ranges::mismatch(stored, made);
+        if (own == stored.end()) return;
+        const std::int64_t size = store::size_of_type(array.type), number = (first + (own - stored.begin())) / size;
+        const auto at = static_cast<std::size_t>(number * size - first), width = static_cast<std::size_t>(size);
+        check_.fail(array.name + "[" + std::to_string(number) + "] is " + number_text(stored.subspan(at, width), array.type) +
+                    ", recomputed " + number_text(made.subspan(at, width), array.type));
+    }
+
+    store::Container store_;
+    bool is_present_;
+    Check check_{"stored_tables_are_recomputed"};
+    std::set<std::string> seen_;
+    std::int64_t numbers_ = 0;
+};
+
+}  // namespace
+
+CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& samples, bool anew, const Context& context) {
+    Comparison comparison(atlas);
+    const VolumeView volume(samples);
+    Context silent = context;
+    silent.progress = nullptr;
+    const std::vector<PackedArray> bricks = store::brick_arrays(volume, silent);
+    const LevelCensus census = take_census(volume, silent);
+    comparison.compare(census_arrays(census));
+    if (!comparison.is_present()) {
+        comparison.compare(bricks, {"volume/low", "volume/high", "volume/lowest", "volume/highest"});
+        return comparison.result();
+    }
+    comparison.compare(bricks);
+    const AnalysisOptions options{.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()};
+    if (!anew) {
+        const Analysis stored = store::zoned_analysis_of(comparison.store(), volume, silent);
+        const std::unique_ptr<ZonePhase> tables = zone_tables(stored, volume, silent);
+        comparison.compare(tables->arrays);
+        return comparison.result();
+    }
+    Analysis analysis = find_arcs(volume, options, silent);
+    comparison.compare(store::tree_arrays(analysis, samples.info, context.threads));
+    const std::unique_ptr<ZonePhase> zones = zone_phase(analysis, volume, silent, silent, [](double) {});
+    comparison.compare(zones->arrays);
+    comparison.expect_nothing_else();
+    return comparison.result();
+}
+
+}  // namespace isoatlas
