@@ -113,6 +113,69 @@ class Atlas(harness.CliTest):
         self.assertGreater(os.stat(self.folder / "again.atlas").st_mtime_ns, before)
         self.assertEqual(self.run_json("again.atlas", "-o", "other.html", "--top", "1")["store"], "again.atlas")
 
+    def scan(self, name, spacing):
+        """A RAW volume with a sidecar."""
+        (self.folder / f"{name}.raw").write_bytes(bytes(9 * (3 <= x < 9 and 3 <= y < 9 and 3 <= z < 9) for z in range(12) for y in range(12) for x in range(12)))
+        (self.folder / f"{name}.raw.json").write_text(json.dumps({"dims": [12, 12, 12], "type": "uint8", "spacing": spacing, "unit": "mm"}))
+        return f"{name}.raw"
+
+    def test_a_store_of_other_options_is_made_anew_and_the_difference_is_said(self):
+        def said(*options):
+            return self.run_ok("demo.nrrd", "-o", "options.html", "--top", "1", *options).stderr
+        said()
+        for options, difference in ((["--interpolant", "faces"], "interpolant trilinear there, faces here"),
+                                    ([], "interpolant faces there, trilinear here"),
+                                    (["--tunnel-height", "50"], "tunnel height 0 there, 50 here"),
+                                    (["--voxel"], "is built anew: spacing"),
+                                    (["--gaussian", "1"], "is built anew: spacing"),
+                                    (["--missing", "below"], "missing samples refused there, below all others here"),
+                                    (["--gaussian", "1.5"], "Gaussian none there, 1.5 here")):
+            told = said(*options)
+            self.assertIn(difference, told)
+            self.assertNotIn("is there already", told)
+            self.assertIn("is there already", said(*options))
+
+    def test_a_store_of_another_sidecar_is_made_anew(self):
+        scan = self.scan("sidecar", [1, 1, 1])
+        self.run_ok(scan)
+        before = self.run_json("objects", "sidecar.atlas")["objects"]
+        self.scan("sidecar", [2, 2, 2])
+        self.assertIn("spacing 1 x 1 x 1 there, 2 x 2 x 2 here", self.run_ok(scan).stderr)
+        after = self.run_json("objects", "sidecar.atlas")["objects"]
+        self.assertEqual([entry["measure"] for entry in after], [8 * entry["measure"] for entry in before])
+
+    def test_content_counts_and_not_age(self):
+        scan = self.scan("age", [1, 1, 1])
+        self.run_ok(scan)
+        os.utime(self.folder / scan)   # now: newer than the store
+        self.assertIn("is there already", self.run_ok(scan).stderr)
+        changed = bytearray((self.folder / scan).read_bytes())
+        changed[500] ^= 1
+        (self.folder / scan).write_bytes(changed)
+        os.utime(self.folder / scan, (0, 0))   # long ago
+        self.assertIn("is built anew: other samples there", self.run_ok(scan).stderr)
+
+    def test_what_somebody_has_built_is_not_replaced(self):
+        self.run_ok("build", "demo.nrrd", "--gaussian", "1", "-o", "mine.atlas", "--quiet")
+        held = (self.folder / "mine.atlas").read_bytes()
+        self.run_error(2, "demo.nrrd", "-o", "mine.html", says="is not replaced: Gaussian 1 there, none here", next_says="--restart")
+        self.assertEqual((self.folder / "mine.atlas").read_bytes(), held)
+        self.assertFalse((self.folder / "mine.html").exists())
+        self.run_ok("demo.nrrd", "--gaussian", "1", "-o", "mine.html", "--top", "1")
+        self.run_ok("mine.atlas", "-o", "mine.html", "--top", "1")
+        self.assertEqual((self.folder / "mine.atlas").read_bytes(), held)
+        (self.folder / "letter.atlas").write_text("Dear Sir or Madam")
+        self.run_error(2, "demo.nrrd", "-o", "letter.html", says="is in the way of the store", next_says="--restart")
+        self.assertEqual((self.folder / "letter.atlas").read_text(), "Dear Sir or Madam")
+        self.run_ok("demo.nrrd", "-o", "mine.html", "--restart", "--top", "1")
+        self.assertNotEqual((self.folder / "mine.atlas").read_bytes(), held)
+
+    def test_an_option_that_contradicts_a_store_is_refused(self):
+        self.run_ok("build", "noise.nrrd", "-o", "plain.atlas", "--quiet")
+        for options in (["--interpolant", "faces"], ["--gaussian", "1"], ["--tunnel-height", "3"], ["--missing", "0"]):
+            self.run_error(2, "plain.atlas", *options, says="contradicts the store")
+            self.run_error(2, "view", "plain.atlas", "--no-browser", *options, says="contradicts the store")
+
     def test_what_is_shown_and_hidden_is_all_there_is(self):
         self.run_ok("phantom", "random-field", "--size", "48", "--noise", "0.1", "-o", "field.nrrd")
         told = self.run_json("field.nrrd")

@@ -54,9 +54,9 @@ class Builds(harness.CliTest):
             self.assertEqual(self.left("killed.atlas"), [])
         print("went on from a finished phase", resumed, "times")
 
-    def stop_after(self, phase):
+    def stop_after(self, phase, *words):
         """Builds until a phase is finished, then kills."""
-        builder = self.begin("build", "noise.nrrd", "-o", "stopped.atlas")
+        builder = self.begin("build", *(words or ["noise.nrrd"]), "-o", "stopped.atlas")
         finished = self.folder / "stopped.atlas.build" / phase
         while not finished.exists() and builder.poll() is None:
             time.sleep(0.001)
@@ -91,6 +91,26 @@ class Builds(harness.CliTest):
         self.assertEqual(self.digest("stopped.atlas"), self.wanted)
         self.assertEqual(again(held, "--interpolant", "faces"), [])
         self.assertEqual(again(held, volume="field.nrrd"), [])
+
+    def test_phases_of_other_lengths_are_not_used_and_the_difference_is_said(self):
+        """A finished phase holds volumes of objects in the unit of the file: another spacing is another build."""
+        samples = bytes(random.Random(3).choices(range(64), k=72 ** 3))
+        (self.folder / "scan.raw").write_bytes(samples)
+        (self.folder / "scan.raw.json").write_text('{"dims": [72, 72, 72], "type": "uint8"}')
+        self.run_ok("build", "scan.raw", "--spacing", "2,2,2", "-o", "uninterrupted.atlas")
+        for _ in range(20):
+            (self.folder / "stopped.atlas").unlink(missing_ok=True)
+            if self.stop_after("zones", "scan.raw", "--spacing", "1,1,1"):
+                break
+        else:
+            self.skipTest("too fast to be stopped between two phases")
+        (self.folder / "stopped.atlas").unlink(missing_ok=True)
+        told = self.run_json("build", "scan.raw", "--spacing", "2,2,2", "-o", "stopped.atlas")
+        self.assert_schema(told, "build")
+        self.assertEqual(told["resumed"], [])
+        self.assertEqual(told["not_used"], ["trees, zones of an earlier build are not used: spacing 1 x 1 x 1 there, 2 x 2 x 2 here"])
+        self.assertEqual(self.digest("stopped.atlas"), self.digest("uninterrupted.atlas"))
+        (self.folder / "stopped.atlas").unlink()
 
     def test_interrupted_it_keeps_what_is_finished_and_says_so(self):
         builder = self.begin("build", "noise.nrrd", "-o", "interrupted.atlas")

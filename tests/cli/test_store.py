@@ -1,5 +1,7 @@
 """Stores on the command line: what a store answers is what its volume answers."""
+import json
 import os
+import random
 import resource
 import shutil
 
@@ -47,6 +49,29 @@ class Stores(harness.CliTest):
             other = self.run_json("objects", "noise.atlas", *options)
             self.assertEqual(one["objects"], other["objects"])
 
+    def test_a_changed_byte_is_a_damaged_store_or_does_not_matter(self):
+        """Never a file of an unknown format, and never another answer. What `verify` can open it finds."""
+        self.run_ok("phantom", "noise", "--size", "4", "-o", "tiny.nrrd", "--quiet")
+        self.run_ok("build", "tiny.nrrd", "-o", "tiny.atlas", "--quiet")
+        whole = self.read("tiny.atlas")
+        right = self.run_json("objects", "tiny.atlas", "--all")["objects"]
+        seed = int(os.environ.get("ISOATLAS_SEED", 7))
+        chance = random.Random(seed)
+        print("seed", seed)
+        places = [*range(0, 56, 3), 56, 511, *range(512, 524, 2), *chance.sample(range(524, len(whole) - 40), 40), *range(len(whole) - 40, len(whole), 5)]
+        for at in places:
+            damaged = bytearray(whole)
+            damaged[at] ^= 1 << chance.randrange(8)
+            (self.folder / "tiny.atlas").write_bytes(damaged)
+            done = self.start(["objects", "tiny.atlas", "--all", "--json", "--quiet"])
+            self.assertIn(done.returncode, (0, 3), f"byte {at}: {done.stderr}")
+            if done.returncode == 0:
+                self.assertEqual(json.loads(done.stdout)["objects"], right, f"byte {at}")
+            self.assertIn(self.start(["verify", "tiny.atlas", "--quiet", "--levels", "1"]).returncode, (3, 7), f"byte {at}")
+        for damaged in (whole[:5], whole[:100], b"\0" * 512 + whole[512:], b"\0" * 600 + whole[600:], b""):
+            (self.folder / "tiny.atlas").write_bytes(damaged)
+            self.run_error(3, "objects", "tiny.atlas")
+
     def test_info_and_verify(self):
         self.assertEqual(self.run_json("info", "noise.atlas")["values"]["low"], self.run_json("info", "noise.nrrd")["values"]["low"])
         told = self.run_json("verify", "noise.atlas", "--levels", "3", "--seed", "5")
@@ -57,7 +82,7 @@ class Stores(harness.CliTest):
         names = {check["name"] for check in full["checks"]}
         self.assertLess({check["name"] for check in told["checks"]}, names)
         self.assertLessEqual({"checksums_are_right", "bricks_hold_active_cells", "join_tree_is_valid", "objects_equal_volume", "tree_equals_cut",
-                              "surface_is_manifold", "stored_tree_equals_analysis", "zones_partition_voxels"}, names)
+                              "surface_is_manifold", "stored_tables_are_recomputed", "stored_tree_equals_analysis", "zones_partition_voxels"}, names)
         self.assertIn("seed 5", self.run_ok("verify", "noise.atlas", "--levels", "1", "--seed", "5").stdout.splitlines()[-1])
 
     def test_a_tunnel_height_in_percent_is_of_the_filtered_samples(self):
