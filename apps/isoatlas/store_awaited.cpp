@@ -94,7 +94,8 @@ void await_store(const Arguments& arguments, Terminal& terminal, const std::stri
                  const std::function<void(const BuildState&)>& tell) {
     const auto is_right = [&] { return arguments.file == store || is_usable(store, arguments, terminal); };
     while (!await_others(store, tell) || !is_right()) {
-        if (arguments.read_only || arguments.file == store) no_store(arguments, store, "the build that was waited for has left no store of it");
+        if (arguments.read_only || arguments.file == store)
+            no_store(arguments, store, "the build that was waited for has left no store of it");
         try {
             return build(arguments, terminal, store, tell);
         } catch (const Error&) {

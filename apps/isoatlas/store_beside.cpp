@@ -26,6 +26,7 @@ bool is_newer(const std::string& store, const VolumeInfo& volume) {
     return true;
 }
 
+/// Of a store and arguments.file.
 std::string differences(const Atlas& atlas, const std::string& store, const Arguments& arguments) {
     const std::unique_ptr<VolumeReader> volume = open_volume(arguments.file, arguments.open);
     const VolumeInfo& info = volume->info();
@@ -39,11 +40,10 @@ std::string differences(const Atlas& atlas, const std::string& store, const Argu
 }
 
 [[noreturn]] void in_the_way(const std::string& store, const Arguments& arguments, const std::string& what) {
-    const bool has_page = arguments.verb == "atlas";
-    const std::string elsewhere = has_page ? "another page with -o has a store of its own" : "a store elsewhere: isoatlas build " + shell_word(arguments.file) +
-                                             reading_options(arguments) + " -o OTHER.atlas, then isoatlas view OTHER.atlas";
-    throw Error(ErrorKind::usage,
-                {.file = store, .what = what, .next = "--restart replaces it; " + elsewhere});
+    const std::string build = "isoatlas build " + shell_word(arguments.file) + reading_options(arguments) + " -o OTHER.atlas";
+    const std::string elsewhere =
+        arguments.verb == "atlas" ? "a page elsewhere (-o) has a store of its own" : build + " makes another one to view";
+    throw Error(ErrorKind::usage, {.file = store, .what = what, .next = "--restart replaces it; " + elsewhere});
 }
 
 }  // namespace
@@ -73,7 +73,8 @@ bool is_usable(const std::string& store, const Arguments& arguments, Terminal& t
     if (!beside.is_there) return false;
     if (!beside.is_store) in_the_way(store, arguments, "is in the way of the store, and is none");
     if (!beside.is_usable()) {
-        if (!beside.is_replaceable) in_the_way(store, arguments, "is a store that was built otherwise, and is not replaced: " + beside.differs);
+        if (!beside.is_replaceable)
+            in_the_way(store, arguments, "is a store that was built otherwise, and is not replaced: " + beside.differs);
         terminal.say("note: " + store + " is built anew: " + beside.differs);
         return false;
     }

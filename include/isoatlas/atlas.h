@@ -96,9 +96,9 @@ public:
     [[nodiscard]] double tunnel_height() const;         ///< of AnalysisOptions
     [[nodiscard]] std::array<double, 2> range() const;  ///< lowest and highest sample
     [[nodiscard]] std::int64_t file_bytes() const;
-    [[nodiscard]] int version() const;           ///< of the format
+    [[nodiscard]] int version() const;          ///< of the format
     [[nodiscard]] bool is_replaceable() const;  ///< BuildOptions::is_replaceable
-    /// Does it hold the numbers that this version would find in its samples? Not those of samples of more than 16 bits of versions 1, 2.
+    /// Does it hold the numbers that this version would find in its samples? Not before version 3: saddles were rounded otherwise.
     [[nodiscard]] bool has_present_values() const;
 
     /// The same as cut() and extract() of the volume, with the interpolant of the store whatever the options say. Bricks that the isovalue

@@ -57,9 +57,9 @@ struct BuildReport {
     /// Phases that had been finished and were made again, and why: "trees, zones of an earlier build are not used: spacing 1 x 1 x 1
     /// there, 2 x 2 x 2 here".
     std::vector<std::string> not_used;
-    std::int64_t peak_memory = 0;      ///< most resident memory of the process, bytes
-    std::int64_t bytes = 0;            ///< of the store
-    std::string left_behind;           ///< the folder of the build when it cannot be removed, though the store is complete; else ""
+    std::int64_t peak_memory = 0;  ///< most resident memory of the process, bytes
+    std::int64_t bytes = 0;        ///< of the store
+    std::string left_behind;       ///< the folder of the build when it cannot be removed, though the store is complete; else ""
 };
 
 /// Analyses a volume and writes the store PATH; PATH appears when it is complete. The same volume and parameters give the same bytes,

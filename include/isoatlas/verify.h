@@ -38,11 +38,12 @@ struct VerifyOptions {
 
 /// A store against itself and its own samples. Whatever the options: every byte of the file against its checksum; the lowest and highest
 /// sample of every brick (they decide which bricks a query reads, at any isovalue); the invariants of the stored tree; every other stored
-/// number, found again from the samples and the stored tree: census, sums of zones, the tables of objects. At the lowest and highest sample and at `levels`
-/// isovalues drawn with `seed`: the stored tree against the flooded samples, surfaces from the store against those of the samples, proved
-/// closed, manifold and of the genus that the tree promises; single objects, drawn too, against their part of the whole surface. full: all
-/// objects, zones, and every stored number against a new build from the samples. A check that finds the store unreadable fails with what and
-/// where. Throws Error: cancelled, resource. Cost: reads the store once; O(volume) time an isovalue.
+/// number, found again from the samples and the stored tree: census, sums of zones, the tables of objects. At the lowest and highest sample
+/// and at `levels` isovalues drawn with `seed`: the stored tree against the flooded samples, surfaces from the store against those of the
+/// samples, proved closed, manifold and of the genus that the tree promises; single objects, drawn too, against their part of the whole
+/// surface. full: all objects, zones, and every stored number against a new build from the samples; of a store that does not hold the
+/// present values (Atlas::has_present_values()) only what has always been the same. A check that finds the store unreadable fails with what
+/// and where. Throws Error: cancelled, resource. Cost: reads the store once; O(volume) time an isovalue.
 [[nodiscard]] std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

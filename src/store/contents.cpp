@@ -167,8 +167,8 @@ std::int64_t StoredArray::bytes() const { return count() * size_of_type(type); }
 bool Contents::has_array(std::string_view name) const { return std::ranges::find(arrays, name, &StoredArray::name) != arrays.end(); }
 
 bool Contents::has_present_values() const {
-    if (version >= 3) return fingerprint.find("algorithm") != nullptr && *fingerprint.find("algorithm") == std::to_string(kAlgorithmVersion);
-    return size_of(volume.type) <= 2;
+    const std::string* algorithm = fingerprint.find("algorithm");
+    return algorithm != nullptr && *algorithm == std::to_string(kAlgorithmVersion);
 }
 
 const StoredArray& Contents::array(std::string_view name, std::string_view type) const {

@@ -61,8 +61,8 @@ struct Contents {
     /// Throws Error{input} when there is none of that name and type.
     [[nodiscard]] const StoredArray& array(std::string_view name, std::string_view type) const;
     [[nodiscard]] bool has_array(std::string_view name) const;
-    /// Would this version find the same numbers in the same samples? Face and body points of samples of more than 16 bits have had other
-    /// values in versions 1 and 2, and what follows from them may differ.
+    /// Would this version find the same numbers in the same samples? In versions 1 and 2 face and body points were rounded otherwise, and
+    /// tables were made by other rules.
     [[nodiscard]] bool has_present_values() const;
 };
 

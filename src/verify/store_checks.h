@@ -25,9 +25,9 @@ namespace isoatlas {
 
 /// The numbers that a store holds beside its samples and its tree, which queries take as they are: lowest and highest samples of bricks,
 /// census, sums of zones, tables of objects and dark objects, their isovalues. They are found again from the samples and the
-/// stored tree, or, `anew`, from the samples alone; then the voxels of elements and the arrays of the tree are compared, too. Of a store that another version would
-/// have made otherwise (Atlas::has_present_values()) only what has always been the same is compared. Cost: the second half of a build;
-/// anew: a build.
+/// stored tree, or, `anew`, from the samples alone; then the voxels of elements and the arrays of the tree are compared, too. Of a store
+/// that another version would have made otherwise (Atlas::has_present_values()) only what has always been the same is compared. Cost: the
+/// second half of a build; anew: a build.
 [[nodiscard]] CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& samples, bool anew, const Context& context);
 
 /// All points, triangles, normals and ids are the same.

@@ -33,7 +33,7 @@ std::string number_text(std::span<const std::byte> bytes, const std::string& typ
 
 class Comparison {
 public:
-    explicit Comparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.version() >= 3 && store_.contents().has_present_values()) {}
+    explicit Comparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.contents().has_present_values()) {}
 
     [[nodiscard]] const store::Container& store() const { return store_; }
     [[nodiscard]] bool is_present() const { return is_present_; }

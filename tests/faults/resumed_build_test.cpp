@@ -66,12 +66,14 @@ protected:
     [[nodiscard]] std::string place(const OptionSet& set) const {
         const std::string size = std::to_string(kSize), sizes = size + " " + size + " " + size;
         if (set.is_4d) {
-            write(path("flow.nrrd"), "NRRD0004\ntype: uint8\ndimension: 4\nsizes: " + sizes + " 2\nencoding: raw\n\n" + samples_[set.samples]);
+            write(path("flow.nrrd"),
+                  "NRRD0004\ntype: uint8\ndimension: 4\nsizes: " + sizes + " 2\nencoding: raw\n\n" + samples_[set.samples]);
             return path("flow.nrrd");
         }
         write(path("scan.raw"), samples_[set.samples].substr(0, static_cast<std::size_t>(kSize * kSize * kSize)));
         const std::string spacing = set.spacing ? "" : ", \"spacing\": " + set.spacing_in_sidecar;
-        write(path("scan.raw.json"), "{\"dims\": [" + size + ", " + size + ", " + size + "], \"type\": \"uint8\"" + spacing + ", \"unit\": \"" + set.unit_in_sidecar + "\"}");
+        write(path("scan.raw.json"), "{\"dims\": [" + size + ", " + size + ", " + size + "], \"type\": \"uint8\"" + spacing +
+                                         ", \"unit\": \"" + set.unit_in_sidecar + "\"}");
         return path("scan.raw");
     }
 
@@ -141,7 +143,8 @@ public:
                 set.build.missing.action = kActions[below(3)];
                 set.build.missing.value = static_cast<double>(below(2));
                 set.build.missing.no_data.reset();
-                if (set.build.missing.action == Action::replace && below(2) == 0) set.build.missing.no_data = 20.0 + static_cast<double>(below(2));
+                if (set.build.missing.action == Action::replace && below(2) == 0)
+                    set.build.missing.no_data = 20.0 + static_cast<double>(below(2));
             },
             [&] { set.threads = static_cast<int>(below(4)); },
             [&] { set.build.memory = below(2) == 0 ? 0 : std::int64_t{1} << 30; },

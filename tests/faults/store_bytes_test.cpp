@@ -58,8 +58,8 @@ protected:
         }
     }
 
-    /// Asks what may depend on a byte: what was made without reading it cannot change. Every question must be refused or answered right; the
-    /// file is still told to be a store. Returns whether check() has found it.
+    /// Asks what may depend on a byte: what was made without reading it cannot change. Every question must be refused or answered right;
+    /// the file is still told to be a store. Returns whether check() has found it.
     bool is_found_after_change_of(std::size_t at) {
         EXPECT_TRUE(is_atlas(kPath)) << "byte " << at;
         const std::string when = "byte " + std::to_string(at);
