@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 
+#include "atlas/build_fingerprint.h"
 #include "base/atomic_file.h"
 #include "base/temporary_name.h"
 #include "isoatlas/error.h"
@@ -149,11 +150,21 @@ void check_requests() {
     std::exit(1);
 }
 
+/// A build is another one with another distance of samples.
+void check_fingerprints() {
+    isoatlas::VolumeInfo near, far;
+    far.geometry.spacing = {2, 2, 2};
+    if (isoatlas::header_fingerprint(near, {}, 0) != isoatlas::header_fingerprint(far, {}, 0)) return;
+    std::puts("two spacings have one fingerprint");
+    std::exit(1);
+}
+
 }  // namespace
 
 int main() try {
     check_outputs();
     check_requests();
+    check_fingerprints();
     if (const std::string promise = mutants::broken_promise_of_readers(); !promise.empty()) {
         std::printf("does not hold: %s\n", promise.c_str());
         return 1;

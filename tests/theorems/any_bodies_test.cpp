@@ -1,11 +1,13 @@
 // Any body points make a consistent topology (trilinear.md section 0): which faces are exceptional and where their body points lie may be
 // wrong, as rounding makes them wrong, as long as regions and order are those of a tunnel.
 //
-// This program replaces bodies_of_cell, for the library and for the oracle alike, by one that throws dice: a face that could end a tunnel
-// does so or not, whatever the interpolant says, and the body point lies anywhere up to where its regions end.
+// This program replaces bodies_of_cell and the faces it is told, for the library and for the oracle alike, by some that throw dice: a face
+// that could end a tunnel does so or not, whatever the interpolant says, and the body point lies anywhere up to where its regions end.
 #define bodies_of_cell bodies_of_the_interpolant
+#define disagreeing_faces faces_of_the_interpolant
 #include "critical/bodies.cpp"
 #undef bodies_of_cell
+#undef disagreeing_faces
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -48,14 +50,19 @@ std::optional<BodyPoint> any_opening(const CellView& cell, double top, unsigned 
 
 }  // namespace
 
-CellBodies bodies_of_cell(const CellElements& cell, unsigned default_types, double tunnel_height) {
+DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types) {
+    return {cell.ambiguous & ~default_types, cell.ambiguous & default_types};  // any could end a tunnel
+}
+
+CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height) {
+    const unsigned default_types = faces.closings;
     CellBodies bodies;
     std::mt19937_64 dice = dice_of(cell);
     if (!std::isfinite(tunnel_height) || cell.ambiguous == 0 || dice() % 4 == 0) return bodies;
     const CellView upright(cell, false), upside_down(cell, true);
     const auto [lowest, highest] = std::minmax_element(cell.value.begin(), cell.value.end());
-    bodies.opening = any_opening(upright, *highest, cell.ambiguous & ~default_types, dice);
-    bodies.closing = any_opening(upside_down, -*lowest, cell.ambiguous & default_types, dice);
+    bodies.opening = any_opening(upright, *highest, faces.openings, dice);
+    bodies.closing = any_opening(upside_down, -*lowest, faces.closings, dice);
     if (bodies.closing) bodies.closing->value = -bodies.closing->value;
     if (bodies.opening && bodies.closing) {
         const bool in_order =
