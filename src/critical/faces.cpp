@@ -57,7 +57,7 @@ bool face_above_face(const CellElements& cell, int g, int f) {
     return g2 != f2 ? g2 > f2 : face_number(cell, g) > face_number(cell, f);
 }
 
-FaceCorners corners_of(const CellElements& cell, int f) {
+inline FaceCorners corners_of(const CellElements& cell, int f) {
     const std::array<int, 4>& c = kFaceCorners[f];
     const int high = static_cast<int>(cell.bd_high >> f & 1);
     return {cell.value[c[1 - high]], cell.value[c[3 - high]], cell.value[c[high]], cell.value[c[high + 2]]};
@@ -85,16 +85,26 @@ Comparison compare_corners(const std::array<double, 8>& value, double s) {
     return result;
 }
 
-/// Bit k: corner k is above s.
-int corners_above(const std::array<double, 8>& value, double s) {
-    int above = 0;
+struct Sides {
+    int above, at_least;  // bit k: corner k is above `high`; it is above `low`
+};
+
+inline Sides sides_of_corners(const std::array<double, 8>& value, double low, double high) {
+    Sides sides{0, 0};
 #ifdef __SSE2__
-    const __m128d threshold = _mm_set1_pd(s);
-    for (int k = 0; k < 8; k += 2) above |= _mm_movemask_pd(_mm_cmpgt_pd(_mm_load_pd(value.data() + k), threshold)) << k;
+    const __m128d least = _mm_set1_pd(low), most = _mm_set1_pd(high);
+    for (int k = 0; k < 8; k += 2) {
+        const __m128d pair = _mm_load_pd(value.data() + k);
+        sides.above |= _mm_movemask_pd(_mm_cmpgt_pd(pair, most)) << k;
+        sides.at_least |= _mm_movemask_pd(_mm_cmpgt_pd(pair, least)) << k;
+    }
 #else
-    for (int k = 0; k < 8; ++k) above |= (value[k] > s) << k;
+    for (int k = 0; k < 8; ++k) {
+        sides.above |= (value[k] > high) << k;
+        sides.at_least |= (value[k] > low) << k;
+    }
 #endif
-    return above;
+    return sides;
 }
 
 int corners_above_face(const CellElements& cell, int f) {
@@ -108,7 +118,7 @@ int corners_above_face(const CellElements& cell, int f) {
 }
 
 /// Type of face f: the corners above it are known.
-std::uint8_t default_type(const CellElements& cell, const CellTable& table, int f, int above) {
+inline std::uint8_t default_type(const CellElements& cell, const CellTable& table, int f, int above) {
     int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
     for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {
         const int g = std::countr_zero(others);
@@ -177,9 +187,9 @@ EstimatedTypes estimate_default_types(CellElements& cell, const CellTable& table
         const ApproximateValue estimate = approximate_face_value(corners_of(cell, f));
         error[f] = 2 * estimate.error;  // twice: the exact values that it stands for are rounded
         cell.face_value[f] = estimate.value;
-        above[f] = corners_above(cell.value, estimate.value + error[f]);
-        bool is_clear =
-            error[f] < std::numeric_limits<double>::infinity() && above[f] == corners_above(cell.value, estimate.value - error[f]);
+        const Sides sides = sides_of_corners(cell.value, estimate.value - error[f], estimate.value + error[f]);
+        above[f] = sides.above;
+        bool is_clear = error[f] < std::numeric_limits<double>::infinity() && sides.above == sides.at_least;
         for (unsigned others = cell.ambiguous & ((1U << f) - 1); others != 0; others &= others - 1) {
             const int g = std::countr_zero(others);
             is_clear &= std::abs(cell.face_value[g] - estimate.value) > error[f] + error[g];

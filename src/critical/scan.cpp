@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "critical/bodies.h"
 #include "critical/faces.h"
 #include "critical/links.h"
@@ -18,6 +22,16 @@ std::array<std::int64_t, 8> corner_offsets(const GridSteps& steps) {
     std::array<std::int64_t, 8> offsets{};
     for (int k = 0; k < 8; ++k) offsets[k] = (k & 1) * steps.axis[0] + (k >> 1 & 1) * steps.axis[1] + (k >> 2) * steps.axis[2];
     return offsets;
+}
+
+/// Two values at once: they are loaded as a pair, which would wait for two stores.
+template <class T>
+inline void set_pair(double* pair, T first, T second) {
+#ifdef __SSE2__
+    _mm_store_pd(pair, _mm_set_pd(static_cast<double>(second), static_cast<double>(first)));
+#else
+    pair[0] = static_cast<double>(first), pair[1] = static_cast<double>(second);
+#endif
 }
 
 /// The cells between slices z and z+1: adds the types of their ambiguous faces to the slice buffers.
@@ -59,10 +73,8 @@ private:
         const std::int64_t n = grid_.extent.size[0];
         const T* corner = grid_.slice(z) + i;
         CellElements cell;
-        for (int k = 0; k < 8; ++k) {
-            cell.value[k] = static_cast<double>(corner[offset_[k]]);
-            cell.voxel[k] = z * grid_.extent.slice() + i + offset_[k];
-        }
+        for (int k = 0; k < 8; k += 2) set_pair(&cell.value[k], corner[offset_[k]], corner[offset_[k] + 1]);
+        for (int k = 0; k < 8; ++k) cell.voxel[k] = z * grid_.extent.slice() + i + offset_[k];
         // Bits 2o of a face byte are face 2o of the cell; the faces on the far sides belong to the neighbours behind.
         const auto far = [&](int mine, int of_next, int of_y, int of_x) {
             return static_cast<unsigned>((mine & 0b010101) | (of_next & 0b000001) << 1 | (of_y & 0b000100) << 1 | (of_x & 0b010000) << 1);

@@ -43,8 +43,7 @@ struct ApproximateValue {
 inline ApproximateValue approximate_face_value(const FaceCorners& face) {
     constexpr double kRelative = 0x1p-49, kLeast = 0x1p-1070;  // the latter: where results are denormal
     const double p = face.high_1 - face.low, q = face.high_2 - face.low, sum = p + q + (face.low - face.lowest);
-    const double above_low = p * (q / sum);
-    return {face.low + above_low, kRelative * (std::abs(face.low) + above_low) + kLeast + p * kLeast + 0 * sum};
+    return {face.low + p * (q / sum), kRelative * (std::abs(face.low) + p) + (kLeast + p * kLeast) + 0 * sum};  // p q / sum <= p
 }
 
 /// s rounded down (field/rounding.h). Any finite corners. Cost: about 100 flops; a microsecond where twice the precision does not decide.

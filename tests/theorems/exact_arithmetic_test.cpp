@@ -9,6 +9,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "isoatlas/cut.h"
+#include "isoatlas/surface.h"
 #include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/rational.h"
@@ -133,6 +134,25 @@ TEST(ExactArithmetic, AConstantChangesNothing) {
         const isoatlas::Analysis actual = isoatlas::analyse(to_volume(moved, type));
         EXPECT_EQ(actual.event_count(), static_cast<std::int64_t>(reference.events.size())) << offset;
         EXPECT_EQ(actual.element_count(), static_cast<std::int64_t>(reference.critical.size())) << offset;
+    }
+}
+
+TEST(ExactArithmetic, AConstantChangesNoSurface) {
+    Grid base{3, {6, 5, 5}, {}};
+    for (Index v = 0; v < base.voxels(); ++v) base.value.push_back(static_cast<double>((v * 7919 + v * v * 31) % 23));
+    const auto surface_of = [](const Grid& grid, ValueType type, double tau) { return isoatlas::extract(to_volume(grid, type), tau); };
+    for (const auto& [type, offset] :
+         {std::pair{ValueType::f32, 16000000.0}, std::pair{ValueType::f64, 1e12}, std::pair{ValueType::f64, -1e14},
+          std::pair{ValueType::i32, -2147483648.0}, std::pair{ValueType::u32, 4294967000.0}}) {
+        Grid moved = base;
+        for (double& value : moved.value) value += offset;
+        for (const double tau : {3.0, 7.5, 11.0, 11.5, 17.25}) {
+            const isoatlas::Surface p = surface_of(base, type == ValueType::u32 ? ValueType::i32 : type, tau),
+                                    q = surface_of(moved, type, offset + tau);
+            EXPECT_EQ(p.points, q.points) << offset << " " << tau;
+            EXPECT_EQ(p.triangles, q.triangles) << offset << " " << tau;
+            EXPECT_EQ(p.normals, q.normals) << offset << " " << tau;
+        }
     }
 }
 

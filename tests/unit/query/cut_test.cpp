@@ -111,9 +111,10 @@ TEST(Cut, AnImage) {
     EXPECT_EQ(at_5.contours[1].id, 6);
     EXPECT_EQ(at_5.contours[1].hits, 4);
     EXPECT_EQ(at_5.contours[1].genus, 0);
-    const double saddle = (9.0 * 8 - 6.0 * 6) / (9 + 8 - 6 - 6);
-    EXPECT_EQ(cut(image, saddle).objects.size(), 1U);
-    EXPECT_EQ(cut(image, 7.5).objects.size(), saddle >= 7.5 ? 1U : 2U);
+    const double saddle = 7.2;  // a little more than (9 * 8 - 6 * 6) / (9 + 8 - 6 - 6), which is no double
+    EXPECT_EQ(cut(image, saddle).objects.size(), 2U);
+    EXPECT_EQ(cut(image, std::nextafter(saddle, 0)).objects.size(), 1U);
+    EXPECT_EQ(cut(image, 7.5).objects.size(), 2U);
     EXPECT_EQ(cut(image, 8.5).objects.size(), 1U);
 }
 
