@@ -26,7 +26,7 @@ WRITERS = {
     "convert raw": ["convert", "none.nrrd", "-o", "x.raw"],
     "build": ["build", "none.nrrd", "-o", "x.atlas"],
     "atlas": ["atlas", "none.nrrd", "-o", "x.html"],
-    "ask": ["ask", "http://127.0.0.1:1/?token=a", "/api/atlas", "-o", "x.bin"],
+    "ask": ["ask", "http://127.0.0.1:1", "/api/atlas", "-o", "x.bin"],
     "phantom": ["phantom", "none", "-o", "x.mha"],
 }
 
