@@ -32,6 +32,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kPage = 4096;
+constexpr std::size_t kHugePage = std::size_t{1} << 21;
 thread_local bool keeps_in_memory = false;  // KeepInMemory
 
 std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
@@ -51,6 +52,23 @@ int open_scratch(const std::string& folder) {
     if (file < 0) scratch_failed(folder, errno);
     ::unlink(name.c_str());
     return file;
+}
+
+/// Maps a part of the file, at an address that has another place in its huge page than the part has in the file: the system would map
+/// up to 2 MB of its cache at one touch, and so maps PacedCheck::kTouch. Null when it cannot.
+void* map_scratch(int file, off_t offset, std::size_t size) {
+    void* const room = ::mmap(nullptr, size + kHugePage, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) return nullptr;
+    const auto begin = reinterpret_cast<std::uintptr_t>(room);
+    const std::size_t head = (static_cast<std::size_t>(offset) + PacedCheck::kTouch - begin) % kHugePage;  // wraps around and back
+    char* const at = static_cast<char*>(room) + head;
+    if (head > 0) ::munmap(room, head);
+    if (head < kHugePage) ::munmap(at + size, kHugePage - head);
+    if (::mmap(at, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, file, offset) != MAP_FAILED) return at;
+    const int error = errno;
+    ::munmap(at, size);
+    errno = error;
+    return nullptr;
 }
 
 struct Resident {
@@ -132,11 +150,11 @@ public:
         lock.unlock();  // the disk may take its time, and the watcher must not wait for it
         // Blocks are reserved now: a full disk is an error here, and not a signal when a page is written.
         const int error = unused ? 0 : ::posix_fallocate(file_, offset, static_cast<off_t>(size));
-        void* mapped = error == 0 ? ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, offset) : MAP_FAILED;
+        void* const mapped = error == 0 ? map_scratch(file_, offset, size) : nullptr;
         const int reason = error != 0 ? error : errno;
         lock.lock();
         --calls_;
-        if (mapped == MAP_FAILED) scratch_failed(folder_, reason);
+        if (mapped == nullptr) scratch_failed(folder_, reason);
         pieces_.emplace(static_cast<char*>(mapped), Piece{offset, size});
         lock.unlock();
         if (left() < static_cast<std::int64_t>(size)) make_room(static_cast<std::int64_t>(size));  // it may be filled at once
@@ -183,9 +201,10 @@ public:
 
     [[nodiscard]] std::int64_t at_random() const noexcept { return std::max(limit_ - kElse, limit_ / 4) / 20 * 13; }
 
-    /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then.
+    /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then: never so little that
+    /// threads do nothing but ask.
     std::int64_t check() {
-        if (const std::int64_t before = left(); before > 0) return before;
+        if (const std::int64_t before = left(); before > limit_ / 32) return before;
         make_room(limit_ / 8);
         return left();
     }
@@ -361,7 +380,9 @@ std::size_t PacedCheck::look() {
     ::getrusage(RUSAGE_THREAD, &usage);
     const long faults = usage.ru_minflt + usage.ru_majflt;
     const std::size_t used = static_cast<std::size_t>(faults - std::exchange(faults_before, faults)) * kTouch;
-    left = used < left ? left - used : check_memory();
+    static thread_local std::size_t granted = 0;
+    left = used < left ? left - used : 0;
+    if (left <= granted / 2) left = granted = check_memory();
     return left;
 }
 std::int64_t memory_at_random() noexcept { return scratch().active() ? scratch().at_random() : std::numeric_limits<std::int64_t>::max(); }

@@ -66,19 +66,20 @@ private:
         const bool integer = !is_floating(volume_.info->type);
         BigVector<std::int64_t> slot = filled<std::int64_t>(branches_.branch.size(), std::int64_t{-1});
         std::vector<BranchHistogram> result;
+        PacedCheck memory;
         for (std::size_t k = 0; k < kept.size(); ++k) {
+            memory.step(2 * PacedCheck::kTouch);
             const Branch& b = branches_.branch[kept[k]];
             slot[kept[k]] = static_cast<std::int64_t>(k);
             result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
         }
-        PacedCheck memory;
         tree_.for_heights(volume_, [&](std::size_t v, double height) {
-            memory.step(PacedCheck::kTouch / 2);
+            memory.step(2 * PacedCheck::kTouch);
             const std::int64_t k = slot[branches_.of_event[tree_.zone[v]]];
             if (k >= 0) result[k].add(height, 1);
         });
         for (std::size_t i = 1; i < branches_.branch.size(); ++i) {
-            memory.step(sizeof(Branch) + PacedCheck::kTouch / 4);
+            memory.step(sizeof(Branch) + PacedCheck::kTouch);
             const Branch& b = branches_.branch[i];
             const std::int64_t k = slot[b.parent];
             if (k >= 0) result[k].add(b.merges, static_cast<double>(b.voxels));

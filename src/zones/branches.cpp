@@ -65,7 +65,7 @@ ZoneSums sum_zones(const SideTree<Id>& tree, const VolumeView& volume) {
     ZoneSums zones{BigVector<double>(tree.size(), 0.0), kInfinity};
     PacedCheck memory;
     tree.for_heights(volume, [&](std::size_t v, double height) {
-        memory.step(PacedCheck::kTouch / 4);  // zones of neighbours are often the same
+        memory.step(PacedCheck::kTouch);
         zones.height[tree.zone[v]] += height;
         zones.lowest = std::min(zones.lowest, height);
     });
@@ -93,7 +93,7 @@ Branches make_branches(const SideTree<Id>& tree, const ZoneSums& zones) {
     for (std::size_t e = 0; e < events; ++e) count += !goes_on(e), memory.step(PacedCheck::kTouch);
     branches.reserve(count);  // a vector that grows is there twice
     for (std::size_t e = events; e-- > 0;) {
-        memory.step(3 * PacedCheck::kTouch);
+        memory.step(6 * PacedCheck::kTouch);
         if (goes_on(e)) continue;
         const bool root = tree.is_root(e);
         Branch b{};

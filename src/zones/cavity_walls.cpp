@@ -193,7 +193,9 @@ std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const SideT
     const std::vector<std::int64_t> slot = slots(histograms, branches.branch.size());
     for (std::vector<Enclosure>& one : filled) std::erase_if(one, [&](const Enclosure& e) { return slot[e.branch] < 0; });
     const BigVector<std::int64_t> row_of = rows_of_branches(dark);
+    PacedCheck memory;
     bright.for_heights(volume, [&](std::size_t v, double value) {
+        memory.step(2 * PacedCheck::kTouch);
         const std::int64_t row = row_of[dark.branches.of_event[dark.tree.zone[v]]];
         if (row < 0) return;
         for (const Enclosure& around : filled[row]) {

@@ -11,7 +11,10 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBlock = 1024;  // samples that climb together
+constexpr std::size_t kBlock = 1024;                         // samples that climb together
+constexpr std::size_t kLimitedBlock = std::size_t{1} << 15;  // and where memory is limited: those that need the same pages, too
+
+std::size_t block_size() { return memory_is_limited() ? kLimitedBlock : kBlock; }
 
 /// Voxels per event. Few events are counted apart and added once: threads would fight for their cache lines.
 template <class Id>
@@ -23,6 +26,11 @@ public:
         if (!own_.empty()) {
             for (const Id zone : zones) ++own_[zone];
             return;
+        }
+        if (memory_is_limited()) {  // page after page
+            sorted_.assign(zones.begin(), zones.end());
+            std::ranges::sort(sorted_);
+            zones = sorted_;
         }
         for (std::size_t first = 0, i = 1; first < zones.size(); first = i++) {  // runs of one zone
             memory_.step(PacedCheck::kTouch);
@@ -43,7 +51,7 @@ private:
     void add(std::size_t zone, Id count) { std::atomic_ref<Id>(shared_[zone]).fetch_add(count, std::memory_order_relaxed); }
 
     std::span<Id> shared_;
-    std::vector<Id> own_;
+    std::vector<Id> own_, sorted_;
     PacedCheck memory_;
 };
 
@@ -52,11 +60,14 @@ template <class T, class Id, class Room, class Visit>
 void for_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin, const Room& room,
                const Visit& visit) {
     using Value = ComparisonValue<T>;
-    std::vector<Value> value(kBlock);
-    std::vector<Id> maximum(kBlock);
-    std::vector<std::uint32_t> scratch(kBlock);
-    for (std::size_t first = 0; first < samples.size(); first += kBlock) {
-        const std::size_t count = std::min(kBlock, samples.size() - first);
+    const std::size_t together = block_size();
+    std::vector<Value> value(together);
+    std::vector<Id> maximum(together);
+    std::vector<std::uint32_t> scratch(together);
+    PacedCheck memory;
+    for (std::size_t first = 0; first < samples.size(); first += together) {
+        const std::size_t count = std::min(together, samples.size() - first);
+        memory.step(count * (sizeof(T) + 2 * sizeof(Id)));
         for (std::size_t i = 0; i < count; ++i) {
             value[i] = static_cast<Value>(samples[first + i]);
             maximum[i] = Basins<Id>::number(basin[first + i]);
@@ -83,7 +94,7 @@ template <class T, class Id>
 void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
                  std::span<Id> counts) {
     Tally<Id> tally(counts);
-    std::vector<Id> block(kBlock);
+    std::vector<Id> block(block_size());
     for_zones<T, Id>(
         samples, paths, basin, [&](std::size_t, std::size_t count) { return std::span(block).first(count); },
         [&](std::span<const Id> zones) { tally.add(zones); });

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/big_vector.h"
+#include "base/memory_limit.h"
+#include "field/sample_range.h"
 
 namespace isoatlas {
 namespace {
@@ -24,7 +26,10 @@ template <class T>
 double second_differences(std::span<const T> samples, const Extent& extent) {
     BigVector<double> differences;
     differences.reserve(static_cast<std::size_t>(extent.voxels() / stride_for(extent.voxels()) + 1));
-    for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride_for(extent.voxels())) {
+    const std::int64_t stride = stride_for(extent.voxels());
+    PacedCheck memory;
+    for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride) {
+        memory.step(bytes_of_stride<T>(stride));
         const std::int64_t x = i % extent.size[0];
         if (x == 0 || x + 1 == extent.size[0]) continue;
         differences.push_back(
@@ -59,9 +64,12 @@ double local_variance(std::span<const T> samples, const Extent& extent, std::int
 template <class T>
 bool is_free_of_noise(std::span<const T> samples, const Extent& extent) {
     constexpr std::int64_t kFew = 50;
-    const auto [low, high] = std::ranges::minmax(samples);
+    const auto [low, high] = sample_range(samples);
+    const std::int64_t stride = 8 * stride_for(extent.voxels()) | 1;
     std::int64_t constant = 0, all = 0;
-    for (std::int64_t i = 0; i < extent.voxels(); i += 8 * stride_for(extent.voxels()) | 1) {
+    PacedCheck memory;
+    for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
+        memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
         const bool flat = local_variance(samples, extent, i) == 0;
         if (flat && (samples[i] == low || samples[i] == high)) continue;
         ++all;
@@ -74,7 +82,10 @@ template <class T>
 double quiet_places(std::span<const T> samples, const Extent& extent) {
     if (is_free_of_noise(samples, extent)) return 0;
     BigVector<double> variances;
-    for (std::int64_t i = 0; i < extent.voxels(); i += 8 * stride_for(extent.voxels()) | 1) {
+    const std::int64_t stride = 8 * stride_for(extent.voxels()) | 1;
+    PacedCheck memory;
+    for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
+        memory.step(3 * bytes_of_stride<T>(stride));
         const double variance = local_variance(samples, extent, i);
         if (variance > 0) variances.push_back(variance);
     }

@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/memory_limit.h"
+#include "field/sample_range.h"
 #include "zones/noise.h"
 
 namespace isoatlas {
@@ -49,9 +51,11 @@ Window window_at(std::span<const T> samples, const Extent& extent, const std::ar
 template <class T>
 std::vector<Window> windows_of(std::span<const T> samples, const Extent& extent) {
     std::vector<Window> windows;
-    const auto [low, high] = std::ranges::minmax(samples);
+    const auto [low, high] = sample_range(samples);
     const std::int64_t stride = std::max<std::int64_t>(1, extent.voxels() / kWindows) | 1;
+    PacedCheck memory;
     for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
+        memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
         const std::array<std::int64_t, 3> p = extent.voxel(i);
         bool is_inside = true;
         for (int axis = 0; axis < extent.rank; ++axis) is_inside = is_inside && p[axis] > 0 && p[axis] + 1 < extent.size[axis];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/memory_limit.h"
@@ -62,7 +63,8 @@ HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<cons
         paths_[m] = laid[path_of[m]];
         paths_[m].below = name[paths_[m].below];
     });
-    for (const Path& path : laid) prepare_scale(path);
+    PacedCheck memory;
+    for (const Path& path : laid) prepare_scale(path), memory.step(2 * PacedCheck::kTouch);
     for_each_index(threads, laid.size(), [&](std::size_t path) { make_buckets(laid[path]); });
 }
 
@@ -131,18 +133,70 @@ Id HeavyPaths<Id, Value>::end_of_bucket(const Path& path, Value x) const {
     return is_long(path) && bucket < path.first + buckets(path) ? bucket_[bucket + 1] + 1 : path.end;
 }
 
+/// From a position not above it: the lowest event of the path with a value of x or more.
+template <class Id, class Value>
+Id HeavyPaths<Id, Value>::event_from(Id position, Id path, Value x) const {
+    const Stop* stop = stops_.data() + position;
+    // The first steps without branches: nobody can predict them. Once a stop is high enough it stays the answer.
+    bool on = true;
+    std::size_t steps = 0;
+    for (int k = 0; k < kSteps; ++k) {
+        on = on & (stop[k].value < x);
+        steps += on;
+    }
+    stop += steps;
+    for (int k = 0; on && k < 8 && stop->value < x; ++k) ++stop;
+    if (on && stop->value < x) {  // a crowded bucket
+        const Stop* end = stops_.data() + end_of_bucket(paths_[path], x);
+        stop = std::lower_bound(stop, end, x, [](const Stop& s, Value value) { return s.value < value; });
+    }
+    return stop->event;
+}
+
+/// Where the arrays lie in the scratch file every access may bring pages of it: samples are taken in the order of what they access.
+template <class Id, class Value>
+void HeavyPaths<Id, Value>::zones_by_place(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> order,
+                                           std::span<Id> zone) const {
+    PacedCheck memory;
+    const auto sort_by = [](std::span<std::uint32_t> some, std::span<const Id> place) {
+        std::ranges::sort(some, {}, [place](std::uint32_t i) { return place[i]; });
+    };
+    std::iota(order.begin(), order.end(), 0U);
+    for (std::size_t climbing = order.size(), kept = 0; climbing > 0; climbing = std::exchange(kept, 0)) {
+        sort_by(order.first(climbing), path);
+        for (const std::uint32_t i : order.first(climbing)) {
+            memory.step(PacedCheck::kTouch);
+            const Path& at = paths_[path[i]];
+            if (at.value_below < x[i]) continue;
+            path[i] = at.below;
+            order[kept++] = i;
+        }
+    }
+    std::iota(order.begin(), order.end(), 0U);
+    sort_by(order, path);
+    std::vector<std::uint8_t> in_bucket(x.size());
+    for (const std::uint32_t i : order) {
+        memory.step(PacedCheck::kTouch);
+        const Path& at = paths_[path[i]];
+        zone[i] = bucket_of(at, x[i]);
+        in_bucket[i] = zone[i] != at.first;
+    }
+    sort_by(order, zone);  // positions in a path are in about the same order
+    for (const std::uint32_t i : order) {
+        memory.step(3 * PacedCheck::kTouch);
+        zone[i] = event_from(in_bucket[i] != 0 ? bucket_[zone[i]] : zone[i], path[i], x[i]);
+    }
+}
+
 template <class Id, class Value>
 void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> scratch,
                                   std::span<Id> zone) const {
-    // Where paths lie in the scratch file every access may bring pages of it.
-    const std::size_t bytes = is_scratch(paths_.data()) || is_scratch(stops_.data()) ? PacedCheck::kTouch : 0;
-    PacedCheck memory;
+    if (is_scratch(paths_.data()) || is_scratch(stops_.data())) return zones_by_place(x, path, scratch.first(x.size()), zone);
     std::size_t climbing = x.size();
     for (std::size_t i = 0; i < climbing; ++i) scratch[i] = static_cast<std::uint32_t>(i);
     while (climbing > 0) {  // one jump for all that still climb
         std::size_t kept = 0;
         for (std::size_t k = 0; k < climbing; ++k) {
-            memory.step(bytes);
             const std::uint32_t i = scratch[k];
             const Path& at = paths_[path[i]];
             const bool jump = at.value_below >= x[i];
@@ -153,34 +207,15 @@ void HeavyPaths<Id, Value>::zones(std::span<const Value> x, std::span<Id> path, 
         climbing = kept;
     }
     for (std::size_t i = 0; i < x.size(); ++i) {  // zone: first the bucket, then the position where the search starts, then the zone
-        memory.step(bytes);
         zone[i] = bucket_of(paths_[path[i]], x[i]);
         __builtin_prefetch(bucket_.data() + zone[i]);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
-        memory.step(bytes);
         if (zone[i] != paths_[path[i]].first) zone[i] = bucket_[zone[i]];
         __builtin_prefetch(stops_.data() + zone[i]);
         __builtin_prefetch(stops_.data() + zone[i] + kSteps - 1);
     }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        memory.step(2 * bytes);
-        const Stop* stop = stops_.data() + zone[i];
-        // The first steps without branches: nobody can predict them. Once a stop is high enough it stays the answer.
-        bool on = true;
-        std::size_t steps = 0;
-        for (int k = 0; k < kSteps; ++k) {
-            on = on & (stop[k].value < x[i]);
-            steps += on;
-        }
-        stop += steps;
-        for (int k = 0; on && k < 8 && stop->value < x[i]; ++k) ++stop;
-        if (on && stop->value < x[i]) {  // a crowded bucket
-            const Stop* end = stops_.data() + end_of_bucket(paths_[path[i]], x[i]);
-            stop = std::lower_bound(stop, end, x[i], [](const Stop& s, Value value) { return s.value < value; });
-        }
-        zone[i] = stop->event;
-    }
+    for (std::size_t i = 0; i < x.size(); ++i) zone[i] = event_from(zone[i], path[i], x[i]);
 }
 
 template class HeavyPaths<std::uint32_t, float>;

@@ -80,6 +80,8 @@ private:
     [[nodiscard]] static bool is_long(const Path& path) { return path.end - path.first >= kBucketed; }
     [[nodiscard]] static Id buckets(const Path& path) { return path.end - path.first - 1; }
     [[nodiscard]] Id bucket_of(const Path& path, Value x) const;
+    [[nodiscard]] Id event_from(Id position, Id path, Value x) const;
+    void zones_by_place(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> order, std::span<Id> zone) const;
     /// Behind the position of the lowest event with a value of x or more.
     [[nodiscard]] Id end_of_bucket(const Path& path, Value x) const;
 

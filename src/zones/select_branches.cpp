@@ -53,12 +53,14 @@ std::vector<std::int64_t> select_branches(const Branches& branches, std::span<co
                (measure.empty() || measure[i] >= selection.least_measure);
     };
     std::vector<bool> keep(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) keep[i] = i == 0 || passes(i);
+    PacedCheck memory;
+    for (std::size_t i = 0; i < all.size(); ++i) keep[i] = i == 0 || passes(i), memory.step(sizeof(Branch) + sizeof(double));
     // Sums are rounded, so a branch may seem larger than the one it ends in: then neither is kept. Events of a parent have larger numbers.
     std::vector<std::int64_t> kept;
     for (std::size_t i = 0; i < all.size(); ++i) {
         bool is_kept = true;
-        for (auto b = static_cast<std::int64_t>(i); is_kept && b >= 0; b = all[b].parent) is_kept = keep[b];
+        for (auto b = static_cast<std::int64_t>(i); is_kept && b >= 0; b = all[b].parent)
+            is_kept = keep[b], memory.step(PacedCheck::kTouch);
         if (is_kept) kept.push_back(static_cast<std::int64_t>(i));
     }
     return kept;

@@ -1,0 +1,35 @@
+// All samples, or some of them, read in order while memory is limited.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "base/memory_limit.h"
+
+namespace isoatlas {
+
+/// What a step brings into memory that reads every stride-th sample.
+template <class T>
+[[nodiscard]] std::size_t bytes_of_stride(std::int64_t stride) {
+    return std::min(static_cast<std::size_t>(stride) * sizeof(T), PacedCheck::kTouch);
+}
+
+/// The least and the largest of the samples; there is at least one.
+template <class T>
+[[nodiscard]] std::pair<T, T> sample_range(std::span<const T> samples) {
+    constexpr std::size_t kTogether = std::size_t{1} << 13;
+    std::pair<T, T> range{samples.front(), samples.front()};
+    PacedCheck memory;
+    for (std::size_t first = 0; first < samples.size(); first += kTogether) {
+        const std::span<const T> some = samples.subspan(first, std::min(kTogether, samples.size() - first));
+        memory.step(some.size_bytes());
+        const auto [low, high] = std::ranges::minmax(some);
+        range = {std::min(range.first, low), std::max(range.second, high)};
+    }
+    return range;
+}
+
+}  // namespace isoatlas
