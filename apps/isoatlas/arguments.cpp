@@ -53,8 +53,7 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--spacing", typed.spacing, "Distance of samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
     app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
     add_number(app, "--time-step", typed.time_step, "Which volume of a 4D file, from 0")->type_name("N")->group(group);
-    app.add_flag("--skip-rest", arguments.open.skip_rest, "Leave out what follows the samples in the file; else it is an error")
-        ->group(group);
+    app.add_flag("--skip-rest", arguments.open.skip_rest, "Leave out what follows the samples; else it is an error")->group(group);
     app.add_flag("--follow-links", arguments.open.follow_links, "Trust headers that name files outside their folder")->group(group);
     app.add_option("--missing", typed.missing, "Put VALUE for NaN and infinite samples; below: less than every value")
         ->type_name("VALUE|below")

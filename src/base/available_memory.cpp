@@ -1,8 +1,10 @@
 // How much memory this process may use.
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -39,6 +41,17 @@ std::int64_t control_group_limit() {
 std::int64_t available_memory() {
     const std::int64_t machine = static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
     return std::min(machine, control_group_limit());
+}
+
+std::int64_t peak_memory() {
+    std::ifstream status("/proc/self/status");  // getrusage() would count what the program before exec() had
+    for (std::string line; std::getline(status, line);) {
+        long long kilobytes = 0;
+        if (std::sscanf(line.c_str(), "VmHWM: %lld", &kilobytes) == 1) return kilobytes * 1024;
+    }
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss * std::int64_t{1024};
 }
 
 }  // namespace isoatlas

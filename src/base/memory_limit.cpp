@@ -13,9 +13,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -352,17 +350,6 @@ MemoryLimit::~MemoryLimit() {
 
 KeepInMemory::KeepInMemory() : before_(std::exchange(keeps_in_memory, true)) {}
 KeepInMemory::~KeepInMemory() { keeps_in_memory = before_; }
-
-std::int64_t peak_memory() {
-    std::ifstream status("/proc/self/status");  // getrusage() would count what the program before exec() had
-    for (std::string line; std::getline(status, line);) {
-        long long kilobytes = 0;
-        if (std::sscanf(line.c_str(), "VmHWM: %lld", &kilobytes) == 1) return kilobytes * 1024;
-    }
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss * std::int64_t{1024};
-}
 
 void* take_scratch(std::size_t bytes) { return scratch().take(bytes); }
 bool give_scratch(void* memory, std::size_t bytes) noexcept { return scratch().give(memory, bytes); }
