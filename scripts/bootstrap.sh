@@ -16,13 +16,12 @@ demo|libtbb-dev|threads
 demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
-demo|libboost-dev|integers of any size, where doubles cannot tell two saddles apart (headers only)
 demo|libhdf5-dev|stores
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
 demo|libembree-dev|ray tracing of pictures
 demo|libwebp-dev|WebP pictures
-demo|libboost-dev|the server of the viewer
+demo|libboost-dev|the server of the viewer, integers of any size (headers only)
 demo|libmeshoptimizer-dev|meshes in few bytes for the viewer
 demo|libzstd-dev|the same
 demo|nodejs|bundles the page
