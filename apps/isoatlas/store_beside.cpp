@@ -71,8 +71,10 @@ Beside look_beside(const std::string& store, const Arguments& arguments) {
 bool is_usable(const std::string& store, const Arguments& arguments, Terminal& terminal) {
     const Beside beside = look_beside(store, arguments);
     if (!beside.is_there) return false;
-    if (!beside.is_store) check_output_file(store);
-    if (!beside.is_store) in_the_way(store, arguments, "is in the way of the store, and is none");
+    if (!beside.is_store) {
+        check_output_file(store);
+        in_the_way(store, arguments, "is in the way of the store, and is none");
+    }
     if (!beside.is_usable()) {
         if (!beside.is_replaceable)
             in_the_way(store, arguments, "is a store that was built otherwise, and is not replaced: " + beside.differs);

@@ -112,7 +112,7 @@ std::optional<BodyPoint> opening_point(const CellView& cell, const BodySaddle& s
 
 }  // namespace
 
-int side_sign(const CellValues& v, int f) {
+SideSlope side_slope(const CellValues& v, int f) {
     const std::array<int, 4>& corner = kFaceCorners[f];
     const int across = 1 << kFaceAxes[f / 2].normal;
     const double a = v[corner[0]], b = v[corner[1]], c = v[corner[2]], d = v[corner[3]];
@@ -120,8 +120,11 @@ int side_sign(const CellValues& v, int f) {
     const double dc = v[corner[2] ^ across] - c, dd = v[corner[3] ^ across] - d;
     const double at_a = (c - b) * (c - d) * da, at_c = (a - d) * (a - b) * dc;
     const double at_b = (a - d) * (c - d) * db, at_d = (c - b) * (a - b) * dd;
-    const double sum = (at_a + at_c) + (at_b + at_d);
-    const double terms = std::abs(at_a) + std::abs(at_b) + std::abs(at_c) + std::abs(at_d);
+    return {(at_a + at_c) + (at_b + at_d), std::abs(at_a) + std::abs(at_b) + std::abs(at_c) + std::abs(at_d)};
+}
+
+int side_sign(const CellValues& v, int f) {
+    const auto [sum, terms] = side_slope(v, f);
     const bool is_certain = std::abs(sum) > 0x1p-49 * terms && terms > 0x1p-900 && terms < 0x1p1000;
     if (!is_certain) return exact_side_sign(v, f);
     return sum > 0 ? 1 : sum < 0 ? -1 : 0;
@@ -136,15 +139,7 @@ double tunnel_height_of(Interpolant interpolant, double tunnel_height) {
 }
 
 DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types) {
-    DisagreeingFaces faces;
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-        const int f = std::countr_zero(rest);
-        const int sign = side_sign(cell.value, f);
-        const bool joined = default_types >> f & 1;
-        if (!joined && sign > 0) faces.openings |= 1U << f;
-        if (joined && sign < 0) faces.closings |= 1U << f;
-    }
-    return faces;
+    return disagreeing_faces(cell, default_types, [&cell](int f) { return side_sign(cell.value, f); });
 }
 
 CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <optional>
 
 #include "critical/body_saddle.h"
@@ -17,6 +18,13 @@
 #include "isoatlas/analysis.h"
 
 namespace isoatlas {
+
+/// D^2 times the derivative of the trilinear interpolant into the cell at the saddle of face f, rounded, and the sum of the absolute values
+/// of its four terms: rounding is less than 2^-49 of that. The sum has the same bits for a turned or mirrored face.
+struct SideSlope {
+    double sum, terms;
+};
+SideSlope side_slope(const CellValues& value, int f);
 
 /// Sign (-1, 0, 1) of the derivative of the trilinear interpolant into the cell at the saddle of its ambiguous face f. Exact.
 int side_sign(const CellValues& value, int f);
@@ -41,6 +49,20 @@ struct DisagreeingFaces {
     unsigned closings = 0;  ///< default Highs, in truth Lows
     [[nodiscard]] bool any() const { return (openings | closings) != 0; }
 };
+
+/// sign(f): positive, negative or zero as the derivative into the cell at the saddle of face f.
+template <class Sign>
+DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types, const Sign& sign) {
+    DisagreeingFaces faces;
+    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
+        const int f = std::countr_zero(rest);
+        const auto slope = sign(f);
+        const bool joined = default_types >> f & 1;
+        if (!joined && slope > 0) faces.openings |= 1U << f;
+        if (joined && slope < 0) faces.closings |= 1U << f;
+    }
+    return faces;
+}
 
 /// default_types: of default_face_types. Reads the corners alone. Cost: a few flops a face.
 DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types);

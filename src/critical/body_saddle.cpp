@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/wide.h"
+#include "critical/trilinear.h"
 #include "field/error_free.h"
 #include "field/rounding.h"
 
@@ -35,11 +36,6 @@ struct Polynomial {
     }
 };
 
-/// (root - k) / k7 without cancellation: numerator is that of (root^2 - k^2) / k7, which divides by a.
-double coordinate(double root, double k, double k7, double numerator, double a) {
-    return root * k <= 0 ? (root - k) / k7 : -numerator / (a * (root + k));
-}
-
 enum class Found { no, perhaps, yes };
 
 struct FirstGuess {
@@ -56,11 +52,7 @@ FirstGuess first_guess(const Polynomial& polynomial) {
     if (!(std::abs(a) > error && std::abs(b) > error && std::abs(c) > error)) return {Found::perhaps, {}};
     const double q2 = -(a * b * c);
     if (!(q2 > 0)) return {Found::no, {}};
-    const double q = std::sqrt(q2);
-    return {Found::yes,
-            {coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
-             coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
-             coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)}};
+    return {Found::yes, saddle_position(high, {a, b, c}, std::sqrt(q2))};
 }
 
 /// A point near the saddle, and a proof of how near (Newton-Kantorovich).

@@ -5,26 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "critical/trilinear.h"
+
 namespace isoatlas {
 namespace {
-
-using Coefficients = std::array<double, 8>;
-
-Coefficients coefficients(const std::array<double, 8>& v) {
-    return {v[0],
-            v[1] - v[0],
-            v[2] - v[0],
-            v[4] - v[0],
-            v[3] - v[1] - v[2] + v[0],
-            v[5] - v[1] - v[4] + v[0],
-            v[6] - v[2] - v[4] + v[0],
-            v[7] - v[6] - v[5] - v[3] + v[4] + v[2] + v[1] - v[0]};
-}
-
-/// (root - k) / k7 without cancellation: numerator is that of (root^2 - k^2) / k7, which divides by a.
-double coordinate(double root, double k, double k7, double numerator, double a) {
-    return root * k <= 0 ? (root - k) / k7 : -numerator / (a * (root + k));
-}
 
 /// The values times a power of two, so that products of six of them neither overflow nor vanish. exponent: the power that was taken away.
 std::array<double, 8> scaled(const std::array<double, 8>& value, int& exponent) {
@@ -73,18 +57,13 @@ Turn canonical_turn(const std::array<double, 8>& value) {
     return *best;
 }
 
-std::optional<std::array<double, 3>> saddle_position(const std::array<double, 8>& value) {
-    const auto [k0, k1, k2, k3, k4, k5, k6, k7] = coefficients(value);
-    const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
+std::optional<std::array<double, 3>> position_inside(const CellValues& value) {
+    const std::array<double, 8> k = trilinear_coefficients(value);
+    const double a = k[1] * k[7] - k[4] * k[5], b = k[2] * k[7] - k[4] * k[6], c = k[3] * k[7] - k[5] * k[6];
     const double q2 = -(a * b * c);
     if (!(q2 > 0)) return std::nullopt;
-    const double q = std::sqrt(q2);
-    const std::array<double, 3> position{coordinate(-q / a, k6, k7, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6, a),
-                                         coordinate(-q / b, k5, k7, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5, b),
-                                         coordinate(-q / c, k4, k7, k1 * k2 * k7 - k2 * k4 * k5 - k1 * k4 * k6 + k3 * k4 * k4, c)};
-    for (const double x : position) {
-        if (!(x > 0 && x < 1)) return std::nullopt;
-    }
+    const std::array<double, 3> position = saddle_position(k, {a, b, c}, std::sqrt(q2));
+    if (!std::ranges::all_of(position, [](double x) { return x > 0 && x < 1; })) return std::nullopt;
     return position;
 }
 
@@ -93,7 +72,7 @@ std::optional<BodySaddle> earlier_saddle(const std::array<double, 8>& value) {
     const std::array<double, 8> at_hand = scaled(value, exponent);
     const Turn turn = canonical_turn(at_hand);
     const std::array<double, 8> turned = turn.of(at_hand);
-    const std::optional<std::array<double, 3>> position = saddle_position(turned);
+    const std::optional<std::array<double, 3>> position = position_inside(turned);
     if (!position) return std::nullopt;
     BodySaddle saddle{std::ldexp(interpolate(turned, *position), exponent), {}};
     for (int a = 0; a < 3; ++a) {
@@ -101,18 +80,6 @@ std::optional<BodySaddle> earlier_saddle(const std::array<double, 8>& value) {
         saddle.position[axis] = turn.origin >> axis & 1 ? 1 - (*position)[a] : (*position)[a];
     }
     return saddle;
-}
-
-/// The sign of G, rounded.
-double earlier_side_sign(const CellValues& v, int f) {
-    const std::array<int, 4>& corner = kFaceCorners[f];
-    const int across = 1 << kFaceAxes[f / 2].normal;
-    const double a = v[corner[0]], b = v[corner[1]], c = v[corner[2]], d = v[corner[3]];
-    const double da = v[corner[0] ^ across] - a, db = v[corner[1] ^ across] - b;
-    const double dc = v[corner[2] ^ across] - c, dd = v[corner[3] ^ across] - d;
-    const double at_a = (c - b) * (c - d) * da, at_c = (a - d) * (a - b) * dc;
-    const double at_b = (a - d) * (c - d) * db, at_d = (c - b) * (a - b) * dd;
-    return (at_a + at_c) + (at_b + at_d);
 }
 
 CellValues negated(CellValues value) {
@@ -129,7 +96,7 @@ double earlier_face_value(double a, double b, double c, double d, Diagonal highs
 }
 
 CellBodies earlier_bodies(CellElements& cell, double tunnel_height) {
-    find_ambiguous_faces(cell);
+    mark_ambiguous_faces(cell);
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
         const std::array<int, 4>& c = kFaceCorners[f];
@@ -139,14 +106,7 @@ CellBodies earlier_bodies(CellElements& cell, double tunnel_height) {
     const unsigned types = default_face_types(cell);
     int exponent = 0;
     const CellValues value = scaled(cell.value, exponent);
-    DisagreeingFaces faces;
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-        const int f = std::countr_zero(rest);
-        const double sign = earlier_side_sign(value, f);
-        const bool joined = types >> f & 1;
-        if (!joined && sign > 0) faces.openings |= 1U << f;
-        if (joined && sign < 0) faces.closings |= 1U << f;
-    }
+    const DisagreeingFaces faces = disagreeing_faces(cell, types, [&value](int f) { return side_slope(value, f).sum; });
     std::optional<BodySaddle> low, high;
     if (faces.openings != 0) low = earlier_saddle(cell.value);
     if (faces.closings != 0) high = earlier_saddle(negated(cell.value));

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "critical/trilinear.h"
 #include "field/cell.h"
 #include "field/error_free.h"
 #include "field/exact_rounding.h"
@@ -27,21 +28,6 @@ int sign_of(const Int& value) {
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
-template <class Int>
-struct Coefficients {
-    std::array<Int, 8> k;
-
-    explicit Coefficients(const Corners<Int>& v)
-        : k{v[0],
-            v[1] - v[0],
-            v[2] - v[0],
-            v[4] - v[0],
-            v[3] - v[1] - v[2] + v[0],
-            v[5] - v[1] - v[4] + v[0],
-            v[6] - v[2] - v[4] + v[0],
-            v[7] - v[6] - v[5] - v[3] + v[4] + v[2] + v[1] - v[0]} {}
-};
-
 /// One axis of a saddle: is its coordinate above 0? k: of this axis, other..., a: the axis's A. The axes y and z by exchanging the k.
 template <class Int>
 bool is_above_zero(const Int& k1, const Int& k2, const Int& k3, const Int& k4, const Int& k5, const Int& k6, const Int& k7, const Int& a) {
@@ -53,7 +39,7 @@ bool is_above_zero(const Int& k1, const Int& k2, const Int& k3, const Int& k4, c
 
 template <class Int>
 bool is_inside_from_origin(const Corners<Int>& corner) {
-    const auto& [k0, k1, k2, k3, k4, k5, k6, k7] = Coefficients<Int>(corner).k;
+    const auto [k0, k1, k2, k3, k4, k5, k6, k7] = trilinear_coefficients(corner);
     const Int a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
     if (sign_of(a) * sign_of(b) * sign_of(c) >= 0) return false;  // q^2 = -ABC
     return is_above_zero(k1, k2, k3, k4, k5, k6, k7, a) && is_above_zero(k2, k1, k3, k4, k6, k5, k7, b) &&
@@ -118,7 +104,7 @@ struct SaddlePolynomial {
     cpp_int k7_squared, m, r;
 
     explicit SaddlePolynomial(const Corners<cpp_int>& corner) {
-        const auto& [k0, k1, k2, k3, k4, k5, k6, k7] = Coefficients<cpp_int>(corner).k;
+        const auto [k0, k1, k2, k3, k4, k5, k6, k7] = trilinear_coefficients(corner);
         const cpp_int s = k1 * k6 + k2 * k5 + k3 * k4;
         k7_squared = k7 * k7;
         m = 2 * k4 * k5 * k6 - k7 * s;

@@ -63,30 +63,8 @@ inline FaceCorners corners_of(const CellElements& cell, int f) {
     return {cell.value[c[1 - high]], cell.value[c[3 - high]], cell.value[c[high]], cell.value[c[high + 2]]};
 }
 
-struct Comparison {
-    int above, equal;  // bit k: corner k
-};
-
-Comparison compare_corners(const std::array<double, 8>& value, double s) {
-    Comparison result{0, 0};
-#ifdef __SSE2__
-    const __m128d threshold = _mm_set1_pd(s);
-    for (int k = 0; k < 8; k += 2) {
-        const __m128d pair = _mm_load_pd(value.data() + k);
-        result.above |= _mm_movemask_pd(_mm_cmpgt_pd(pair, threshold)) << k;
-        result.equal |= _mm_movemask_pd(_mm_cmpeq_pd(pair, threshold)) << k;
-    }
-#else
-    for (int k = 0; k < 8; ++k) {
-        result.above |= (value[k] > s) << k;
-        result.equal |= (value[k] == s) << k;
-    }
-#endif
-    return result;
-}
-
 struct Sides {
-    int above, at_least;  // bit k: corner k is above `high`; it is above `low`
+    int above, at_least;  // bit k: corner k is above `high`; it is not below `low`
 };
 
 inline Sides sides_of_corners(const std::array<double, 8>& value, double low, double high) {
@@ -96,19 +74,21 @@ inline Sides sides_of_corners(const std::array<double, 8>& value, double low, do
     for (int k = 0; k < 8; k += 2) {
         const __m128d pair = _mm_load_pd(value.data() + k);
         sides.above |= _mm_movemask_pd(_mm_cmpgt_pd(pair, most)) << k;
-        sides.at_least |= _mm_movemask_pd(_mm_cmpgt_pd(pair, least)) << k;
+        sides.at_least |= _mm_movemask_pd(_mm_cmpge_pd(pair, least)) << k;
     }
 #else
     for (int k = 0; k < 8; ++k) {
         sides.above |= (value[k] > high) << k;
-        sides.at_least |= (value[k] > low) << k;
+        sides.at_least |= (value[k] >= low) << k;
     }
 #endif
     return sides;
 }
 
 int corners_above_face(const CellElements& cell, int f) {
-    auto [above, equal] = compare_corners(cell.value, cell.face_value[f]);
+    const Sides sides = sides_of_corners(cell.value, cell.face_value[f], cell.face_value[f]);
+    const int equal = sides.at_least & ~sides.above;
+    int above = sides.above;
     if (equal == 0) return above;
     const std::int64_t key = second_key(cell, f);
     for (int k = 0; k < 8; ++k) {
@@ -143,7 +123,7 @@ bool faces_of_slice(const GridView<T>& grid, std::int64_t z, bool with_next, std
     return any_set(faces);
 }
 
-void find_ambiguous_faces(CellElements& cell) {
+void mark_ambiguous_faces(CellElements& cell) {
     cell.ambiguous = cell.bd_high = 0;
     for (int f = 0; f < 6; ++f) {
         const std::array<int, 4>& corner = kFaceCorners[f];
@@ -152,6 +132,10 @@ void find_ambiguous_faces(CellElements& cell) {
         cell.ambiguous |= 1U << f;
         cell.bd_high |= unsigned{highs == Diagonal::bd} << f;
     }
+}
+
+void find_ambiguous_faces(CellElements& cell) {
+    mark_ambiguous_faces(cell);
     find_face_values(cell);
 }
 

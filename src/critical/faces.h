@@ -31,7 +31,10 @@ struct CellElements {
     std::array<double, 6> face_value;         ///< disambiguation value of an ambiguous face
 };
 
-/// Fills in the ambiguous faces of a cell from its corners.
+/// Fills in which faces of a cell are ambiguous, and how, from its corners.
+void mark_ambiguous_faces(CellElements& cell);
+
+/// The same, and the face values.
 void find_ambiguous_faces(CellElements& cell);
 
 /// Face values rounded down (field/face.h).
