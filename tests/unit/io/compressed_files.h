@@ -41,17 +41,6 @@ inline std::string nifti_header(bool pair) {
     return bytes;
 }
 
-inline std::string base64(const std::string& bytes) {
-    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63];
-    }
-    return text;
-}
-
 /// A .vti with two zlib blocks of 48 bytes: appended raw, or inline in base64.
 inline std::string vti(const std::string& samples, bool is_inline) {
     const std::string first = zlib(samples.substr(0, 48)), second = zlib(samples.substr(48));
