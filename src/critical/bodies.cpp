@@ -12,6 +12,29 @@
 namespace isoatlas {
 namespace {
 
+[[gnu::always_inline]] inline SideSlope slope_of(const CellValues& v, int f) {
+    const std::array<int, 4>& corner = kFaceCorners[f];
+    const int across = 1 << kFaceAxes[f / 2].normal;
+    const double a = v[corner[0]], b = v[corner[1]], c = v[corner[2]], d = v[corner[3]];
+    const double da = v[corner[0] ^ across] - a, db = v[corner[1] ^ across] - b;
+    const double dc = v[corner[2] ^ across] - c, dd = v[corner[3] ^ across] - d;
+    const double at_a = (c - b) * (c - d) * da, at_c = (a - d) * (a - b) * dc;
+    const double at_b = (a - d) * (c - d) * db, at_d = (c - b) * (a - b) * dd;
+    return {(at_a + at_c) + (at_b + at_d), std::abs(at_a) + std::abs(at_b) + std::abs(at_c) + std::abs(at_d)};
+}
+
+bool are_integers(const CellValues& v) {
+    return std::all_of(v.begin(), v.end(),
+                       [](double x) { return std::abs(x) < 0x1p60 && x == static_cast<double>(static_cast<std::int64_t>(x)); });
+}
+
+[[gnu::always_inline]] inline int sign_of(const SideSlope& slope, const CellValues& v, int f) {
+    const auto [sum, terms] = slope;
+    const bool is_certain = std::abs(sum) > 0x1p-49 * terms && terms > 0x1p-900 && terms < 0x1p1000;
+    if (!is_certain && !(terms < 0x1p53 && are_integers(v))) return exact_side_sign(v, f);  // of small integers the sum is exact
+    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
+}
+
 /// The High corners and faces of a cell at one cut.
 struct CellCut {
     int pattern = 0, joined = 0;
@@ -112,23 +135,9 @@ std::optional<BodyPoint> opening_point(const CellView& cell, const BodySaddle& s
 
 }  // namespace
 
-SideSlope side_slope(const CellValues& v, int f) {
-    const std::array<int, 4>& corner = kFaceCorners[f];
-    const int across = 1 << kFaceAxes[f / 2].normal;
-    const double a = v[corner[0]], b = v[corner[1]], c = v[corner[2]], d = v[corner[3]];
-    const double da = v[corner[0] ^ across] - a, db = v[corner[1] ^ across] - b;
-    const double dc = v[corner[2] ^ across] - c, dd = v[corner[3] ^ across] - d;
-    const double at_a = (c - b) * (c - d) * da, at_c = (a - d) * (a - b) * dc;
-    const double at_b = (a - d) * (c - d) * db, at_d = (c - b) * (a - b) * dd;
-    return {(at_a + at_c) + (at_b + at_d), std::abs(at_a) + std::abs(at_b) + std::abs(at_c) + std::abs(at_d)};
-}
+SideSlope side_slope(const CellValues& v, int f) { return slope_of(v, f); }
 
-int side_sign(const CellValues& v, int f) {
-    const auto [sum, terms] = side_slope(v, f);
-    const bool is_certain = std::abs(sum) > 0x1p-49 * terms && terms > 0x1p-900 && terms < 0x1p1000;
-    if (!is_certain) return exact_side_sign(v, f);
-    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
-}
+int side_sign(const CellValues& v, int f) { return sign_of(slope_of(v, f), v, f); }
 
 double tunnel_height_of(Interpolant interpolant, double tunnel_height) {
     if (!(tunnel_height >= 0)) {
@@ -139,7 +148,8 @@ double tunnel_height_of(Interpolant interpolant, double tunnel_height) {
 }
 
 DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types) {
-    return disagreeing_faces(cell, default_types, [&cell](int f) { return side_sign(cell.value, f); });
+    if (cell.has_small_integers) return disagreeing_faces(cell, default_types, [&cell](int f) { return slope_of(cell.value, f).sum; });
+    return disagreeing_faces(cell, default_types, [&cell](int f) { return sign_of(slope_of(cell.value, f), cell.value, f); });
 }
 
 CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height) {

@@ -57,9 +57,9 @@ DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_ty
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
         const auto slope = sign(f);
-        const bool joined = default_types >> f & 1;
-        if (!joined && slope > 0) faces.openings |= 1U << f;
-        if (joined && slope < 0) faces.closings |= 1U << f;
+        const unsigned joined = default_types >> f & 1;  // no branches: nobody can predict them
+        faces.openings |= (unsigned{slope > 0} & ~joined) << f;
+        faces.closings |= (unsigned{slope < 0} & joined) << f;
     }
     return faces;
 }

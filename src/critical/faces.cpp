@@ -63,48 +63,36 @@ inline FaceCorners corners_of(const CellElements& cell, int f) {
     return {cell.value[c[1 - high]], cell.value[c[3 - high]], cell.value[c[high]], cell.value[c[high + 2]]};
 }
 
-struct Sides {
-    int above, at_least;  // bit k: corner k is above `high`; it is not below `low`
+struct Comparison {
+    int above, equal;  // bit k: corner k
 };
 
-inline Sides sides_of_corners(const std::array<double, 8>& value, double low, double high) {
-    Sides sides{0, 0};
+Comparison compare_corners(const std::array<double, 8>& value, double s) {
+    Comparison result{0, 0};
 #ifdef __SSE2__
-    const __m128d least = _mm_set1_pd(low), most = _mm_set1_pd(high);
+    const __m128d threshold = _mm_set1_pd(s);
     for (int k = 0; k < 8; k += 2) {
         const __m128d pair = _mm_load_pd(value.data() + k);
-        sides.above |= _mm_movemask_pd(_mm_cmpgt_pd(pair, most)) << k;
-        sides.at_least |= _mm_movemask_pd(_mm_cmpge_pd(pair, least)) << k;
+        result.above |= _mm_movemask_pd(_mm_cmpgt_pd(pair, threshold)) << k;
+        result.equal |= _mm_movemask_pd(_mm_cmpeq_pd(pair, threshold)) << k;
     }
 #else
     for (int k = 0; k < 8; ++k) {
-        sides.above |= (value[k] > high) << k;
-        sides.at_least |= (value[k] >= low) << k;
+        result.above |= (value[k] > s) << k;
+        result.equal |= (value[k] == s) << k;
     }
 #endif
-    return sides;
+    return result;
 }
 
 int corners_above_face(const CellElements& cell, int f) {
-    const Sides sides = sides_of_corners(cell.value, cell.face_value[f], cell.face_value[f]);
-    const int equal = sides.at_least & ~sides.above;
-    int above = sides.above;
+    auto [above, equal] = compare_corners(cell.value, cell.face_value[f]);
     if (equal == 0) return above;
     const std::int64_t key = second_key(cell, f);
     for (int k = 0; k < 8; ++k) {
         if (equal >> k & 1 && 2 * cell.voxel[k] > key) above |= 1 << k;
     }
     return above;
-}
-
-/// Type of face f: the corners above it are known.
-inline std::uint8_t default_type(const CellElements& cell, const CellTable& table, int f, int above) {
-    int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
-    for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {
-        const int g = std::countr_zero(others);
-        joined |= face_above_face(cell, g, f) << g;
-    }
-    return static_cast<std::uint8_t>(table.highs_joined[64 * above + joined] & 1 << f);
 }
 
 }  // namespace
@@ -158,47 +146,15 @@ std::uint8_t default_face_types(const CellElements& cell, const CellTable& table
     std::uint8_t types = 0;
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
-        types |= default_type(cell, table, f, corners_above_face(cell, f));
+        const int above = corners_above_face(cell, f);
+        int joined = 0;  // of the other faces that are split at this cut; such a face is ambiguous
+        for (unsigned others = table.split[above] & ~(1u << f); others != 0; others &= others - 1) {
+            const int g = std::countr_zero(others);
+            joined |= face_above_face(cell, g, f) << g;
+        }
+        types |= static_cast<std::uint8_t>(table.highs_joined[64 * above + joined] & 1 << f);
     }
     return types;
-}
-
-EstimatedTypes estimate_default_types(CellElements& cell, const CellTable& table) {
-    std::array<int, 6> above{};
-    std::array<double, 6> error{};
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-        const int f = std::countr_zero(rest);
-        const ApproximateValue estimate = approximate_face_value(corners_of(cell, f));
-        error[f] = 2 * estimate.error;  // twice: the exact values that it stands for are rounded
-        cell.face_value[f] = estimate.value;
-        const Sides sides = sides_of_corners(cell.value, estimate.value - error[f], estimate.value + error[f]);
-        above[f] = sides.above;
-        bool is_clear = error[f] < std::numeric_limits<double>::infinity() && sides.above == sides.at_least;
-        for (unsigned others = cell.ambiguous & ((1U << f) - 1); others != 0; others &= others - 1) {
-            const int g = std::countr_zero(others);
-            is_clear &= std::abs(cell.face_value[g] - estimate.value) > error[f] + error[g];
-        }
-        if (!is_clear) {
-            find_face_values(cell);
-            return {default_face_types(cell, table), true};
-        }
-    }
-    std::uint8_t types = 0;
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-        const int f = std::countr_zero(rest);
-        types |= default_type(cell, table, f, above[f]);
-    }
-    return {types, false};
-}
-
-EstimatedTypes default_types_of_small(CellElements& cell, const CellTable& table) {
-    for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
-        const int f = std::countr_zero(rest);
-        const std::array<int, 4>& c = kFaceCorners[f];
-        const double a = cell.value[c[0]], b = cell.value[c[1]], cc = cell.value[c[2]], d = cell.value[c[3]];
-        cell.face_value[f] = (a * cc - b * d) / ((a + cc) - (b + d));
-    }
-    return {default_face_types(cell, table), false};
 }
 
 template bool faces_of_slice(const GridView<std::uint8_t>&, std::int64_t, bool, std::span<std::uint8_t>);

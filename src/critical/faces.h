@@ -29,6 +29,7 @@ struct CellElements {
     unsigned ambiguous;                       ///< bit f: face f is ambiguous
     unsigned bd_high;                         ///< bit f: and b, d are its Highs
     std::array<double, 6> face_value;         ///< disambiguation value of an ambiguous face
+    bool has_small_integers = false;          ///< corner values are known to be integers of at most 16 bits: products of three are exact
 };
 
 /// Fills in which faces of a cell are ambiguous, and how, from its corners.
@@ -46,17 +47,5 @@ bool element_below(const CellElements& cell, int element, int other);
 /// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this
 /// cell by elements above F; clear = type L, the Lows are joined below.
 std::uint8_t default_face_types(const CellElements& cell, const CellTable& table = cell_table());
-
-struct EstimatedTypes {
-    std::uint8_t types;
-    bool has_face_values;  ///< `face_value` is exact; else it is good for the types alone
-};
-
-/// Default types from `value`, `voxel`, `ambiguous` and `bd_high`. Estimates of the face values decide where they are far enough from all
-/// other values of the cell.
-EstimatedTypes estimate_default_types(CellElements& cell, const CellTable& table);
-
-/// The same for samples of 8 or 16 bits: quotients of exact numbers, rounded to nearest, are in the order of the exact values.
-EstimatedTypes default_types_of_small(CellElements& cell, const CellTable& table);
 
 }  // namespace isoatlas

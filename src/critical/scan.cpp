@@ -9,6 +9,7 @@
 #endif
 
 #include "critical/bodies.h"
+#include "critical/face_rows.h"
 #include "critical/faces.h"
 #include "critical/links.h"
 
@@ -34,29 +35,25 @@ inline void set_pair(double* pair, T first, T second) {
 #endif
 }
 
-/// The cells between slices z and z+1: adds the types of their ambiguous faces to the slice buffers.
-/// A slice buffer counts, per voxel and orientation (2 bits each), the cells in which the face has type H.
+/// The cells between slices z and z+1: counts, for every ambiguous face, the cells in which it has type H.
 template <class T>
 class LayerTypes {
 public:
     LayerTypes(const GridView<T>& grid, double tunnel_height)
         : grid_(grid), steps_(grid.extent), offset_(corner_offsets(steps_)), tunnel_height_(tunnel_height), any_(grid.extent.size[0] + 8) {}
 
-    /// bodies: where body points go; null: they belong to another slab.
-    void add(std::int64_t z, const Bytes& faces, const Bytes& faces_next, Bytes& high, Bytes& high_next, SlabScan* bodies) {
+    /// Of the cells of row y. bodies: where body points go; null: they belong to another slab.
+    void add_row(std::int64_t y, std::int64_t z, SliceFaces& lower, SliceFaces& upper, const FaceRows<T>& values, SlabScan* bodies) {
         bodies_ = bodies;
-        const std::int64_t n = grid_.extent.size[0];
-        for (std::int64_t y = 0; y + 1 < grid_.extent.size[1]; ++y) {
-            const std::int64_t base = y * n;
-            gather_row(faces.data() + base, faces_next.data() + base, n);
-            for (std::int64_t x = 0; x + 1 < n; x += 8) {
-                std::uint64_t block;
-                std::memcpy(&block, any_.data() + x, 8);
-                while (block != 0) {
-                    const int byte = std::countr_zero(block) / 8;
-                    block &= ~(std::uint64_t{0xff} << (8 * byte));
-                    if (x + byte + 1 < n) add_cell(base + x + byte, z, faces, faces_next, high, high_next);
-                }
+        const std::int64_t n = grid_.extent.size[0], base = y * n;
+        gather_row(lower.faces.data() + base, upper.faces.data() + base, n);
+        for (std::int64_t x = 0; x + 1 < n; x += 8) {
+            std::uint64_t block;
+            std::memcpy(&block, any_.data() + x, 8);
+            while (block != 0) {
+                const int byte = std::countr_zero(block) / 8;
+                block &= ~(std::uint64_t{0xff} << (8 * byte));
+                if (x + byte + 1 < n) add_cell(x + byte, base, z, lower, upper, values);
             }
         }
     }
@@ -69,33 +66,33 @@ private:
         }
     }
 
-    void add_cell(std::int64_t i, std::int64_t z, const Bytes& faces, const Bytes& next, Bytes& high, Bytes& high_next) {
-        const std::int64_t n = grid_.extent.size[0];
+    void add_cell(std::int64_t x, std::int64_t row, std::int64_t z, SliceFaces& lower, SliceFaces& upper, const FaceRows<T>& values) {
+        const std::int64_t n = grid_.extent.size[0], i = row + x;
         const T* corner = grid_.slice(z) + i;
         CellElements cell;
         for (int k = 0; k < 8; k += 2) set_pair(&cell.value[k], corner[offset_[k]], corner[offset_[k] + 1]);
         for (int k = 0; k < 8; ++k) cell.voxel[k] = z * grid_.extent.slice() + i + offset_[k];
+        cell.face_value = values.of_cell(x);
+        cell.has_small_integers = kIsSmall<T>;
         // Bits 2o of a face byte are face 2o of the cell; the faces on the far sides belong to the neighbours behind.
         const auto far = [&](int mine, int of_next, int of_y, int of_x) {
             return static_cast<unsigned>((mine & 0b010101) | (of_next & 0b000001) << 1 | (of_y & 0b000100) << 1 | (of_x & 0b010000) << 1);
         };
-        const int mine = faces[i], of_next = next[i], of_y = faces[i + n], of_x = faces[i + 1];
+        const int mine = lower.faces[i], of_next = upper.faces[i], of_y = lower.faces[i + n], of_x = lower.faces[i + 1];
         cell.ambiguous = far(mine | mine >> 1, of_next | of_next >> 1, of_y | of_y >> 1, of_x | of_x >> 1);
         cell.bd_high = far(mine >> 1, of_next >> 1, of_y >> 1, of_x >> 1);
-        const EstimatedTypes found = kIsSmall<T> ? default_types_of_small(cell, table_) : estimate_default_types(cell, table_);
-        unsigned types = found.types;
-        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types, found.has_face_values);
-        high[i] += static_cast<std::uint8_t>(types & 0b010101);
-        high_next[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
-        high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);
-        high[i + 1] += static_cast<std::uint8_t>(types >> 1 & 0b010000);
+        unsigned types = default_face_types(cell, table_);
+        if (std::isfinite(tunnel_height_)) types ^= add_bodies(cell, types);
+        lower.high[i] += static_cast<std::uint8_t>(types & 0b010101);
+        upper.high[i] += static_cast<std::uint8_t>(types >> 1 & 0b000001);
+        lower.high[i + n] += static_cast<std::uint8_t>(types >> 1 & 0b000100);
+        lower.high[i + 1] += static_cast<std::uint8_t>(types >> 1 & 0b010000);
     }
 
     /// Returns the faces whose type is not the default one.
-    unsigned add_bodies(CellElements& cell, unsigned types, bool has_exact_faces) {
+    unsigned add_bodies(const CellElements& cell, unsigned types) {
         const DisagreeingFaces faces = disagreeing_faces(cell, types);
         if (!faces.any()) return 0;
-        if (!has_exact_faces) find_face_values(cell);
         const CellBodies found = bodies_of_cell(cell, faces, tunnel_height_);
         if (found.exceptional == 0 || bodies_ == nullptr) return found.exceptional;
         for (const CodeKind kind : {CodeKind::body_open, CodeKind::body_close}) {
@@ -114,30 +111,52 @@ private:
     SlabScan* bodies_ = nullptr;
 };
 
-/// Appends the critical elements of one slice.
+/// Appends the critical elements of one row.
 template <class T>
 class Emitter {
 public:
-    explicit Emitter(const GridView<T>& grid) : grid_(grid), steps_(grid.extent) {}
+    explicit Emitter(const GridView<T>& grid) : grid_(grid), steps_(grid.extent), types_(kVertexTypes[grid.extent.rank]) {
+        for (std::size_t links = 0; links < types_.size(); ++links) is_critical_ |= std::uint64_t{types_[links].critical} << links;
+    }
 
-    void slice(std::int64_t z, std::span<const std::uint8_t> links, const Bytes& faces, const Bytes& high, SlabScan& out) const {
-        const std::array<VertexType, 64>& types = kVertexTypes[grid_.extent.rank];
-        const std::int64_t first = z * grid_.extent.slice();
-        for (std::size_t i = 0; i < links.size(); ++i) {
-            const VertexType type = types[links[i]];
-            if (type.critical) vertex(first + static_cast<std::int64_t>(i), type, out);
-            if (faces[i] != 0) faces_of_voxel(first + static_cast<std::int64_t>(i), faces[i], high[i], out);
+    /// links, faces, high: of its voxels.
+    void row(std::int64_t first, std::span<const std::uint8_t> links, const std::uint8_t* faces, const std::uint8_t* high,
+             const FaceRows<T>& values, SlabScan& out) const {
+        for (std::size_t begin = 0; begin < links.size(); begin += kTogether) {
+            const std::size_t count = std::min(links.size() - begin, kTogether);
+            const std::uint32_t some = count == kTogether ? which_matter<kTogether>(links.data() + begin, faces + begin, count)
+                                                          : which_matter<0>(links.data() + begin, faces + begin, count);
+            for (std::uint32_t rest = some; rest != 0; rest &= rest - 1) {
+                const std::size_t x = begin + static_cast<std::size_t>(std::countr_zero(rest));
+                const std::int64_t i = first + static_cast<std::int64_t>(x);
+                if ((is_critical_ >> links[x] & 1) != 0) vertex(i, types_[links[x]], out);
+                if (faces[x] == 0) continue;
+                faces_of_voxel(i, faces[x], high[x], [&](int o) { return values.mine(static_cast<std::int64_t>(x), o); }, out);
+            }
         }
     }
 
 private:
+    static constexpr std::size_t kTogether = 32;  // most voxels give nothing
+
+    /// Bit k: voxel k is critical or has an ambiguous face. Count, where it is not 0, is known to the compiler.
+    template <std::size_t Count>
+    [[nodiscard]] std::uint32_t which_matter(const std::uint8_t* links, const std::uint8_t* faces, std::size_t count) const {
+        std::uint32_t some = 0;
+        for (std::size_t k = 0; k < (Count != 0 ? Count : count); ++k) {
+            some |= static_cast<std::uint32_t>((is_critical_ >> links[k] & 1) | unsigned{faces[k] != 0}) << k;
+        }
+        return some;
+    }
+
     void vertex(std::int64_t voxel, VertexType type, SlabScan& out) const {
         out.maxima += type.h0 == 0;
         out.minima += type.l0 == 0;
         out.add({static_cast<double>(grid_.samples[voxel]), ElementCode::vertex(voxel, type.h0, type.l0, type.axis)});
     }
 
-    void faces_of_voxel(std::int64_t voxel, int faces, int high, SlabScan& out) const {
+    template <class Values>
+    void faces_of_voxel(std::int64_t voxel, int faces, int high, const Values& values, SlabScan& out) const {
         // Two bits a face: in how many of its cells it has type H. One: one side joins the Highs, the other the Lows: regular in 3D.
         const int ambiguous = (faces | faces >> 1) & 0b010101;
         const int critical = grid_.is_3d() ? ambiguous & ~high : ambiguous;
@@ -145,15 +164,13 @@ private:
             const int bit = std::countr_zero(rest);
             const bool closes = high >> (bit + 1) & 1;
             const int h0 = !grid_.is_3d() || !closes ? 2 : 1, l0 = !grid_.is_3d() || closes ? 2 : 1;
-            face(voxel, bit / 2, faces >> (bit + 1) & 1 ? Diagonal::bd : Diagonal::ac, h0, l0, out);
+            face(voxel, bit / 2, (faces >> (bit + 1) & 1) != 0, values(bit / 2), h0, l0, out);
         }
     }
 
-    void face(std::int64_t voxel, int orientation, Diagonal diagonal, int h0, int l0, SlabScan& out) const {
+    void face(std::int64_t voxel, int orientation, bool bd_high, double s, int h0, int l0, SlabScan& out) const {
         std::array<T, 4> v;
         for (int i = 0; i < 4; ++i) v[i] = grid_.samples[voxel + steps_.face_corner(orientation, i)];
-        const double s = disambiguation_value(v[0], v[1], v[2], v[3], diagonal);
-        const bool bd_high = diagonal == Diagonal::bd;
         // Highest Low of the same value: voxel numbers ascend a < b < d < c.
         int tie = 0;
         for (const int low : bd_high ? std::array{0, 2} : std::array{1, 3}) {
@@ -165,33 +182,41 @@ private:
 
     const GridView<T>& grid_;
     GridSteps steps_;
+    const std::array<VertexType, 64>& types_;  // of the links of a vertex
+    std::uint64_t is_critical_ = 0;            // bit: of links
 };
 
 }  // namespace
 
 template <class T>
 SlabScan scan_slab(const GridView<T>& grid, Slab slab, std::span<std::uint8_t> links, double tunnel_height) {
-    const std::int64_t slice = grid.extent.slice(), slices = grid.extent.size[2];
-    Bytes faces(slice), faces_next(slice), high(slice), high_next(slice);
+    const std::int64_t n = grid.extent.size[0], rows = grid.extent.size[1], slice = grid.extent.slice(), slices = grid.extent.size[2];
+    SliceFaces lower(slice), upper(slice);
+    FaceRows<T> values(grid);
     LayerTypes<T> layer(grid, tunnel_height);
     const Emitter<T> emit(grid);
     SlabScan out;
+    const auto find_faces = [&](SliceFaces& of, std::int64_t z, bool with_next) {
+        return faces_of_slice(grid, z, with_next, std::span(of.faces).first(slice));
+    };
     // The layer below the slab decides one side of the xy faces of the first slice.
     const std::int64_t first_layer = slab.z_begin > 0 ? slab.z_begin - 1 : 0;
-    bool any = faces_of_slice(grid, first_layer, first_layer + 1 < slices, faces);
+    lower.any = find_faces(lower, first_layer, first_layer + 1 < slices);
     for (std::int64_t z = first_layer; z < slab.z_end; ++z) {
-        const bool has_next = z + 1 < slices;
-        const bool any_next = has_next && faces_of_slice(grid, z + 1, z + 1 < slab.z_end && z + 2 < slices, faces_next);
-        if (has_next && (any || any_next)) layer.add(z, faces, faces_next, high, high_next, z >= slab.z_begin ? &out : nullptr);
-        if (z >= slab.z_begin) {
-            const std::span<std::uint8_t> slice_links = links.subspan((z - slab.z_begin) * slice, slice);
-            links_of_slice(grid, z, slice_links);
-            emit.slice(z, slice_links, faces, high, out);
+        const bool has_next = z + 1 < slices, is_ours = z >= slab.z_begin;
+        upper.any = has_next && find_faces(upper, z + 1, z + 1 < slab.z_end && z + 2 < slices);
+        const bool has_cells = has_next && (lower.any || upper.any);
+        if (is_ours) links_of_slice(grid, z, links.subspan((z - slab.z_begin) * slice, slice));
+        for (std::int64_t y = 0; y < rows; ++y) {
+            if (has_cells || lower.any) values.find(y, z, lower, upper, has_cells);
+            if (has_cells && y + 1 < rows) layer.add_row(y, z, lower, upper, values, is_ours ? &out : nullptr);
+            if (!is_ours) continue;
+            const std::int64_t row = y * n;
+            emit.row(z * slice + row, links.subspan((z - slab.z_begin) * slice + row, n), lower.faces.data() + row, lower.high.data() + row,
+                     values, out);
         }
-        faces.swap(faces_next);
-        high.swap(high_next);
-        std::fill(high_next.begin(), high_next.end(), std::uint8_t{0});
-        any = any_next;
+        std::swap(lower, upper);
+        std::fill(upper.high.begin(), upper.high.end(), std::uint8_t{0});
     }
     return out;
 }

@@ -2,7 +2,7 @@
 //
 // Everything is decided from three slices: a vertex by its neighbours, an ambiguous face by the two cells that share it.
 // The owner of a face is the slab of its corner a. Elements come out in raster order of their owner voxel, the vertex first, then faces xy,
-// xz, yz; body points come before the slice of their cell.
+// xz, yz; body points come before the row of their cell.
 #pragma once
 
 #include <cstdint>

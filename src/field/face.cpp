@@ -3,6 +3,7 @@
 #include "field/face.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/wide.h"
 #include "field/error_free.h"
@@ -13,14 +14,11 @@ namespace {
 
 constexpr double kLeast = 0x1p-240, kMost = 0x1p240;  // between these no product underflows or overflows
 
-/// s = sum.high + sum.low up to `error`; 0: exactly.
-struct Saddle {
-    TwoDoubles sum;
-    double error;
-};
+constexpr double kUndecided = std::numeric_limits<double>::quiet_NaN();
 
+/// s rounded down, or kUndecided. No branches: loops over it become vector code.
 template <class Product>
-inline Saddle saddle_of(const FaceCorners& face) {
+inline double rounded_or_undecided(const FaceCorners& face) {
     const TwoDoubles p = two_difference(face.high_1, face.low), q = two_difference(face.high_2, face.low);
     const TwoDoubles r = two_difference(face.low, face.lowest);
     const TwoDoubles pq_sum = two_sum(p.high, q.high), sum = two_sum(pq_sum.high, r.high);
@@ -32,28 +30,43 @@ inline Saddle saddle_of(const FaceCorners& face) {
     const TwoDoubles whole = Product()(t, sum.high);
     // product.high - whole.high - whole.low is a double: the remainder of a division.
     const double remainder = ((product.high - whole.high) - whole.low) + (product_low - t * sum_low);
-    const TwoDoubles s = two_sum(face.low, t);
-    if (remainder == 0 && inputs_low == 0) return {s, 0};
-    const double correction = s.low + remainder / sum.high;
+    const TwoDoubles first = two_sum(face.low, t), s = two_sum(first.high, first.low + remainder / sum.high);
     // Errors of p q, p + q + r, the quotient and the last sums: 10 + 20 + 30 + 60 times u^2 t, and u^2 s.
-    return {two_sum(s.high, correction), 0x1p-96 * t + 0x1p-104 * std::abs(s.high)};
+    const double error = ((remainder == 0) & (inputs_low == 0)) ? 0 : 0x1p-96 * t + 0x1p-104 * std::abs(s.high);
+    const double least = p.high < q.high ? p.high : q.high;
+    const bool is_moderate = (least >= kLeast) & (sum.high <= kMost) & (std::abs(face.low) <= kMost);
+    const double down = next_below(s.high), same = s.high + 0.0;  // not -0.0
+    const double value = s.low < -error ? down : ((s.low > error) | (error == 0)) ? same : kUndecided;
+    return least == 0 ? face.low + 0.0 : is_moderate ? value : kUndecided;
 }
 
-bool is_extreme(const FaceCorners& face, double p, double q) {
-    return !(std::min(p, q) >= kLeast && p + q + (face.low - face.lowest) <= kMost && std::abs(face.low) <= kMost);
+/// Eight at a time, so that no loop has a remainder.
+template <class Product>
+inline void round_all(const FaceBatch& faces, double* __restrict value) {
+    constexpr std::size_t kTogether = 8;
+    const auto [low_1, low_2, high_1, high_2] = faces.columns();
+    for (std::size_t first = 0; first < faces.count(); first += kTogether) {
+        for (std::size_t i = first; i < first + kTogether; ++i) {
+            value[i] = rounded_or_undecided<Product>({low_1[i], low_2[i], high_1[i], high_2[i]});
+        }
+    }
 }
 
-ISOATLAS_FUSED Saddle saddle_fused(const FaceCorners& face) { return saddle_of<FusedProduct>(face); }
+ISOATLAS_FUSED double round_fused(const FaceCorners& face) { return rounded_or_undecided<FusedProduct>(face); }
+ISOATLAS_FUSED void round_all_fused(const FaceBatch& faces, double* value) { round_all<FusedProduct>(faces, value); }
 
 }  // namespace
 
 double rounded_face_value(const FaceCorners& face) {
-    const double p = face.high_1 - face.low, q = face.high_2 - face.low;
-    if (p == 0 || q == 0) return face.low + 0.0;
-    if (is_extreme(face, p, q)) return exact_face_value(face);
-    const Saddle s = kHasFused ? saddle_fused(face) : saddle_of<PlainProduct>(face);
-    const std::optional<double> rounded = rounded_down_if_certain(s.sum, s.error);
-    return rounded ? *rounded : exact_face_value(face);
+    const double value = kHasFused ? round_fused(face) : rounded_or_undecided<PlainProduct>(face);
+    return std::isnan(value) ? exact_face_value(face) : value;
+}
+
+void rounded_face_values(const FaceBatch& faces, std::span<double, FaceBatch::kMost> value) {
+    kHasFused ? round_all_fused(faces, value.data()) : round_all<PlainProduct>(faces, value.data());
+    for (std::size_t i = 0; i < faces.count(); ++i) {
+        if (std::isnan(value[i])) value[i] = exact_face_value(faces[i]);
+    }
 }
 
 }  // namespace isoatlas

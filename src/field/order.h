@@ -95,7 +95,7 @@ struct KeyedElement {
 /// Is p above q in the total order?
 struct Above {
     GridSteps steps;
-    constexpr bool operator()(const KeyedElement& p, const KeyedElement& q) const {
+    [[gnu::always_inline]] constexpr bool operator()(const KeyedElement& p, const KeyedElement& q) const {
         if (p.value != q.value) return p.value > q.value;
         const std::int64_t p2 = second_key(p.code, steps), q2 = second_key(q.code, steps);
         if (p2 != q2) return p2 > q2;

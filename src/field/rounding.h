@@ -15,8 +15,8 @@ namespace isoatlas {
 
 /// The next double below. Finite.
 inline double next_below(double value) {
-    if (value == 0) return -std::numeric_limits<double>::denorm_min();
-    return std::bit_cast<double>(std::bit_cast<std::int64_t>(value) + (value > 0 ? -1 : 1));
+    const double next = std::bit_cast<double>(std::bit_cast<std::int64_t>(value) + (value > 0 ? -1 : 1));
+    return value == 0 ? -std::numeric_limits<double>::denorm_min() : next;
 }
 
 /// The greatest double at most a number that lies within `error` of sum.high + sum.low (a two_sum); none where that does not decide.

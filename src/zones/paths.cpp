@@ -135,7 +135,7 @@ Id HeavyPaths<Id, Value>::end_of_bucket(const Path& path, Value x) const {
 
 /// From a position not above it: the lowest event of the path with a value of x or more.
 template <class Id, class Value>
-Id HeavyPaths<Id, Value>::event_from(Id position, Id path, Value x) const {
+[[gnu::always_inline]] inline Id HeavyPaths<Id, Value>::event_from(Id position, Id path, Value x) const {
     const Stop* stop = stops_.data() + position;
     // The first steps without branches: nobody can predict them. Once a stop is high enough it stays the answer.
     bool on = true;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "field/face.h"
 #include "oracle/rational.h"
@@ -84,6 +85,29 @@ TEST_F(FaceValues, OfDenormals) {
 TEST_F(FaceValues, AsLargeAsDoublesGet) {
     expect_exact([&] { return (uniform() - 0.5) * 2 * std::numeric_limits<double>::max(); }, 500);
     expect_exact([&] { return below(2) == 0 ? 1e308 : -1e308 * uniform(); }, 500);
+}
+
+// Vectors of the processor give what one face alone gives.
+TEST_F(FaceValues, FoundTogetherAreTheSame) {
+    for (std::size_t count = 0; count <= FaceBatch::kMost; count = 2 * count + 1 + below(3)) {
+        FaceBatch batch;
+        std::vector<double> expected;
+        while (batch.count() < count) {
+            Four v{};
+            for (double& x : v)
+                x = below(3) == 0   ? static_cast<double>(below(4))
+                    : below(9) == 0 ? scaled(1000)
+                                    : uniform() + 1e6 * static_cast<double>(below(2));
+            std::sort(v.begin(), v.end());
+            if (v[1] == v[2]) continue;
+            const bool is_first = below(2) == 0;
+            batch.add(v[is_first ? 0 : 1], v[is_first ? 1 : 0], v[3], v[2]);
+            expected.push_back(rounded_face_value(FaceCorners(v[3], v[0], v[2], v[1], Diagonal::ac)));
+        }
+        std::array<double, FaceBatch::kMost> found{};
+        rounded_face_values(batch, found);
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(found[i], expected[i]) << i << " of " << count;
+    }
 }
 
 // Corners of 8 and 16 bits have a formula of their own.
