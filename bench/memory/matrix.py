@@ -1,6 +1,6 @@
 """Does --memory hold? Builds stores of volumes of all kinds (kinds.py), sizes and budgets, and looks at the peak of resident memory.
 
-    make memory        # sizes 96, 128, 160; budgets 80, 112, 160 MiB; writes build/bench/memory.json and docs/memory.md
+    make memory        # sizes 64, 96, 128; budgets 80, 112, 160 MiB; writes build/bench/memory.json and docs/memory.md
 
 A cell holds when the peak is at most the budget + 10 %, or the build is refused (exit code 5) before it begins and holds with the budget
 that the refusal names.
@@ -103,7 +103,7 @@ def main():
     numbers = lambda text: [int(word) for word in text.split(",")]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cli")
-    parser.add_argument("--sizes", type=numbers, default=[96, 128, 160])
+    parser.add_argument("--sizes", type=numbers, default=[64, 96, 128])
     parser.add_argument("--budgets", type=numbers, default=[80, 112, 160], help="MiB")
     parser.add_argument("--kinds", default="", help="those whose name has this in it")
     parser.add_argument("--folder", default=None, help="for volumes and stores")
