@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 CLI = os.environ["ISOATLAS_CLI"]
+SANITIZED = bool(os.environ.get("ISOATLAS_SANITIZE"))  # then memory is mostly that of the sanitizer: its size says nothing
 MESHES = [".ply", ".stl", ".obj", ".vtp", ".glb"]
 
 

@@ -145,7 +145,8 @@ class Builds(harness.CliTest):
         for megabytes in (96, 200):
             told = self.run_json("build", "large.nrrd", "-o", "small.atlas", "--memory", f"{megabytes}M")
             self.assertEqual(self.digest("small.atlas"), self.digest("large.atlas"))
-            self.assertLess(told["peak_memory"], megabytes * 1.1 * 2 ** 20)
+            if not harness.SANITIZED:
+                self.assertLess(told["peak_memory"], megabytes * 1.1 * 2 ** 20)
         self.assertEqual(self.left("small.atlas"), [])
 
     def test_estimates_and_refusals(self):

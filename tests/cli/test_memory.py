@@ -15,6 +15,7 @@ SIZES, BUDGETS = [16, 32, 48], [80, 96, 128]  # the bench has larger ones
 LARGE = {"checkerboard": 96, "noise of 2": 112}
 
 
+@unittest.skipIf(os.environ.get("ISOATLAS_SANITIZE"), "memory is mostly that of the sanitizer")
 class Memory(unittest.TestCase):
     def check(self, cells):
         for cell in cells:
