@@ -111,7 +111,7 @@ public:
         kept_bytes_ = 0;
         kept_.clear();
         keep_heap_small();
-        statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+        if (statm_ < 0) statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
         program_ = resident_memory(statm_).of_files;
         active_ = true;
     }
@@ -126,7 +126,6 @@ public:
         watcher_.join();
         const std::lock_guard lock(mutex_);
         active_ = false;
-        ::close(statm_.exchange(-1));
         close_unused_file();
     }
     [[nodiscard]] bool active() const noexcept { return active_; }
@@ -310,7 +309,7 @@ private:
     std::map<std::size_t, int> kept_{};  // how many of each size
     std::string folder_;
     int file_ = -1;
-    std::atomic<int> statm_ = -1;
+    std::atomic<int> statm_ = -1;  // opened once: whoever looks after a limit that ends may still read it
     int calls_ = 0;  // that use the file right now
     std::size_t end_ = 0;
     std::map<char*, Piece> pieces_;
