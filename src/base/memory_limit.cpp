@@ -310,7 +310,7 @@ private:
     std::string folder_;
     int file_ = -1;
     std::atomic<int> statm_ = -1;  // opened once: whoever looks after a limit that ends may still read it
-    int calls_ = 0;  // that use the file right now
+    int calls_ = 0;                // that use the file right now
     std::size_t end_ = 0;
     std::map<char*, Piece> pieces_;
     char* next_unmapped_ = nullptr;
