@@ -105,7 +105,8 @@ def main():
     engine = json.loads((folder / "engine.json").read_text())
     page = replace(page, "engine", engine_table(engine))
     page = replace(page, "phases", phases_table(engine))
-    page = replace(page, "growth", growth_table(engine))
+    if engine.get("growth"):  # measured with --growth only
+        page = replace(page, "growth", growth_table(engine))
     if (folder / "extract.json").exists():
         page = replace(page, "extract", generic_table(json.loads((folder / "extract.json").read_text())["results"]))
     if (folder / "store.json").exists():

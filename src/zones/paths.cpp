@@ -46,7 +46,6 @@ template <class Id, class Value>
 HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads) {
     const KeepInMemory keep;
     stops_.resize(tree.size() + kSteps);
-    bucket_.resize(tree.size());
     std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, 0});
     BigVector<HeavyNode<Id>> nodes = weigh(tree);
     const BigVector<Path> laid = lay_out(tree, nodes);
@@ -57,7 +56,8 @@ HeavyPaths<Id, Value>::HeavyPaths(const DescendingTree<Id>& tree, std::span<cons
         path_of[m] = nodes[e].path;
         if (nodes[e].heavy == e && tree.top_of(e) == maxima[m]) name[path_of[m]] = static_cast<Id>(m);
     });
-    release(nodes);
+    release(nodes);  // in whose place the next ones lie
+    bucket_.resize(tree.size());
     paths_.resize(maxima.size());
     for_each_index(threads, maxima.size(), [&](std::size_t m) {
         paths_[m] = laid[path_of[m]];
