@@ -1,4 +1,5 @@
-# Flags of every target of ours. Contraction stays off: a*c - b*d must round the same on every machine (theory.md section 9).
+# Flags of every target of ours. Contraction stays off: a*c - b*d must round the same on every machine
+# (docs/theory/1-elements-and-order.md#numbers).
 add_library(isoatlas_flags INTERFACE)
 target_compile_features(isoatlas_flags INTERFACE cxx_std_20)
 target_compile_options(isoatlas_flags INTERFACE

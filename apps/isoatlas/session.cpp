@@ -118,8 +118,8 @@ Volume Session::load() {
 }
 
 Cost cost_of_analysis(const VolumeInfo& info, int threads) {
-    // Critical elements per voxel: smooth simulation data and white noise (theory.md section 3: 0.91). Voxels per second on one
-    // processor for the same: docs/performance.md.
+    // Critical elements per voxel: smooth simulation data and white noise. Voxels per second on one processor for the same:
+    // docs/performance.md.
     constexpr double few = 0.002, many = 0.95, fast = 25e6, slow = 1.5e6;
     const auto voxels = static_cast<double>(info.extent.voxels());
     const int available = std::max(1U, std::thread::hardware_concurrency());

@@ -73,7 +73,7 @@ public:
     ~ActiveIndex();
 
     /// The same objects and contours as cut(). Throws Error: usage (tau is not finite), cancelled.
-    /// Cost: O((1 + objects + contours) log events). Source: theory.md sections 4 to 7 (T3, T6).
+    /// Cost: O((1 + objects + contours) log events). Source: docs/theory/3-trees.md#zones.
     [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options = {}, const Context& context = {}) const;
 
     /// What happens between two isovalues, whichever is higher. all: list also objects that stay what they are.

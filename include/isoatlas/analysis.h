@@ -2,7 +2,7 @@
 //
 // Words: tau is an isovalue. A sample is High at tau when value >= tau. An *object* is a connected set of Highs, a *low component*
 // a connected set of Lows (everything outside the volume is Low), a *contour* the closed surface between one object and one low component.
-// Three views of the same changes, from fine to coarse (docs/theory, theory.md section 6):
+// Three views of the same changes, from fine to coarse (docs/theory/3-trees.md#equal-values):
 //   elements  critical voxels and face points, in the symbolic order; ties between equal values are broken by voxel number
 //   levels    elements of one value that touch the same contours, contracted: independent of voxel numbering
 //   events    levels of one value in one object, contracted: the nodes of the criticality tree; between events nothing changes
@@ -134,7 +134,7 @@ private:
 
 /// The whole engine: classify, sort the critical elements, join and split tree, contour tree, genus, events, zones.
 /// Cost: O(voxels + c log c) time for c critical elements; memory at most 12 bytes a voxel plus 64 bytes a critical element
-/// beyond the samples, and some 40 MB whatever the size. Source: theory.md sections 1-7, trilinear.md.
+/// beyond the samples, and some 40 MB whatever the size. Source: docs/theory/README.md.
 [[nodiscard]] Analysis analyse(const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

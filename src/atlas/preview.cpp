@@ -11,8 +11,8 @@ Bounds bounds(std::int64_t least, std::int64_t most) { return {least, most}; }
 
 }  // namespace
 
-// Triangles: three edges each, every edge shared by two, so with P points and Euler number chi there are 2 (P - chi) of them (theory.md
-// section 2). Every point is a hit, but for articulation points.
+// Triangles: three edges each, every edge shared by two, so with P points and Euler number chi there are 2 (P - chi) of them
+// (docs/theory/5-surfaces.md#spider-web). Every point is a hit, but for articulation points.
 SurfacePreview Atlas::preview(double tau, const Context& context) const {
     const ActiveObjects active = this->active(tau, false, context);  // refuses what is not finite
     const bool is_3d = info().extent.rank == 3;

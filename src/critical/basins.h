@@ -1,8 +1,8 @@
 // Basins: every voxel knows one maximum that an ascending path reaches, and one minimum (or the outside) that a descending path reaches.
 //
 // Any ascending path will do, not only the steepest: all neighbours above a voxel lie in its object just above it, so the tree built on
-// the maxima does not depend on the choice (theory.md section 4; docs/decisions). Paths prefer neighbours that come before in raster order:
-// their basin is known already, so one forward and one backward scan resolve almost everything.
+// the maxima does not depend on the choice (docs/theory/3-trees.md#only-critical-elements; docs/decisions/0003). Paths prefer neighbours
+// that come before in raster order: their basin is known already, so one forward and one backward scan resolve almost everything.
 //
 // Basin numbers: maxima are numbered in raster order from 0; minima from 1, the outside of the grid (EXT) is 0.
 #pragma once

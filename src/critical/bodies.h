@@ -1,4 +1,4 @@
-// Body points: where the trilinear interpolant joins two regions of a cell through its interior (trilinear.md sections 1 to 3).
+// Body points: where the trilinear interpolant joins two regions of a cell through its interior (docs/theory/6-interior.md#body-points).
 //
 // Face F of a cell: Highs a, c and Lows b, d; a' b' c' d' lie behind them on the opposite face. The sign of G (side_sign) tells whether the
 // Highs of F are joined inside the cell just under F (G > 0) or its Lows are (G < 0). Where it differs from the default type of F
@@ -68,7 +68,7 @@ DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_ty
 DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_types);
 
 /// The body points of a cell with face values (find_face_values). Those that lie at most tunnel_height from their face are left out: any
-/// subset of them makes a consistent topology (trilinear.md section 3). Cost: O(1).
+/// subset of them makes a consistent topology (docs/theory/6-interior.md#finding-them). Cost: O(1).
 CellBodies bodies_of_cell(const CellElements& cell, const DisagreeingFaces& faces, double tunnel_height = 0);
 
 /// The same where the saddles are known: low joins Highs, high joins Lows.

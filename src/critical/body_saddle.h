@@ -1,4 +1,4 @@
-// The saddle of the trilinear interpolant inside a cell (trilinear.md sections 2 and 3, bodySaddle).
+// The saddle of the trilinear interpolant inside a cell (docs/theory/6-interior.md#finding-them).
 #pragma once
 
 #include <array>

@@ -1,8 +1,9 @@
 // The critical elements of any domain, as the tree stage takes them: nothing here knows of grids.
 //
 // Structure of arrays, indexed by critical element in descending total order (0 = highest). An element names the extrema its surroundings
-// lead to ("representatives", theory.md section 4): above, the maxima reached from the h0 objects that meet there; below, the minima
-// reached from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one component.
+// lead to ("representatives", docs/theory/3-trees.md#only-critical-elements): above, the maxima reached from the h0 objects that meet
+// there; below, the minima reached from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one
+// component.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // The disk that fills a hole, followed upwards to the elements that opened it.
 //
-// A (1,2) element that fills a hole adds a disk to the Highs; its rim is a loop of edges of G (theory.md section 1) just above the element.
+// A (1,2) element that fills a hole adds a disk to the Highs; its rim is a loop of edges of the graph G
+// (docs/theory/1-elements-and-order.md#objects-low-components-contours) just above the element.
 // An edge is worth what it is homologous to, by its lower end:
 //   vertex       one of its upward edges is worth nothing (the vertex can be pushed along it). Another one runs beside the first across a
 //                face and is worth the way around that face: over the opposite corner, or the face point. At a (2,1) vertex the second

@@ -44,8 +44,8 @@ void find_face_values(CellElements& cell);
 /// Order of two elements of one cell: corners 0..7, ambiguous face f is 8 + f.
 bool element_below(const CellElements& cell, int element, int other);
 
-/// Default types of the ambiguous faces of one cell (theory.md section 3, "Face point F"): bit f set = type H, the Highs are joined in this
-/// cell by elements above F; clear = type L, the Lows are joined below.
+/// Default types of the ambiguous faces of one cell (docs/theory/2-critical-elements.md#face-points): bit f set = type H, the Highs are
+/// joined in this cell by elements above F; clear = type L, the Lows are joined below.
 std::uint8_t default_face_types(const CellElements& cell, const CellTable& table = cell_table());
 
 }  // namespace isoatlas

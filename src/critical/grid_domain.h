@@ -1,7 +1,7 @@
 // The regular grid as a domain: the slab passes of this folder, put together.
 //
 // Domain is what the stages behind ask for, and all they ask for: a critical set, a basin per vertex, positions of elements.
-// Grids of other dimensions and simplicial meshes join by offering the same (theory.md section 10).
+// Grids of other dimensions and simplicial meshes join by offering the same (docs/theory/2-critical-elements.md#other-dimensions).
 #pragma once
 
 #include <array>

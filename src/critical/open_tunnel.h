@@ -1,4 +1,4 @@
-// Is there a tunnel through a cell at one isovalue? Recomputed from the cell alone (trilinear.md section 3).
+// Is there a tunnel through a cell at one isovalue? Recomputed from the cell alone (docs/theory/6-interior.md#finding-them).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the surroundings of a critical element lead (theory.md section 4, step 2).
+// Where the surroundings of a critical element lead (docs/theory/3-trees.md#only-critical-elements).
 #pragma once
 
 #include <array>

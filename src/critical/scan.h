@@ -1,4 +1,4 @@
-// The slab pass: samples in, links of the voxels and critical elements out (theory.md sections 3 and 9).
+// The slab pass: samples in, links of the voxels and critical elements out (docs/theory/2-critical-elements.md).
 //
 // Everything is decided from three slices: a vertex by its neighbours, an ambiguous face by the two cells that share it.
 // The owner of a face is the slab of its corner a. Elements come out in raster order of their owner voxel, the vertex first, then faces xy,

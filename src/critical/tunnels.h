@@ -1,4 +1,4 @@
-// Which tunnels a cell can hold, by its case (trilinear.md section 2, "Six tunnel configurations").
+// Which tunnels a cell can hold, by its case (docs/theory/6-interior.md#six-shapes).
 #pragma once
 
 #include <cstdint>

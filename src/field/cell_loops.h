@@ -1,4 +1,4 @@
-// The surface of one cell as loops of hits (Spider Web, theory.md section 2).
+// The surface of one cell as loops of hits (Spider Web, docs/theory/5-surfaces.md#spider-web).
 //
 // A hit is an edge 0..11 whose corners differ. Each face links its hits in pairs; the links close to loops; one disk per loop is the
 // surface. Loops are directed: seen from outside the cell the Highs lie to the right of every link, so a disk spanned by a loop is

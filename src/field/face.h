@@ -1,4 +1,4 @@
-// Ambiguous faces and their disambiguation points (theory.md sections 1 and 9).
+// Ambiguous faces and their disambiguation points (docs/theory/1-elements-and-order.md#ambiguous-faces).
 //
 // Corners a b c d run around the face as in field/cell.h; their voxel numbers ascend a < b < d < c, so comparisons of vertex keys
 // (value, voxel number) become comparisons of values that are strict or not.

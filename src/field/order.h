@@ -1,6 +1,6 @@
 // THE total order of elements. Every comparison in the system that decides a tie is made here.
 //
-// Elements: vertices (voxels), the points of ambiguous faces, and the body points of cells (trilinear.md section 3).
+// Elements: vertices (voxels), the points of ambiguous faces, and the body points of cells (docs/theory/6-interior.md#body-points).
 // Key of an element = (value, second, third), compared lexicographically:
 //   body B1         (s, -2, cell)
 //   face point      (s, -1, face)                          when s lies above the value of its highest Low

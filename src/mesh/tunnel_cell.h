@@ -1,4 +1,4 @@
-// The triangles of a cell with an open tunnel: an annulus between two loops (trilinear.md section 5).
+// The triangles of a cell with an open tunnel: an annulus between two loops (docs/theory/6-interior.md#the-annulus).
 //
 // Seen from a point c inside the cell, the annulus is the radial graph over the ring, the region of the other class around the tunnel:
 // every corner k of the ring is pulled towards c to a point w_k of the surface, and every part of the ring on a face of the cell becomes

@@ -5,7 +5,7 @@
 
 namespace isoatlas::phantom {
 
-/// The dissertation's figure 3.10/12.1 as 24^3 uint8 boxes. Answer: 14 events (theory.md section 11): maxima 100 90 80 70,
+/// The dissertation's figure 3.10/12.1 as 24^3 uint8 boxes. Answer: 14 events (docs/theory/3-trees.md#the-example): maxima 100 90 80 70,
 /// 60 merge, 58 and 56 genus, 50 merge, 48 and 46 genus, 40 merge, 38 genus, 30 complex (torus -> two spheres), 20 minimum.
 Volume figure_plateau();
 

@@ -1,8 +1,9 @@
 // Objects and low components at one isovalue, and the contours between them.
 //
-// Components are numbered in scan order of their first run; low component 0 is the outside. The surfaces form a tree (theory.md T1): every
-// object has one outer contour, every low component except the outside one contour towards the outside. So contour c < objects is the
-// outer contour of object c, and contour objects + l - 1 is the wall of the cavity l >= 1.
+// Components are numbered in scan order of their first run; low component 0 is the outside. The surfaces form a tree
+// (docs/theory/1-elements-and-order.md#objects-low-components-contours): every object has one outer contour, every low component except the
+// outside one contour towards the outside. So contour c < objects is the outer contour of object c, and contour objects + l - 1 is the
+// wall of the cavity l >= 1.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +41,9 @@ struct Components {
     }
 };
 
-/// Components of the samples. Connected are: 6-neighbours (4 in 2D) of one class, and the diagonal of a
-/// 4-hit face that its face point joins (theory.md section 1); with the trilinear interpolant, also the two regions of a cell that a tunnel
-/// joins. Cost: O(runs) beyond the bits, and O(active cells) for tunnels. Same result for any threads and slabs.
+/// Components of the samples. Connected are: 6-neighbours (4 in 2D) of one class, and the diagonal of a 4-hit face that its face point
+/// joins (docs/theory/1-elements-and-order.md#ambiguous-faces); with the trilinear interpolant, also the two regions of a cell that a
+/// tunnel joins. Cost: O(runs) beyond the bits, and O(active cells) for tunnels. Same result for any threads and slabs.
 [[nodiscard]] Components find_components(const TauLevel& level, double tunnel_height, const Context& context);
 
 /// Walks along a row and tells the component of ascending positions. Outside the volume everything is low component 0.

@@ -75,7 +75,7 @@ void group_contours(const Components& components, const ContourCounts& counts, c
             genus += cut.contours.back().genus;
         }
         object.b2 = is_3d ? object.contour_count - 1 : 0;
-        object.b1 = is_3d ? genus : object.contour_count - 1;  // theory.md section 4: b1 is the sum of the genera
+        object.b1 = is_3d ? genus : object.contour_count - 1;  // docs/theory/4-genus.md#objects
         object.chi = 1 - object.b1 + object.b2;
     }
     ISOATLAS_CHECK(static_cast<std::int64_t>(cut.contours.size()) == components.contours());

@@ -1,4 +1,4 @@
-// Contour tree and the genus of every contour (theory.md T4).
+// Contour tree and the genus of every contour (docs/theory/4-genus.md#t4).
 //
 // Merge of join and split tree by leaf removal (Carr, Snoeyink, Axen 2003). Nodes are the critical elements 0..n-1 in descending order and
 // the outside n, which is never removed. Each removed node leaves exactly one arc, so arcs are indexed by the node whose removal made them,

@@ -1,4 +1,4 @@
-// The criticality tree: events and their objects (theory.md section 6c).
+// The criticality tree: events and their objects (docs/theory/3-trees.md#events).
 //
 // Event = join-tree nodes of one value joined by arcs of no length, contracted: all that happens to one object at one value. Events without
 // a non-trivial level are dropped; they have exactly one child, whose zone goes on below them. Events are numbered in descending order of

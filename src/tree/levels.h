@@ -1,4 +1,4 @@
-// Levels: contour-tree nodes of one value joined by arcs of no length, contracted (theory.md section 6b).
+// Levels: contour-tree nodes of one value joined by arcs of no length, contracted (docs/theory/3-trees.md#levels).
 //
 // A level has k contours in (from above) and m out (below). It is trivial iff k = m = 1 and the genus stays. The set of non-trivial
 // levels does not depend on voxel numbering nor on how ties are broken.

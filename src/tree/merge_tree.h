@@ -1,4 +1,4 @@
-// Join and split tree by one union-find sweep over the sorted critical elements (theory.md T3).
+// Join and split tree by one union-find sweep over the sorted critical elements (docs/theory/3-trees.md#join-and-split-tree).
 //
 // Join tree: sweep down; parent[p] = the first critical element below p that p's object meets. Split tree: sweep up, symmetric, where the
 // outside (node `size`) is the lowest leaf. In the join tree the outside is the last node: the parent of the root.

@@ -2,8 +2,9 @@
 //
 // A low component is a connected set of Lows; the one with the outside of the volume is the outside, every other one is a cavity. Going up
 // they appear at minima and merge, as objects do going down, and together with the contours around them they are the split tree of the
-// contour tree (theory.md T3, T4). So this is not the tree of the negated volume: Lows meet where Highs of the same values would not
-// (faces, tunnels), and a Low at the border of the volume lies in the outside.
+// contour tree (docs/theory/3-trees.md#join-and-split-tree, docs/theory/4-genus.md#the-contour-tree). So this is not the tree of the
+// negated volume: Lows meet where Highs of the same values would not (faces, tunnels), and a Low at the border of the volume lies in the
+// outside.
 //
 // Elements are numbered backwards: the outside is 0, the element x of the contour tree with n elements is n - x. Then heights (values
 // negated) descend and children come before their parents, as in the criticality tree, and all code for that serves here.

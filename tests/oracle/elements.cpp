@@ -1,4 +1,4 @@
-// Elements and their total order (theory.md section 1), written from the text.
+// Elements and their total order (docs/theory/1-elements-and-order.md#the-total-order), written from the text.
 #include <algorithm>
 #include <cmath>
 #include <tuple>

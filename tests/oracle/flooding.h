@@ -1,9 +1,11 @@
 // The dissertation's own algorithm (section 10.1), as a readable second opinion: a max-heap floods the volume from its critical elements;
 // labels are repaired lazily by following parents when an element leaves the heap.
 //
-// Changes: neighbours are those of the graph of theory.md (grid edges, face points), the critical elements are those of the octahedral rule
-// (the dissertation's 26-neighbour test is wrong, theory.md section 3), ties follow the total order. Covers the join tree (maxima, merges,
-// and where every other critical element hangs) and the label of every element; not the low side, not genus.
+// Changes: neighbours are those of the graph G (grid edges, face points;
+// docs/theory/1-elements-and-order.md#objects-low-components-contours), the critical elements are those of the octahedral rule (the
+// dissertation's 26-neighbour test is wrong, docs/theory/2-critical-elements.md#the-larger-neighbourhood-is-wrong), ties follow the total
+// order. Covers the join tree (maxima, merges, and where every other critical element hangs) and the label of every element; not the low
+// side, not genus.
 #pragma once
 
 #include <span>

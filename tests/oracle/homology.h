@@ -14,8 +14,9 @@ struct HolePair {
 };
 
 /// The complex: elements; edges of the grid and from face points to their corners; faces, an ambiguous one as four triangles; and in every
-/// cell a disk for every loop on its border, because the Highs of a cell are balls (theory.md section 2). A cell of the complex is there
-/// when all its elements are High. Ascending. Cost: cubic in the elements.
+/// cell a disk for every loop on its border, because the Highs of a cell are balls
+/// (docs/theory/1-elements-and-order.md#objects-low-components-contours). A cell of the complex is there when all its elements are High.
+/// Ascending. Cost: cubic in the elements.
 std::vector<HolePair> hole_pairs(const Elements& elements);
 
 }  // namespace oracle

@@ -1,4 +1,4 @@
-// Brute force: theory.md read aloud. For small volumes. It shares no code with src/, and prefers being obvious to being fast:
+// Brute force: docs/theory read aloud. For small volumes. It shares no code with src/, and prefers being obvious to being fast:
 // every cut of the total order is built from nothing (flood the objects and the low components, pair the hits on every face,
 // count vertices, edges and loops of every contour); trees, levels and events are read off the sequence of cuts.
 #pragma once
@@ -46,8 +46,8 @@ struct Element {
     std::array<Index, 2> ring{};         ///< body: the corners of F that lie around the tunnel
 };
 
-/// A body point of trilinear.md. The oracle is told where they are (tests/unit/critical/bodies_test.cpp checks that alone) and finds out
-/// what they do.
+/// A body point (docs/theory/6-interior.md#body-points). The oracle is told where they are (tests/unit/critical/bodies_test.cpp checks that
+/// alone) and finds out what they do.
 struct Body {
     Index cell;        ///< voxel of corner 0
     int face;          ///< its F: 2 * orientation (xy, xz, yz) + side
@@ -151,7 +151,7 @@ struct Result {
     std::vector<Level> levels;              ///< non-trivial, by highest critical element
     std::vector<Event> events;              ///< descending
     std::vector<Index> zone;                ///< event of each voxel
-    bool consistent = true;                 ///< T1 and T2 held at every cut; no element did what theory.md excludes
+    bool consistent = true;                 ///< T1 and T2 held at every cut; no element did what docs/theory excludes
 };
 /// Cost: one snapshot per element.
 Result analyse(const Elements& elements);

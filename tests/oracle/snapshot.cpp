@@ -1,4 +1,4 @@
-// One cut, from nothing: flood, pair, count (theory.md sections 1, 2 and 10).
+// One cut, from nothing: flood, pair, count (docs/theory/1-elements-and-order.md).
 #include <algorithm>
 #include <numeric>
 
@@ -27,7 +27,7 @@ struct Builder {
 
     bool is_high(Index element) const { return elements.is_high(element, cut); }
 
-    // --- objects and low components: connected components of the graph of theory.md section 2 -------------------------------------
+    // --- objects and low components: connected components of the graph G ------------------------------------------------------
     void flood() {
         const Index outside = elements.count();
         Sets sets(outside + 1);

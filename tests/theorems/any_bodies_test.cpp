@@ -1,5 +1,5 @@
-// Any body points make a consistent topology (trilinear.md section 0): which faces are exceptional and where their body points lie may be
-// wrong, as rounding makes them wrong, as long as regions and order are those of a tunnel.
+// Any body points make a consistent topology (docs/theory/6-interior.md#body-points): which faces are exceptional and where their body
+// points lie may be wrong, as rounding makes them wrong, as long as regions and order are those of a tunnel.
 //
 // This program replaces bodies_of_cell and the faces it is told, for the library and for the oracle alike, by some that throw dice: a face
 // that could end a tunnel does so or not, whatever the interpolant says, and the body point lies anywhere up to where its regions end.

@@ -1,4 +1,4 @@
-// The trilinear interpolant: body points and tunnels (trilinear.md).
+// The trilinear interpolant: body points and tunnels (docs/theory/6-interior.md).
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

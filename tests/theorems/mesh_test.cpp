@@ -92,7 +92,8 @@ RC_GTEST_PROP(Mesh, OuterContoursEncloseCavitiesAreHollow, ()) {
     }
 }
 
-/// Euler number of the High set on the border of the box: corners - edges + faces of the border squares (theory.md section 10, first item).
+/// Euler number of the High set on the border of the box: corners - edges + faces of the border squares
+/// (docs/theory/5-surfaces.md#the-border-of-the-volume).
 Index chi_on_the_border(const Case& c) {
     const Snapshot shot = snapshot(c.elements, c.elements.cut_at(c.tau));
     const auto high = [&](Index e) { return shot.object_of[e] >= 0; };

@@ -1,4 +1,4 @@
-// The theorems of theory.md hold in the oracle itself: it is built from definitions only, so these are tests of the theory.
+// The theorems of docs/theory hold in the oracle itself: it is built from definitions only, so these are tests of the theory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,4 +1,4 @@
-// The theorems of theory.md as statements about the engine's answers, checked against explicit cuts.
+// The theorems of docs/theory as statements about the engine's answers, checked against explicit cuts.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,6 +1,6 @@
 // Zones of volumes too large for the oracle, proved step by step: every voxel's value lies in its zone's interval; a voxel with a higher
 // neighbour lies in the event that the neighbour's zone climbs to; one without lies in the event it makes, or in that of its plateau.
-// Together these force T6 (theory.md section 7) by induction from high to low.
+// Together these force T6 (docs/theory/3-trees.md#zones) by induction from high to low.
 #include <gtest/gtest.h>
 
 #include <cmath>

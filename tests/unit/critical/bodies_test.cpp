@@ -1,4 +1,4 @@
-// Body points of single cells (trilinear.md sections 1 to 3) against the interpolant itself.
+// Body points of single cells (docs/theory/6-interior.md#body-points) against the interpolant itself.
 #include "critical/bodies.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,8 @@ TEST_F(Cells, SideSignIsTheSlopeIntoTheCell) {
     }
 }
 
-// trilinear.md section 8: without ties a body saddle lies inside exactly when the sign of one face disagrees with its default type.
+// docs/theory/6-interior.md#body-points: without ties a body saddle lies inside exactly when the sign of one face disagrees with its
+// default type.
 TEST_F(Cells, BodyPointsAreTheSaddlesInside) {
     int openings = 0, closings = 0;
     for (int i = 0; i < 300000; ++i) {

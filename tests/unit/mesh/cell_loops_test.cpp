@@ -1,4 +1,4 @@
-// theory.md section 0, "cell loops": all 256 patterns x all face resolutions.
+// docs/theory/5-surfaces.md#loops: all 256 patterns x all face resolutions.
 #include "field/cell_loops.h"
 
 #include <gtest/gtest.h>

@@ -96,7 +96,7 @@ TEST(Cut, AboveTheMaximumAndBelowTheMinimum) {
     }
 }
 
-// A ring with a hole; the diagonal 8 is joined to the ring through a face point (theory.md section 10: 2D counts holes).
+// A ring with a hole; the diagonal 8 is joined to the ring through a face point (docs/theory/4-genus.md#objects: 2D counts holes).
 TEST(Cut, AnImage) {
     const Volume image = volume_of(2, {5, 4, 1}, {9, 9, 9, 0, 0,  //
                                                   9, 0, 9, 0, 0,  //
