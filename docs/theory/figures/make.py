@@ -2,7 +2,8 @@
 
     python3 docs/theory/figures/make.py path/to/isoatlas
 
-The program is asked for the triangles of annulus.svg and the curves of mirrors.svg; without it these figures are left as they are.
+The program is asked for the triangles of annulus.svg, the curves of mirrors.svg and the objects of noise-gate.svg; without it these figures
+are left as they are.
 """
 import bisect
 import csv
@@ -10,6 +11,7 @@ import itertools
 import math
 import pathlib
 import random
+import struct
 import subprocess
 import sys
 import tempfile
@@ -789,6 +791,139 @@ def example_trees():
     picture.write()
 
 
+# --- which objects matter -----------------------------------------------------------------------------------------------------------------
+
+def axes(picture, left, base, width, upper, title, below):
+    picture.line((left, base), (left + width, base), GREY, 1.2)
+    picture.line((left, base), (left, upper), GREY, 1.2)
+    picture.text((left + width / 2, 28), title, 15, bold=True)
+    picture.text((left + width / 2, base + 38), below, 12.5, fill="#5b626c")
+
+
+def hill(x, centre, height, width):
+    return height * math.exp(-((x - centre) / width) ** 2)
+
+
+def branches():
+    """A large body beside a small high peak: which of the two ends where they meet?"""
+    picture = Picture("branches.svg", 860, 330)
+    xs = [i / 4 for i in range(1441)]
+    values = [min(hill(x, 120, 400, 80), 120) + hill(x, 292, 170, 11) + hill(x, 292, 46, 44) for x in xs]
+    merge = min(range(700, 1100), key=lambda i: values[i])
+    level = values[merge]
+    for left, title, ends in ((40, "by height: the body ends", "body"), (470, "by hypervolume: the peak ends", "peak")):
+        def at(x, value, left=left):
+            return (left + x, 262 - value)
+
+        inside = [i for i in range(len(xs)) if values[i] > level and (i < merge if ends == "body" else i > merge)]
+        outline = [at(xs[i], values[i]) for i in inside]
+        picture.path([at(xs[inside[0]], level), *outline, at(xs[inside[-1]], level)], HIGH, 1, HIGH_FILL, close=True)
+        picture.path([at(x, value) for x, value in zip(xs, values)], INK, 2)
+        picture.line(at(0, level), at(360, level), GREY, 1, "4 4")
+        picture.text((left + 362, 262 - level - 6), "merge", 12, "end", GREY)
+        top = {"body": (120, 120), "peak": (292, max(values))}
+        other = "peak" if ends == "body" else "body"
+        picture.line(at(*top[ends]), at(top[ends][0], level), HIGH, 3.2)
+        picture.line(at(*top[other]), at(top[other][0], 0), LOW, 3.2)
+        for name, tint in ((ends, HIGH), (other, LOW)):
+            picture.dot(at(*top[name]), 6, tint)
+        picture.line((left, 262), (left + 360, 262), GREY, 1.2)
+        picture.text((left + 180, 28), title, 15, bold=True)
+    picture.legend(312, ((HIGH, "the branch that ends at the merge, and its object"), (LOW, "the main branch")))
+    picture.write()
+
+
+def stable_isovalues():
+    """A dense core in a softer body in a background: volume over isovalue, and where it changes least."""
+    def value(r):
+        return 10 + 90 / (1 + math.exp((r - 30) / 0.9)) + 100 / (1 + math.exp((r - 14) / 0.9)) + 0.12 * (40 - r)
+
+    radii = [i / 200 for i in range(1, 8001)]
+    low, high, bins = value(radii[-1]), value(radii[0]), 256
+    added, r = [0.0] * bins, radii[0]
+    for i, r in enumerate(radii):
+        k = min(bins - 1, int((value(r) - low) / (high - low) * bins))
+        added[k] += 4 * math.pi * r * r / 200
+    volume, total = [0.0] * bins, 0.0
+    for k in reversed(range(bins)):
+        total += added[k]
+        volume[k] = total
+    logs = [math.log(max(v, 0.5)) for v in volume]
+    weights = [math.exp(-k * k / 8) for k in range(-6, 7)]
+    logs = [sum(w * logs[min(bins - 1, max(0, k + j - 6))] for j, w in enumerate(weights)) / sum(weights) for k in range(bins)]
+    stability = [-math.log(max(logs[k] - logs[k + 1], 1e-6)) for k in range(bins - 1)]
+
+    picture = Picture("stable-isovalues.svg", 960, 330)
+    base, upper, width = 258, 50, 250
+    isovalues = [low + (high - low) * k / bins for k in range(bins)]
+    peaks = [k for k in range(8, bins - 9) if stability[k] == max(stability[max(0, k - 40):k + 41])]
+
+    def plot(left, xs, ys, x_range, y_range, tint):
+        def at(x, y):
+            return (left + width * (x - x_range[0]) / (x_range[1] - x_range[0]), base - (base - upper) * (y - y_range[0]) / (y_range[1] - y_range[0]))
+        picture.path([at(x, y) for x, y in zip(xs, ys)], tint, 2.2)
+        return at
+
+    shades = (HIGH, LOW)
+    axes(picture, 40, base, width, upper, "value along a radius", "distance from the centre")
+    at = plot(40, radii[::20], [value(x) for x in radii[::20]], (0, 40), (0, high), INK)
+    for k, tint in zip(peaks, shades):
+        tau = low + (high - low) * (k + 1) / bins
+        picture.line(at(0, tau), at(40, tau), tint, 1.2, "4 4")
+        picture.text((38 + width, at(0, tau)[1] - 6), f"{tau:.0f}", 12, "end", tint)
+    for left, title, ys, rng in ((360, "ln V", logs, (0, max(logs))), (680, "-ln q: high where V is stable", stability, (min(stability), max(stability) + 0.4))):
+        axes(picture, left, base, width, upper, title, "isovalue")
+        at = plot(left, isovalues, ys, (low, high), rng, INK)
+        for k, tint in zip(peaks, shades):
+            tau = low + (high - low) * (k + 1) / bins
+            picture.line(at(tau, rng[0]), at(tau, rng[1]), tint, 1.2, "4 4")
+            picture.text((at(tau, 0)[0], base + 18), f"{tau:.0f}", 12, fill=tint)
+    picture.legend(322, ((LOW, "the core alone"), (HIGH, "body and core")))
+    picture.write()
+
+
+def most_of_noise(program, side, seed):
+    """Of white noise of the standard deviation 1: the largest persistence and hypervolume of all objects but the largest."""
+    source = random.Random(1000 * side + seed)
+    samples = struct.pack(f"<{side ** 3}f", *(source.gauss(0, 1) for _ in range(side ** 3)))
+    with tempfile.TemporaryDirectory() as folder:
+        volume, curve = pathlib.Path(folder, "v.nrrd"), pathlib.Path(folder, "c.csv")
+        volume.write_bytes(f"NRRD0004\ntype: float\ndimension: 3\nsizes: {side} {side} {side}\nencoding: raw\nendian: little\n\n".encode() + samples)
+        subprocess.run([program, "objects", volume, "-q", "--curve", curve], check=True, stdout=subprocess.DEVNULL)
+        with curve.open(newline="") as lines:
+            rows = [row for row in csv.DictReader(lines) if int(row["kept"]) >= 2]
+    return tuple(max(float(row["threshold"]) for row in rows if row["size"] == size) for size in ("persistence", "hypervolume"))
+
+
+def noise_gate(program):
+    sides = (16, 24, 32, 48, 64, 96)
+    most = {side: [most_of_noise(program, side, seed) for seed in range(1, 5)] for side in sides}
+    picture = Picture("noise-gate.svg", 860, 340)
+    base, upper, width = 262, 50, 330
+    bound = {side: 1.1 * math.sqrt(2 * math.log(side ** 3)) for side in sides}
+    for left, title, top, gate, measured in (
+            (60, "largest persistence / sigma", 8, lambda side: bound[side], lambda side, pair: pair[0]),
+            (480, "largest hypervolume / (sigma N^2/3)", 4, lambda side: 2, lambda side, pair: pair[1] / side ** 2)):
+        def at(side, y, left=left, top=top):
+            return (left + width * math.log(side / 14) / math.log(110 / 14), base - (base - upper) * y / top)
+
+        for y in range(top + 1):
+            picture.line((left, at(16, y)[1]), (left + width, at(16, y)[1]), "#e3e6ea" if y else GREY, 1)
+            picture.text((left - 8, at(16, y)[1] + 4.5), str(y), 12, "end", GREY)
+        for side in sides:
+            picture.text((at(side, 0)[0], base + 19), f"{side}\u00b3", 12, fill=GREY)
+            for pair in most[side]:
+                picture.dot(at(side, measured(side, pair)), 4.5, LOW, width=1)
+        picture.path([at(side, gate(side)) for side in sides], HIGH, 2.2)
+        picture.text((left + width / 2, 28), title, 15, bold=True)
+        picture.text((left + width / 2, base + 38), "voxels of a volume of white noise", 12.5, fill="#5b626c")
+    picture.legend(330, ((LOW, "four volumes of each size"), (HIGH, "the gate")))
+    picture.write()
+    persistence, hypervolume = ([pair[i] / (1, side ** 2)[i] for side in sides for pair in most[side]] for i in (0, 1))
+    print(f"noise-gate.svg: persistence {min(persistence):.2f} to {max(persistence):.2f} sigma, "
+          f"hypervolume {min(hypervolume):.2f} to {max(hypervolume):.2f} sigma N^2/3")
+
+
 def main(*arguments):
     ambiguous_face()
     trees_2d()
@@ -796,9 +931,12 @@ def main(*arguments):
     cell_loops()
     tunnel_configurations()
     example_trees()
+    branches()
+    stable_isovalues()
     if arguments:
         annulus(arguments[0])
         mirrors(arguments[0])
+        noise_gate(arguments[0])
 
 
 if __name__ == "__main__":
