@@ -4,8 +4,8 @@
 // many tunnels each contour has at every isovalue. Which of the open tunnels is closed is not told by the trees:
 //   pair_handles           says the one that was opened last, along the contour and all that it merges into. So the number of handles and
 //                          the sum of their persistence are exact, *individual pairs are approximate*.
-//   pair_handles_exactly   asks the samples: the pairs are the persistence pairs of the first homology of the Highs (essential.md section
-//   4).
+//   pair_handles_exactly   asks the samples: the pairs are the persistence pairs of the first homology of the Highs
+//                          (docs/decisions/0018).
 #pragma once
 
 #include <array>

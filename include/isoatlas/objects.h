@@ -33,7 +33,7 @@ struct ObjectEntry {
     std::string note;                ///< "largest", "outline", "inside 3", ...
 };
 
-/// Why an isovalue shows an object well (essential.md section 3). V(tau) is the object's volume.
+/// Why an isovalue shows an object well (docs/theory/7-which-objects-matter.md#stable-isovalues). V(tau) is the object's volume.
 enum class IsovalueReason : std::uint8_t {
     steady,   ///< -d ln V / d tau is locally least there: the boundary is steep, the body compact
     outline,  ///< the same at the low end of its range, or the lowest of several that holds 15 % of the volume: all but background
@@ -67,17 +67,17 @@ struct ObjectTable {
 
 struct RankOptions {
     std::int64_t top = 24;                 ///< at most this many entries; 0: all that pass the gate
-    bool gate = true;                      ///< drop what noise alone explains (essential.md section 2)
+    bool gate = true;                      ///< drop what noise alone explains (docs/theory/7-which-objects-matter.md#the-noise-gate)
     std::optional<Selection> selection{};  ///< instead of the gate
 };
 
-/// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (essential.md sections 0-3). Cost: with
-/// the dark objects, as rank_dark_objects().
+/// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (docs/theory/7-which-objects-matter.md).
+/// Cost: with the dark objects, as rank_dark_objects().
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
 
 /// How far noise of that standard deviation rises above its surroundings in a volume of so many voxels: what rises higher is no noise
-/// (essential.md section 2). In units of `noise`.
+/// (docs/theory/8-noise-and-stability.md#how-high-noise-rises). In units of `noise`.
 [[nodiscard]] double noise_height(double noise, std::int64_t voxels);
 
 /// Those of one object, given by ObjectEntry::branch_top or DarkEntry::branch_minimum. isovalues: of a table.

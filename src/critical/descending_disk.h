@@ -10,7 +10,7 @@
 //                H; in no such cell: what the face point opens.
 //   body point   B1 is what it opens.
 // All that an edge is worth lies above its lower end, so the lowest edge can always be replaced, mod 2, until only what was opened is left:
-// the boundary of the disk in the Morse complex. Source: Forman 1998, for the gradient; essential.md section 4.
+// the boundary of the disk in the Morse complex. Source: Forman 1998, for the gradient; docs/decisions/0018.
 #pragma once
 
 #include <vector>

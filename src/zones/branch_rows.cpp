@@ -110,8 +110,8 @@ private:
         return result;
     }
 
-    /// Essential.md section 3: at the low end of the range, or the lowest one when it is most of what there is; unless there is nothing
-    /// else.
+    /// At the low end of the range, or the lowest one when it is most of what there is; unless there is nothing else
+    /// (docs/theory/7-which-objects-matter.md#stable-isovalues).
     [[nodiscard]] bool is_outline(const StableIsovalue& peak, const std::vector<StableIsovalue>& peaks) const {
         const bool is_large = peak.volume > kLargePart * static_cast<double>(volume_.info->extent.voxels());
         if (peaks.size() == 1) return peak.at_low_end && is_large;

@@ -1,4 +1,5 @@
-// Rows of a table of objects in the making: which branches matter, and the isovalues that show each (essential.md sections 0 to 3).
+// Rows of a table of objects in the making: which branches matter, and the isovalues that show each
+// (docs/theory/7-which-objects-matter.md).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Branches: a tree of objects cut into objects, by hypervolume (essential.md sections 0 and 1).
+// Branches: a tree of objects cut into objects, by hypervolume (docs/theory/7-which-objects-matter.md#branches-by-hypervolume).
 //
 // Hypervolume of the object of event e at its low end tau: sum over its voxels of (height - tau). Where objects merge, the one with the
 // largest hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small

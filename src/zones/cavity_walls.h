@@ -1,4 +1,4 @@
-// Isovalues of the two boundaries of a body with cavities (essential.md section 3).
+// Isovalues of the two boundaries of a body with cavities (docs/theory/7-which-objects-matter.md#outer-and-inner-boundary).
 //
 // The volume V of a body shrinks at its outer boundary and at the walls of its cavities alike; where these are sharp at different
 // isovalues, -d ln V / d tau is least at neither. So each is looked at alone: the outer boundary through the body with its cavities filled,

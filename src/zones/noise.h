@@ -1,4 +1,5 @@
-// How noisy are the samples? A standard deviation for the whole volume, and one that grows with the value (essential.md section 2).
+// How noisy are the samples? A standard deviation for the whole volume, and one that grows with the value
+// (docs/theory/8-noise-and-stability.md).
 //
 // Counting detectors (PET, light microscopes) have more noise where the signal is strong: one number for the whole volume is that of the
 // background, and what noise makes of a bright region would pass for objects.

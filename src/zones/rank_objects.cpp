@@ -1,4 +1,4 @@
-// The table of essential objects: gate, isovalues, sizes (essential.md sections 0 to 3).
+// The table of essential objects: gate, isovalues, sizes (docs/theory/7-which-objects-matter.md).
 #include <algorithm>
 #include <limits>
 

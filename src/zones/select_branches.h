@@ -1,4 +1,4 @@
-// Which branches are kept: by a selection, or by what noise explains (essential.md section 2).
+// Which branches are kept: by a selection, or by what noise explains (docs/theory/7-which-objects-matter.md#the-noise-gate).
 #pragma once
 
 #include <vector>

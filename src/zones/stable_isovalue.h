@@ -1,4 +1,5 @@
-// At which isovalues does an object look like itself? Where its volume changes least (essential.md section 3).
+// At which isovalues does an object look like itself? Where its volume changes least
+// (docs/theory/7-which-objects-matter.md#stable-isovalues).
 //
 // q(tau) = -d ln V / d tau for the volume V(tau) of the object. A minimum of q is a steep boundary of a compact body (by the coarea formula
 // q is area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5 and the

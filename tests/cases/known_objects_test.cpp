@@ -1,4 +1,5 @@
-// Real volumes: what somebody who knows the thing would name has a line, at about the isovalue at which it was seen (design/essential.md).
+// Real volumes: what somebody who knows the thing would name has a line, at about the isovalue at which it was seen
+// (docs/theory/7-which-objects-matter.md#seen-on-real-volumes).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 In every .md file a relative link leads to a file of the checkout and #anchors to a heading of it. In the columns "code" and "test" of
 docs/theory the names in backticks occur in the file linked beside them: `NAME` in [file](...), [file](...): `NAME`, or `NAME` in the
-same. Comments that cite a section of the notes behind docs/theory cite one that its README says where to read.
+same. What comments cite is checked by citations.py.
 """
 import os
 import pathlib
@@ -21,9 +21,6 @@ HEADING = re.compile(r"^ {0,3}#{1,6}[ \t]+(.*?)(?:[ \t]+#+)?[ \t]*$", re.M)
 TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\(\s*(\w+),\s*(\w+)", re.M)
 CASE = re.compile(r"^case\s+(\S+)", re.M)
 NAME_OR_LINK = re.compile(r"`([^`]+)`|\[[^\]]*\]\(([^)#]+)[^)]*\)(:?)|\b(?:in )?(the same)\b|(;)")
-CITATION = re.compile(r"\b(\w+\.md)[\s/#*]+(?:(T\d+)|sections?[\s/#*]+(\d+[a-z]?(?:(?:-|,|[\s/#*]and|[\s/#*]to)[\s/#*]*\d+[a-z]?\b)*))")
-NOTES = ("theory.md", "trilinear.md")
-SOURCES = (".h", ".cpp", ".txt", ".cmake", ".py", ".sh")
 
 
 def line_of(text, position):
@@ -155,42 +152,6 @@ def name_findings(checkout, document):
                     yield f"{document}:{number}: {name}: not in {target}"
 
 
-# --- sections cited by comments -----------------------------------------------------------------------------------------------------------
-
-def sections_in(words):
-    """"1, 2 and 6c" -> 1 2 6c; "1 to 3" and "1-3" -> 1 2 3"""
-    for first, part, last in re.findall(r"(\d+)([a-z]?)(?:(?:-|\s+to\s)\s*(\d+))?", words):
-        yield from map(str, range(int(first), int(last) + 1)) if last else [first + part]
-
-
-def citations_of(text):
-    for match in CITATION.finditer(text):
-        for section in [match[2]] if match[2] else sections_in(match[3]):
-            yield match.start(), match[1], section
-
-
-def sections_to_read(text):
-    """Pairs (note, section) of the table "Comments in the code": its first column, and the parts 6b, 6c that the second one tells apart."""
-    found = set()
-    for line in text.splitlines():
-        if line.startswith("|"):
-            cited, *read = cells_of(line)
-            found |= {(note, section) for _, note, section in citations_of(cited)}
-            for note in {note for _, note, _ in citations_of(cited)}:
-                found |= {(note, part) for part in re.findall(r"\b(\d+[a-z]):", " ".join(read)) + re.findall(r"\bT\d+\b", cited)}
-    return found
-
-
-def citation_findings(checkout):
-    known = sections_to_read(checkout.text("docs/theory/README.md"))
-    for name in sorted(checkout.files):
-        if name.endswith(SOURCES) and name != "tests/docs/links.py":
-            text = checkout.text(name)
-            for position, note, section in citations_of(text):
-                if note in NOTES and (note, section) not in known:
-                    yield f"{name}:{line_of(text, position)}: {note} {section}: docs/theory/README.md does not say where to read it"
-
-
 # --- all of it ------------------------------------------------------------------------------------------------------------------------------
 
 def findings_of(root):
@@ -199,7 +160,7 @@ def findings_of(root):
     documents = sorted(name for name in checkout.files if name.endswith(".md"))
     findings = [finding for document in documents for finding in link_findings(checkout, document)]
     findings += [finding for document in documents if document.startswith("docs/theory/") for finding in name_findings(checkout, document)]
-    return findings + list(citation_findings(checkout)), len(documents)
+    return findings, len(documents)
 
 
 GOOD = {
@@ -217,10 +178,7 @@ GOOD = {
     "LICENSE file": "",
     "docs/theory/README.md": """# Theory
 
-| cited as | read |
-|---|---|
-| theory.md section 1, T1 | [1. Twice](1.md#twice) |
-| theory.md sections 2, 4 and 6 | 6b: [1. Twice](1.md#twice-1) |
+[1. Twice](1.md#twice)
 """,
     "docs/theory/1.md": """# One
 
@@ -235,9 +193,9 @@ GOOD = {
 | c | | [t](../../tests/a_test.cpp): `Third`, `First`; `one_two` in [cases](../../tests/cases.txt) |
 | `d` | | the same |
 """,
-    "src/a.h": "// theory.md section 1, theory.md T1; other.md section 9\nnamespace field { int face(); }\n",
-    "tests/a_test.cpp": "// theory.md sections\n// 2 and 6b\nTEST(Suite, First) {}\nRC_GTEST_PROP(Suite, Second, ()) {}\nTEST_F(Suite, Third) {}\n",
-    "tests/cases.txt": "case one_two  # theory.md section 4\n",
+    "src/a.h": "namespace field { int face(); }\n",
+    "tests/a_test.cpp": "TEST(Suite, First) {}\nRC_GTEST_PROP(Suite, Second, ()) {}\nTEST_F(Suite, Third) {}\n",
+    "tests/cases.txt": "case one_two\n",
     "build/notes.md": "[none](none)",
     ".hidden/notes.md": "[none](none)",
 }
@@ -266,16 +224,8 @@ BAD = (
     ("docs/theory/1.md", "`one_two` in the same", "`one_two`"),
     ("docs/theory/1.md", "`Third`", "`one_two`"),
     ("docs/theory/1.md", "; `one_two`", ", `one_two`"),
-    ("docs/theory/README.md", "section 1, T1", "section 1"),
-    ("docs/theory/README.md", "6b:", "6:"),
-    ("docs/theory/README.md", "theory.md", "trilinear.md"),
+    ("docs/theory/README.md", "#twice", "#thrice"),
     ("src/a.h", "face()", "faces()"),
-    ("src/a.h", "section 1,", "section 3,"),
-    ("src/a.h", "section 1,", "section 11,"),
-    ("src/a.h", "theory.md T1", "theory.md T2"),
-    ("tests/a_test.cpp", "2 and 6b", "2 and 6c"),
-    ("tests/a_test.cpp", "2 and 6b", "1-4"),
-    ("tests/a_test.cpp", "2 and 6b", "1 to 3"),
     ("tests/a_test.cpp", "TEST_F(", "// TEST_F("),
     ("tests/cases.txt", "case one_two", "# case one_two"),
 )
