@@ -5,6 +5,9 @@
 // that come before in raster order: their basin is known already, so one forward and one backward scan resolve almost everything.
 //
 // Basin numbers: maxima are numbered in raster order from 0; minima from 1, the outside of the grid (EXT) is 0.
+//
+// In the literature: peaks reached by monotone paths (Carr et al., Parallel peak pruning, 2016); basins of a watershed transform, there
+// mostly along steepest paths.
 #pragma once
 
 #include <cstdint>

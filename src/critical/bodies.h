@@ -7,6 +7,9 @@
 //            around the tunnel. Default type Lows, in truth Highs.
 //   closing  B2 below F: the same of the negated cell.
 // A cell has at most one of each. Between F and its body point the tunnel is open.
+//
+// In the literature: body saddles (Natarajan, On generating topologically consistent isosurfaces, 1994) and the interior test of Marching
+// Cubes 33 (Chernyaev 1995).
 #pragma once
 
 #include <array>

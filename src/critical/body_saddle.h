@@ -1,4 +1,5 @@
 // The saddle of the trilinear interpolant inside a cell (docs/theory/6-interior.md#finding-them).
+// In the literature: critical points of the trilinear interpolant (Nielson, On Marching Cubes, 2003).
 #pragma once
 
 #include <array>

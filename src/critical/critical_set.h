@@ -4,6 +4,8 @@
 // lead to ("representatives", docs/theory/3-trees.md#only-critical-elements): above, the maxima reached from the h0 objects that meet
 // there; below, the minima reached from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one
 // component.
+//
+// In the literature: an extremum graph, saddles with the extrema that they lead to; merge trees from it: Lukasczyk et al., ExTreeM, 2023.
 #pragma once
 
 #include <cstddef>

@@ -11,6 +11,9 @@
 //   body point   B1 is what it opens.
 // All that an edge is worth lies above its lower end, so the lowest edge can always be replaced, mod 2, until only what was opened is left:
 // the boundary of the disk in the Morse complex. Source: Forman 1998, for the gradient; docs/decisions/0018.
+//
+// In the literature: the descending manifold of a critical 2-cell and the boundary operator of the Morse complex mod 2 (Forman, Morse
+// theory for cell complexes, 1998; Robins, Wood, Sheppard 2011).
 #pragma once
 
 #include <vector>

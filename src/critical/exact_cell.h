@@ -3,6 +3,8 @@
 // For the few cells whose doubles cannot tell (critical/bodies.h, critical/body_saddle.h). Any finite corner values.
 // Corner values are integers times a power of two; signs of polynomials in them are signs of integers. Cost: 0.1 microseconds where
 // the corners differ by less than 2^38 of their unit (products fit 128 bits), else a few microseconds.
+//
+// In the literature: exact predicates behind floating-point filters (Shewchuk, Adaptive precision floating-point arithmetic, 1997).
 #pragma once
 
 #include <array>

@@ -4,6 +4,8 @@
 // The neighbour before has the smaller voxel number: it must be strictly larger; the one behind may be equal.
 // A vertex is regular iff some axis has exactly one neighbour above; else it is critical and k = #axes with both above tells how
 // (docs/theory/2-critical-elements.md#voxels: maximum, two saddles, minimum). Multi-saddles do not exist on such grids.
+//
+// In the literature: upper and lower link (Banchoff, Critical points and curvature for embedded polyhedral surfaces, 1970).
 #pragma once
 
 #include <array>

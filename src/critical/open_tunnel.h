@@ -1,4 +1,5 @@
 // Is there a tunnel through a cell at one isovalue? Recomputed from the cell alone (docs/theory/6-interior.md#finding-them).
+// In the literature: the interior test of Marching Cubes 33 (Chernyaev 1995).
 #pragma once
 
 #include <array>

@@ -3,6 +3,8 @@
 //
 // Elements lie part after part, descending within a part. As in critical_set.h an element names the extrema its surroundings lead to; those
 // of a part have numbers of their own range.
+//
+// In the literature: domain decomposition for merge trees (Morozov, Weber, Distributed merge trees, 2013).
 #pragma once
 
 #include <array>

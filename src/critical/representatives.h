@@ -1,4 +1,5 @@
 // Where the surroundings of a critical element lead (docs/theory/3-trees.md#only-critical-elements).
+// In the literature: the edges of an extremum graph (Lukasczyk et al., ExTreeM, 2023).
 #pragma once
 
 #include <array>

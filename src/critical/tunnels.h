@@ -1,4 +1,6 @@
 // Which tunnels a cell can hold, by its case (docs/theory/6-interior.md#six-shapes).
+// In the literature: cases of Marching Cubes 33 with interior ambiguity (Chernyaev 1995; Custodio et al., Practical considerations on
+// Marching Cubes 33, 2013).
 #pragma once
 
 #include <cstdint>

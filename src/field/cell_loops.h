@@ -4,6 +4,8 @@
 // surface. Loops are directed: seen from outside the cell the Highs lie to the right of every link, so a disk spanned by a loop is
 // counter-clockwise seen from the Lows (in right-handed index coordinates). A case is a High pattern together with the joined bits of its
 // split faces: 656 cases in all.
+//
+// In the literature: the cases of Marching Cubes (Lorensen, Cline 1987) with their ambiguous faces resolved.
 #pragma once
 
 #include <array>

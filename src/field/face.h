@@ -2,6 +2,8 @@
 //
 // Corners a b c d run around the face as in field/cell.h; their voxel numbers ascend a < b < d < c, so comparisons of vertex keys
 // (value, voxel number) become comparisons of values that are strict or not.
+//
+// In the literature: asymptotic decider (Nielson, Hamann, The asymptotic decider: resolving the ambiguity in Marching Cubes, 1991).
 #pragma once
 
 #include <algorithm>

@@ -9,6 +9,8 @@
 //   body B2         (s, +max, cell)
 // An element is stored as its value and a 64-bit code from which everything else is recomputed.
 // voxel = x + nx*(y + ny*z); face = 3 * voxel(corner a) + orientation.
+//
+// In the literature: simulation of simplicity (Edelsbrunner, Muecke 1990), here by rank instead of by perturbation.
 #pragma once
 
 #include <bit>

@@ -8,6 +8,9 @@
 // the cell, a convex body, so q lies in the hull of those of v, c, d that lie in F. The hits in F other than a, b are at most the ends
 // of one other link, which is disjoint from ab; the hull could be more only if a chord joined two hits of F. A loop of 3 hits cuts off a
 // corner by a plane that has all other hits on its far side.
+//
+// In the literature: polygons of the cases of Marching Cubes (Lorensen, Cline 1987), with a point inside them (Lopes, Brodlie, Improving
+// the robustness and accuracy of the marching cubes algorithm, 2003).
 #pragma once
 
 #include <array>

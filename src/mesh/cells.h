@@ -1,4 +1,5 @@
 // From active cells to triangles: counting first, then writing in place.
+// In the literature: count, then write in place: Flying Edges (Schroeder, Maynard, Geveci 2015).
 #pragma once
 
 #include "critical/bodies.h"

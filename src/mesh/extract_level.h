@@ -1,4 +1,5 @@
 // What extract() does once the samples are classified.
+// In the literature: isosurface extraction (Lorensen, Cline, Marching Cubes, 1987).
 #pragma once
 
 #include "isoatlas/surface.h"

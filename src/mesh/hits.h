@@ -1,4 +1,5 @@
 // The hits: points of the surface on the edges of the grid, with normals.
+// In the literature: edge intersections with normals from central differences (Lorensen, Cline, Marching Cubes, 1987).
 #pragma once
 
 #include <optional>

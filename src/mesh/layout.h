@@ -3,6 +3,8 @@
 //
 // Points and triangles are ordered by lattice row (y, z), y and z from -1. A row owns the hits on its own edges along x, on the edges to
 // row (y + 1, z), on those to (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
+//
+// In the literature: places by prefix sums over rows: Flying Edges (Schroeder, Maynard, Geveci 2015).
 #pragma once
 
 #include <algorithm>

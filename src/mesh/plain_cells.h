@@ -4,6 +4,8 @@
 // The hits of a cell have consecutive numbers in the rows around it: eight counters, the next hit of edges 0, 1, 2, 3 (along x), 4, 6
 // (along y), 8, 10 (along z), say where the hits of a cell are written. The far edges 5, 7, 9, 11 belong to the next cell: they are where
 // the near ones are after it. So the hits of a cell are among 16 numbers, eight counters before and after it.
+//
+// In the literature: the unambiguous cases of Marching Cubes (Lorensen, Cline 1987).
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // Which object and contour every point belongs to, and keeping only those that were asked for.
+// In the literature: flexible isosurfaces, single contours by their arc (Carr, Snoeyink, Path seeds and flexible isosurfaces, 2003).
 #pragma once
 
 #include "mesh/layout.h"

@@ -1,4 +1,5 @@
 // 2D: the level curves of an image as closed, oriented polylines.
+// In the literature: marching squares, with the asymptotic decider (Nielson, Hamann 1991).
 #pragma once
 
 #include "field/grid.h"

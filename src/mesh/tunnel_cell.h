@@ -4,6 +4,9 @@
 // every corner k of the ring is pulled towards c to a point w_k of the surface, and every part of the ring on a face of the cell becomes
 // triangles with these points and the hits. The projection from c maps the cell's boundary one-to-one to a sphere, so the triangles do not
 // meet inside the cell; they have no edge between two hits of one face but the links, so they do not meet in the neighbours.
+//
+// In the literature: the tunnel cases of Marching Cubes 33 (Chernyaev 1995; Grosso, Construction of topologically correct and manifold
+// isosurfaces, 2016).
 #pragma once
 
 #include <array>

@@ -5,6 +5,9 @@
 //   widths    these differences, 8 at a time, as groups of m bits
 //   groups    of width w: the lowest bytes of the 8 numbers, then the next ones (w / 8 of them), then one byte for each bit that is left,
 //             number i in bit i
+//
+// In the literature: binary packing, frame of reference (Lemire, Boytsov, Decoding billions of integers per second through vectorization,
+// 2015).
 #pragma once
 
 #include <cstddef>

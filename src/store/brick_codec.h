@@ -7,6 +7,8 @@
 //
 // The numbers are those of the samples above that of the lowest one, which must be known from elsewhere: keys of the same order
 // (sample_keys.h), or floats in units. A constant brick has no bytes.
+//
+// In the literature: lossless predictive coding (Lindstrom, Isenburg, Fast and efficient compression of floating-point data, 2006).
 #pragma once
 
 #include <cstddef>

@@ -2,6 +2,8 @@
 //
 // Shuffle puts the first bytes of all numbers in front, then the second bytes, ...: ids and sorted values have high bytes that hardly
 // change.
+//
+// In the literature: byte shuffle and DEFLATE (Deutsch, RFC 1951, 1996).
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,9 @@
 // What is left of the numbers of a box when each is compared with those before it: finite differences of order 0, 1 or 2 along each axis.
 //
-// Order 1 keeps the first number of a row, order 2 also the difference of the second one. Numbers wrap around, so nothing is lost. Along
-// all three axes order 1 is the Lorenzo predictor (Ibarria et al., Out-of-core compression and decompression of large n-dimensional scalar
-// fields, 2003).
+// Order 1 keeps the first number of a row, order 2 also the difference of the second one. Numbers wrap around, so nothing is lost.
+//
+// In the literature: delta coding; order 1 along all three axes is the Lorenzo predictor (Ibarria et al., Out-of-core compression and
+// decompression of large n-dimensional scalar fields, 2003).
 #pragma once
 
 #include <array>

@@ -3,6 +3,8 @@
 //
 // The unit is the last place of the largest sample, or more, if all samples are multiples of more. What smaller samples have below the unit
 // is their tail: bits that are kept as they are.
+//
+// In the literature: block floating point (Lindstrom, Fixed-rate compressed floating-point arrays, 2014), here without loss.
 #pragma once
 
 #include <cstddef>

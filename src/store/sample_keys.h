@@ -1,4 +1,6 @@
 // Samples as whole numbers of the same order, so that they can be subtracted and put back without losing a bit.
+// In the literature: order-preserving map of floats to integers (Lindstrom, Isenburg, Fast and efficient compression of floating-point
+// data, 2006).
 #pragma once
 
 #include <bit>

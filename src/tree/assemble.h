@@ -1,4 +1,5 @@
 // The contour tree of elements that are cut into parts, without an array of all elements that is accessed at random.
+// In the literature: contour trees by domain decomposition (Morozov, Weber, Distributed contour trees, 2014).
 #pragma once
 
 #include <cstdint>

@@ -4,6 +4,9 @@
 // the outside n, which is never removed. Each removed node leaves exactly one arc, so arcs are indexed by the node whose removal made them,
 // and the tree is rooted at the outside. half_chi of an arc = half the Euler number of its contour = 1 - genus (3D). At every node:
 // sum(below) = sum(above) + delta_chi, so the same removal order that finds the arcs finds their Euler numbers.
+//
+// In the literature: contour tree, the Reeb graph of a function on a box (Carr, Snoeyink, Axen 2003), with Betti numbers (Pascucci,
+// Cole-McLaughlin, Parallel computation of the topology of level sets, 2003).
 #pragma once
 
 #include <cstdint>

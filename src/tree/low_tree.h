@@ -1,5 +1,7 @@
 // The split tree once more, from the contour tree alone (Carr, Snoeyink, Axen 2003: the contour tree has the split tree of its volume),
 // with the name of every low component.
+//
+// In the literature: split tree, the merge tree of sublevel sets.
 #pragma once
 
 #include "tree/contour_tree.h"

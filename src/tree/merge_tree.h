@@ -2,6 +2,9 @@
 //
 // Join tree: sweep down; parent[p] = the first critical element below p that p's object meets. Split tree: sweep up, symmetric, where the
 // outside (node `size`) is the lowest leaf. In the join tree the outside is the last node: the parent of the root.
+//
+// In the literature: merge tree, as join tree and split tree (Carr, Snoeyink, Axen, Computing contour trees in all dimensions, 2003); on
+// critical points alone: Lukasczyk et al., ExTreeM, 2023.
 #pragma once
 
 #include "critical/critical_set.h"

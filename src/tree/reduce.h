@@ -7,6 +7,9 @@
 // matter (Carr, Snoeyink, Axen 2003).
 //
 // What is left is again a set of elements with names: the trees of the survivors of all parts give the other arcs.
+//
+// In the literature: the local tree of a block, reduced to what crosses its boundary (Carr, Ruebel, Weber, Distributed hierarchical contour
+// trees, 2022).
 #pragma once
 
 #include <span>

@@ -1,5 +1,7 @@
 // Runs: neighbouring elements that lie one below the other on the same contour, contracted. Most of what survives a reduction (reduce.h)
 // are long runs on few contours; the contour tree of the runs is so much smaller that it may be accessed at random.
+//
+// In the literature: superarcs, chains of nodes of degree two.
 #pragma once
 
 #include <span>

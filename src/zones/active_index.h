@@ -4,6 +4,9 @@
 // between its event and the parent, a contour the one between the ends of its arc. Which of them contain a rank is read off the arrays of
 // the trees (base/furthest.h); the object of a contour is an ancestor of the event at its upper end, its low component one of its lower end
 // (T6).
+//
+// In the literature: stabbing queries; for cells usually answered by an interval tree (Cignoni et al., Speeding up isosurface extraction
+// using interval trees, 1997).
 #pragma once
 
 #include <cmath>

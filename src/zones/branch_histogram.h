@@ -1,4 +1,5 @@
 // Counts of voxels by height along one branch: how its volume depends on the isovalue.
+// In the literature: the volume curve of a contour spectrum, of one branch (Bajaj, Pascucci, Schikore, The contour spectrum, 1997).
 #pragma once
 
 #include <algorithm>

@@ -3,6 +3,9 @@
 // Hypervolume of the object of event e at its low end tau: sum over its voxels of (height - tau). Where objects merge, the one with the
 // largest hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small
 // bright peak.)
+//
+// In the literature: branch decomposition (Pascucci, Cole-McLaughlin, Scorzelli 2004) by hypervolume (Carr, Snoeyink, van de Panne,
+// Simplifying flexible isosurfaces using local geometric measures, 2004).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // How many objects, contours, tunnels and cavities there are at every isovalue, from the criticality tree alone.
+// In the literature: Betti curves; part of a contour spectrum (Bajaj, Pascucci, Schikore, The contour spectrum, 1997).
 #pragma once
 
 #include <vector>

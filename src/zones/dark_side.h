@@ -1,4 +1,5 @@
 // Dark objects in the making: the dark tree, its branches, and those that matter.
+// In the literature: components of sublevel sets; cavities or voids where an object encloses them.
 #pragma once
 
 #include "zones/branch_rows.h"

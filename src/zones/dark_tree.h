@@ -8,6 +8,9 @@
 //
 // Elements are numbered backwards: the outside is 0, the element x of the contour tree with n elements is n - x. Then heights (values
 // negated) descend and children come before their parents, as in the criticality tree, and all code for that serves here.
+//
+// In the literature: split tree, the merge tree of sublevel sets (Carr, Snoeyink, Axen, Computing contour trees in all dimensions, 2003);
+// its components are cavities or voids where an object encloses them.
 #pragma once
 
 #include "field/grid.h"

@@ -1,4 +1,6 @@
 // From pairs of elements to handles.
+// In the literature: persistence pairs of dimension 1 (Edelsbrunner, Letscher, Zomorodian, Topological persistence and simplification,
+// 2002).
 #pragma once
 
 #include <algorithm>

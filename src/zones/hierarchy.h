@@ -1,4 +1,6 @@
 // What a BranchHierarchy holds, and one made from what a store holds.
+// In the literature: branch decomposition (Pascucci, Cole-McLaughlin, Scorzelli, Multi-resolution computation and presentation of contour
+// trees, 2004).
 #pragma once
 
 #include <span>

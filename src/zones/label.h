@@ -1,4 +1,5 @@
 // The zone of every voxel, slab by slab.
+// In the literature: segmentation by the arcs of a fully augmented merge tree (Carr, Snoeyink, Axen 2003).
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,9 @@
 //
 // Counting detectors (PET, light microscopes) have more noise where the signal is strong: one number for the whole volume is that of the
 // background, and what noise makes of a bright region would pass for objects.
+//
+// In the literature: noise variance estimation from second differences (Immerkaer 1996); signal-dependent noise (Foi et al., Practical
+// Poissonian-Gaussian noise modeling and fitting, 2008).
 #pragma once
 
 #include <algorithm>

@@ -8,6 +8,9 @@
 // Everything is made small, because a climb is a handful of cache misses and nothing else; a path goes by the number of a maximum that
 // leads to it, so that neighbours in the volume find their paths side by side. Value: the type in which samples are compared with events.
 // float serves samples that are floats or integers of 16 bits: x <= v iff x <= v rounded down to float, for every float x.
+//
+// In the literature: heavy path decomposition (Sleator, Tarjan, A data structure for dynamic trees, 1983); the question is a weighted level
+// ancestor query.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,6 @@
 // Which branches are kept: by a selection, or by what noise explains (docs/theory/7-which-objects-matter.md#the-noise-gate).
+// In the literature: topological simplification by persistence (Edelsbrunner, Letscher, Zomorodian 2002) and by geometric measures (Carr,
+// Snoeyink, van de Panne 2004).
 #pragma once
 
 #include <vector>

@@ -4,6 +4,8 @@
 // q(tau) = -d ln V / d tau for the volume V(tau) of the object. A minimum of q is a steep boundary of a compact body (by the coarea formula
 // q is area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5 and the
 // voxels that join there are fewer by more than chance.
+//
+// In the literature: maximally stable extremal regions, MSER (Matas, Chum, Urban, Pajdla 2002), of one branch.
 #pragma once
 
 #include <span>
