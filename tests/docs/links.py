@@ -5,7 +5,8 @@
 
 In every .md file a relative link leads to a file of the checkout and #anchors to a heading of it. In the columns "code" and "test" of
 docs/theory the names in backticks occur in the file linked beside them: `NAME` in [file](...), [file](...): `NAME`, or `NAME` in the
-same. What comments cite is checked by citations.py.
+same. A decision is "# N. Title" with the number of its file, then "Date: YYYY-MM-DD. Status: ...". What comments cite is checked by
+citations.py.
 """
 import os
 import pathlib
@@ -152,6 +153,14 @@ def name_findings(checkout, document):
                     yield f"{document}:{number}: {name}: not in {target}"
 
 
+# --- heads of decisions -------------------------------------------------------------------------------------------------------------------
+
+def head_findings(checkout, document):
+    number = re.match(r"docs/decisions/(\d{4})-", document)
+    if number and not re.match(rf"# {int(number[1])}\. \S.*\n\nDate: \d{{4}}-\d\d-\d\d\. Status: \S", checkout.text(document)):
+        yield f"{document}:1: a decision begins with \"# {int(number[1])}. Title\" and \"Date: YYYY-MM-DD. Status: ...\""
+
+
 # --- all of it ------------------------------------------------------------------------------------------------------------------------------
 
 def findings_of(root):
@@ -160,7 +169,7 @@ def findings_of(root):
     documents = sorted(name for name in checkout.files if name.endswith(".md"))
     findings = [finding for document in documents for finding in link_findings(checkout, document)]
     findings += [finding for document in documents if document.startswith("docs/theory/") for finding in name_findings(checkout, document)]
-    return findings, len(documents)
+    return findings + [finding for document in documents for finding in head_findings(checkout, document)], len(documents)
 
 
 GOOD = {
@@ -193,6 +202,7 @@ GOOD = {
 | c | | [t](../../tests/a_test.cpp): `Third`, `First`; `one_two` in [cases](../../tests/cases.txt) |
 | `d` | | the same |
 """,
+    "docs/decisions/0007-b.md": "# 7. B\n\nDate: 2026-01-02. Status: accepted.\n",
     "src/a.h": "namespace field { int face(); }\n",
     "tests/a_test.cpp": "TEST(Suite, First) {}\nRC_GTEST_PROP(Suite, Second, ()) {}\nTEST_F(Suite, Third) {}\n",
     "tests/cases.txt": "case one_two\n",
@@ -225,6 +235,10 @@ BAD = (
     ("docs/theory/1.md", "`Third`", "`one_two`"),
     ("docs/theory/1.md", "; `one_two`", ", `one_two`"),
     ("docs/theory/README.md", "#twice", "#thrice"),
+    ("docs/decisions/0007-b.md", "# 7.", "# 8."),
+    ("docs/decisions/0007-b.md", "# 7. ", "# "),
+    ("docs/decisions/0007-b.md", "-01-02.", "."),
+    ("docs/decisions/0007-b.md", "Status: accepted.", ""),
     ("src/a.h", "face()", "faces()"),
     ("tests/a_test.cpp", "TEST_F(", "// TEST_F("),
     ("tests/cases.txt", "case one_two", "# case one_two"),
@@ -241,7 +255,7 @@ def self_test():
             return findings_of(folder)
 
     findings, documents = findings_in(GOOD)
-    if findings or documents != 3:
+    if findings or documents != 4:
         raise SystemExit(f"{documents} documents without a fault, but found\n" + "\n".join(findings))
     for name, old, new in BAD:
         if old not in GOOD[name]:
