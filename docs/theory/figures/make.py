@@ -882,6 +882,78 @@ def stable_isovalues():
     picture.write()
 
 
+def neighbourhoods(samples, side):
+    """Pairs (mean, variance around the plane that fits best) of 3^3 samples, by ascending mean: as in src/zones/noise_fit.cpp."""
+    found = []
+    offsets = list(itertools.product((-1, 0, 1), repeat=3))
+    for z, y, x in itertools.product(range(1, side - 1, 2), repeat=3):
+        values = [samples[x + i + side * (y + j + side * (z + k))] for i, j, k in offsets]
+        mean = sum(values) / 27
+        along = [sum(o[axis] * value for o, value in zip(offsets, values)) for axis in range(3)]
+        rest = sum((value - mean) ** 2 for value in values) - sum(a * a for a in along) / 18
+        found.append((mean, max(0.0, rest) / 23))
+    return sorted(found)
+
+
+def groups_of(windows):
+    """Groups (mean, sigma, weight); each takes 30 % of what is left and at least 200."""
+    groups = []
+    while len(windows) >= 200:
+        count = len(windows) if len(windows) < 400 else max(200, len(windows) * 3 // 10)
+        part, windows = windows[:count], windows[count:]
+        groups.append((part[count // 2][0], math.sqrt(sorted(variance for _, variance in part)[count // 5]), count))
+    return groups
+
+
+def line_through(groups):
+    """(base, slope) at the lowest group of the best line through two of them: quantile regression at 0.3 of the logarithms."""
+    def loss(base, slope):
+        above = [(math.log(sigma / (base + slope * (mean - groups[0][0]))), weight) for mean, sigma, weight in groups]
+        return sum(weight * (0.3 * a if a > 0 else -0.7 * a) for a, weight in above)
+
+    lines = []
+    for (m, s, _), (n, t, _) in itertools.combinations(groups, 2):
+        slope = (t - s) / (n - m)
+        base = s - slope * (m - groups[0][0])
+        if slope > 0 and base > 0:
+            lines.append((loss(base, slope), base, slope))
+    return min(lines)[1:]
+
+
+def noise_fit():
+    """Boxes of five values with noise that grows: what the fit sees, and what it finds."""
+    side, source = 48, random.Random(4)
+    samples = []
+    for z, y, x in itertools.product(range(side), repeat=3):
+        value = 100 * ((x // 12 + y // 12 + z // 12) % 5)
+        samples.append(value + (2 + 0.05 * value) * source.gauss(0, 1))
+    windows = neighbourhoods(samples, side)
+    groups = groups_of(windows)
+    base, slope = line_through(groups)
+    picture = Picture("noise-fit.svg", 760, 380)
+    left, bottom, width, height, top = 70, 300, 640, 250, 60
+
+    def at(value, sigma):
+        return (left + width * (value + 20) / 460, bottom - height * min(sigma, top) / top)
+
+    for sigma in range(0, top + 1, 10):
+        picture.line((left, at(0, sigma)[1]), (left + width, at(0, sigma)[1]), "#e3e6ea" if sigma else GREY, 1)
+        picture.text((left - 8, at(0, sigma)[1] + 4.5), str(sigma), 12, "end", GREY)
+    for value in range(0, 401, 100):
+        picture.text((at(value, 0)[0], bottom + 19), str(value), 12, fill=GREY)
+    dots = (at(mean, math.sqrt(variance)) for mean, variance in windows[::9])
+    picture.data("".join(f"M{number(x)} {number(y)}h0" for x, y in dots), PALE, 3.4)
+    picture.line(at(-5, 2), at(430, 2 + 0.05 * 430), GREEN, 2, "6 4")
+    last = groups[-1][0]
+    picture.line(at(groups[0][0], base), at(last, base + slope * (last - groups[0][0])), HIGH, 2.4)
+    for mean, sigma, _ in groups:
+        picture.dot(at(mean, sigma), 5.5, LOW)
+    picture.text((left + width / 2, 28), "standard deviation around a plane, of neighbourhoods of 27 samples", 15, bold=True)
+    picture.text((left + width / 2, bottom + 40), "their mean", 12.5, fill="#5b626c")
+    picture.legend(368, ((PALE, "neighbourhoods (above 60: edges)"), (LOW, "groups"), (HIGH, "fitted"), (GREEN, "true: 2 + 0.05 value")))
+    picture.write()
+
+
 def most_of_noise(program, side, seed):
     """Of white noise of the standard deviation 1: the largest persistence and hypervolume of all objects but the largest."""
     source = random.Random(1000 * side + seed)
@@ -933,6 +1005,7 @@ def main(*arguments):
     example_trees()
     branches()
     stable_isovalues()
+    noise_fit()
     if arguments:
         annulus(arguments[0])
         mirrors(arguments[0])
