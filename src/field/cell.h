@@ -62,7 +62,8 @@ constexpr bool face_is_split(int pattern, int f) {
 
 /// High region of each corner of a cell: region[k] = smallest corner of its region, Lows get 8 + smallest corner of their region.
 /// Highs are connected by cell edges and across split faces whose joined bit is set; Lows by cell edges and across the other split faces.
-/// Theory: docs/theory/1-elements-and-order.md#objects-low-components-contours. Body points will add regions joined through the interior.
+/// Theory: docs/theory/1-elements-and-order.md#objects-low-components-contours. Regions that a tunnel joins through the interior are two
+/// here (critical/open_tunnel.h).
 std::array<std::uint8_t, 8> cell_regions(int pattern, int joined);
 
 /// What default face types are looked up in; 256 patterns, made once.
