@@ -115,13 +115,14 @@ inline TwoDoubles rise_at(const Polynomial& polynomial, const Vector& p) {
 
 ISOATLAS_FUSED TwoDoubles rise_fused(const Polynomial& polynomial, const Vector& p) { return rise_at<FusedProduct>(polynomial, p); }
 
-std::optional<double> rounded_value(const Polynomial& polynomial, const Near& near, double corner, SaddleKind kind) {
+/// Rounded down, or kUndecided.
+double rounded_value(const Polynomial& polynomial, const Near& near, double corner, SaddleKind kind) {
     TwoDoubles rise = kHasFused ? rise_fused(polynomial, near.position) : rise_at<PlainProduct>(polynomial, near.position);
     if (kind == SaddleKind::joins_lows) rise = {-rise.high, -rise.low};
     const TwoDoubles first = two_sum(corner, rise.high), sum = two_sum(first.high, first.low + rise.low);
     const double flatness = near.radius * near.radius * (near.curvature + 10 * near.radius * polynomial.most);
     const double error = 1.5 * flatness + 0x1p-90 * polynomial.most + 0x1p-104 * std::abs(sum.high);
-    return rounded_down_if_certain(sum, error);
+    return rounded_down_or_undecided(sum, error);
 }
 
 double clamped(double x) { return std::isnan(x) ? 0.5 : std::clamp(x, 0x1p-30, 1 - 0x1p-30); }
@@ -155,8 +156,8 @@ std::optional<BodySaddle> body_saddle(const CellValues& value, SaddleKind kind) 
     const Found inside = is_inside(near);
     if (inside == Found::no) return std::nullopt;
     if (inside == Found::perhaps) return exact_saddle(value, kind, near.position);
-    if (const std::optional<double> rounded = rounded_value(polynomial, near, value[0], kind)) {
-        return BodySaddle{*rounded, near.position};
+    if (const double rounded = rounded_value(polynomial, near, value[0], kind); !std::isnan(rounded)) {
+        return BodySaddle{rounded, near.position};
     }
     return BodySaddle{exact_saddle_value(value, kind, interpolate(value, near.position)), near.position};
 }

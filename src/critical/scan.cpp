@@ -1,5 +1,6 @@
 #include "critical/scan.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>

@@ -2,8 +2,7 @@
 // took from each step is carried along in a second double. u = 2^-53.
 #include "field/face.h"
 
-#include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "base/wide.h"
 #include "field/error_free.h"
@@ -13,8 +12,6 @@ namespace isoatlas {
 namespace {
 
 constexpr double kLeast = 0x1p-240, kMost = 0x1p240;  // between these no product underflows or overflows
-
-constexpr double kUndecided = std::numeric_limits<double>::quiet_NaN();
 
 /// s rounded down, or kUndecided. No branches: loops over it become vector code.
 template <class Product>
@@ -35,8 +32,7 @@ inline double rounded_or_undecided(const FaceCorners& face) {
     const double error = ((remainder == 0) & (inputs_low == 0)) ? 0 : 0x1p-96 * t + 0x1p-104 * std::abs(s.high);
     const double least = p.high < q.high ? p.high : q.high;
     const bool is_moderate = (least >= kLeast) & (sum.high <= kMost) & (std::abs(face.low) <= kMost);
-    const double down = next_below(s.high), same = s.high + 0.0;  // not -0.0
-    const double value = s.low < -error ? down : ((s.low > error) | (error == 0)) ? same : kUndecided;
+    const double value = rounded_down_or_undecided(s, error);
     return least == 0 ? face.low + 0.0 : is_moderate ? value : kUndecided;
 }
 

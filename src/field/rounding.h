@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include "field/error_free.h"
 
@@ -19,12 +18,13 @@ inline double next_below(double value) {
     return value == 0 ? -std::numeric_limits<double>::denorm_min() : next;
 }
 
-/// The greatest double at most a number that lies within `error` of sum.high + sum.low (a two_sum); none where that does not decide.
-/// error 0: the number is that sum.
-inline std::optional<double> rounded_down_if_certain(TwoDoubles sum, double error) {
-    if (sum.low < -error) return next_below(sum.high);
-    if (sum.low > error || error == 0) return sum.high + 0.0;  // not -0.0
-    return std::nullopt;
+inline constexpr double kUndecided = std::numeric_limits<double>::quiet_NaN();
+
+/// The greatest double at most a number that lies within `error` of sum.high + sum.low (a two_sum); kUndecided where that does not decide.
+/// error 0: the number is that sum. No branches: loops over it become vector code.
+inline double rounded_down_or_undecided(TwoDoubles sum, double error) {
+    const double down = next_below(sum.high), same = sum.high + 0.0;  // not -0.0
+    return sum.low < -error ? down : ((sum.low > error) | (error == 0)) ? same : kUndecided;
 }
 
 }  // namespace isoatlas
