@@ -245,29 +245,30 @@ BAD = (
 )
 
 
-def self_test():
+def self_test(name, findings_of, good, count, bad):
+    """Lays out the files of `good`, which have no fault and `count` of what is counted, and notices each fault of `bad`: files that change."""
     def findings_in(files):
-        with tempfile.TemporaryDirectory(prefix="isoatlas-links-") as folder:
-            for name, text in files.items():
-                path = pathlib.Path(folder, name)
+        with tempfile.TemporaryDirectory(prefix=f"isoatlas-{name}-") as folder:
+            for path, text in files.items():
+                path = pathlib.Path(folder, path)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text, encoding="utf-8")
             return findings_of(folder)
 
-    findings, documents = findings_in(GOOD)
-    if findings or documents != 4:
-        raise SystemExit(f"{documents} documents without a fault, but found\n" + "\n".join(findings))
-    for name, old, new in BAD:
-        if old not in GOOD[name]:
-            raise SystemExit(f"{name} has no {old}")
-        if not findings_in({**GOOD, name: GOOD[name].replace(old, new)})[0]:
-            raise SystemExit(f"nothing noticed in {name} with {new} for {old}")
-    print(f"links: {len(BAD)} faults noticed")
+    findings, counted = findings_in(good)
+    if findings or counted != count:
+        raise SystemExit(f"{name}: {counted} without a fault, expected {count}, but found\n" + "\n".join(findings))
+    for path, old, new in bad:
+        if old not in good.get(path, ""):
+            raise SystemExit(f"{path} has no {old}")
+        if not findings_in({**good, path: good[path].replace(old, new) if old else new})[0]:
+            raise SystemExit(f"nothing noticed in {path} with {new} for {old}")
+    print(f"{name}: {len(bad)} faults noticed")
 
 
 def main(action, *arguments):
     if action == "self-test":
-        self_test()
+        self_test("links", findings_of, GOOD, 4, BAD)
         return
     findings, documents = findings_of(arguments[0])
     for finding in findings:
