@@ -7,13 +7,16 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo test check build install format lint bench memory table131 fuzz asan tsan coverage clean
+.PHONY: help demo quick test check build install format lint bench memory table131 fuzz asan tsan coverage clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
 
 demo: ## build, analyse the demonstration volume (or VOLUME=file, ARGS=options of the reader), write demo/
 	@scripts/demo.sh
+
+quick: ## the tests of what you changed, or of ROOM=tree (a folder of src): builds nothing else
+	@scripts/quick.sh $(ROOM)
 
 test: ## build everything and run every check: tests, layering, installation, format, lint
 	@scripts/test.sh

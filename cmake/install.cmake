@@ -1,6 +1,6 @@
 # install + find_package(isoatlas): the library, its public headers, the command line.
 include(CMakePackageConfigHelpers)
-install(TARGETS isoatlas EXPORT isoatlasTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS isoatlas ${ISOATLAS_LIBRARIES} EXPORT isoatlasTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/isoatlas DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT isoatlasTargets NAMESPACE isoatlas:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/isoatlas)
 configure_package_config_file(cmake/isoatlasConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/isoatlasConfig.cmake

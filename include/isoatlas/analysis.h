@@ -16,14 +16,11 @@
 #include <span>
 #include <vector>
 
+#include "isoatlas/criticality.h"
+#include "isoatlas/interpolant.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
-
-/// How samples are connected inside cells. `faces`: 6-neighbours plus face disambiguation points (the dissertation's connectivity).
-/// `trilinear`: exactly as the trilinear interpolant connects them, tunnels through the interior of cells included. The same in 2D.
-enum class Interpolant : std::uint8_t { faces, trilinear };
-[[nodiscard]] const char* name_of(Interpolant interpolant);
 
 enum class ElementKind : std::uint8_t { vertex, face, body };
 
@@ -36,9 +33,6 @@ struct Element {
     int h0, l0;
     ElementKind kind;
 };
-
-enum class Criticality : std::uint8_t { maximum, minimum, merge, split, genus, complex };
-[[nodiscard]] const char* name_of(Criticality kind);  ///< "maximum", "minimum", "merge", "split", "genus change", "complex"
 
 /// A level: the genera of the contours that arrive from above and leave below, sorted. Only non-trivial ones are kept.
 struct Level {

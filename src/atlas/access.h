@@ -1,9 +1,9 @@
 // What the other parts of this folder need of an Atlas.
 #pragma once
 
+#include "bricks/stored_samples.h"
+#include "census/level_census.h"
 #include "isoatlas/atlas.h"
-#include "query/level_census.h"
-#include "query/stored_samples.h"
 
 namespace isoatlas {
 

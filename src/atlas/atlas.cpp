@@ -4,21 +4,21 @@
 #include <cmath>
 #include <mutex>
 
+#include "analysis/analysis_data.h"
 #include "atlas/access.h"
 #include "atlas/census_arrays.h"
 #include "atlas/object_arrays.h"
 #include "atlas/object_window.h"
 #include "atlas/stored_hierarchy.h"
+#include "atlas/tree_arrays.h"
 #include "base/lazy.h"
+#include "bricks/bricks_in_view.h"
+#include "bricks/stored_samples.h"
+#include "codec/checksum.h"
 #include "critical/bodies.h"
+#include "levelset/cut_level.h"
 #include "mesh/extract_level.h"
-#include "query/bricks_in_view.h"
-#include "query/cut_level.h"
-#include "query/stored_samples.h"
-#include "store/checksum.h"
 #include "store/container.h"
-#include "store/tree_arrays.h"
-#include "zones/analysis_data.h"
 
 namespace isoatlas {
 namespace {

@@ -3,23 +3,23 @@
 
 #include <algorithm>
 
+#include "analysis/analyse.h"
 #include "atlas/build_fingerprint.h"
 #include "atlas/build_folder.h"
 #include "atlas/census_arrays.h"
+#include "atlas/tree_arrays.h"
 #include "atlas/zone_phase.h"
 #include "base/big_vector.h"
 #include "base/cancel.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "codec/checksum.h"
 #include "field/gaussian.h"
 #include "field/volume_view.h"
-#include "io/load_samples.h"
+#include "formats/volume/load_samples.h"
 #include "isoatlas/error.h"
 #include "store/brick_writer.h"
-#include "store/checksum.h"
 #include "store/pack.h"
-#include "store/tree_arrays.h"
-#include "zones/analyse.h"
 
 namespace isoatlas {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "atlas/access.h"
 #include "base/check.h"
-#include "io/read_slabs.h"
-#include "store/checksum.h"
+#include "codec/checksum.h"
+#include "formats/volume/read_slabs.h"
 #include "store/container.h"
 
 namespace isoatlas {

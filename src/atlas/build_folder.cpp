@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "base/output_target.h"
 #include "base/temporary_name.h"
-#include "io/file_access.h"
+#include "formats/common/file_access.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {

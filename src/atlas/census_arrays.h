@@ -1,4 +1,4 @@
-// A census (query/level_census.h) as arrays of a store, and back.
+// A census (census/level_census.h) as arrays of a store, and back.
 //
 //   census/value                         ascending
 //   census/samples                       samples of at least that value
@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "query/level_census.h"
+#include "census/level_census.h"
 #include "store/container.h"
 #include "store/pack.h"
 

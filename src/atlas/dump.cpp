@@ -7,9 +7,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "codec/checksum.h"
 #include "isoatlas/error.h"
 #include "store/brick_reader.h"
-#include "store/checksum.h"
 #include "store/container.h"
 
 namespace isoatlas {

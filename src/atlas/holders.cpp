@@ -4,7 +4,7 @@
 
 #include "atlas/access.h"
 #include "base/cancel.h"
-#include "query/level_bricks.h"
+#include "levelset/level_bricks.h"
 
 namespace isoatlas {
 namespace {

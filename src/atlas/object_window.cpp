@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "query/components.h"
+#include "levelset/components.h"
 
 namespace isoatlas {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "query/stored_samples.h"
+#include "bricks/stored_samples.h"
 
 namespace isoatlas {
 

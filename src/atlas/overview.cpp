@@ -2,9 +2,9 @@
 
 #include "atlas/access.h"
 #include "atlas/object_arrays.h"
+#include "atlas/tree_arrays.h"
 #include "base/cancel.h"
-#include "store/tree_arrays.h"
-#include "zones/rank.h"
+#include "features/rank.h"
 
 namespace isoatlas {
 namespace {

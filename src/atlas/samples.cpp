@@ -1,10 +1,10 @@
 // Samples of a store for those who look at them: boxes, the whole in fewer values, and whether they are those of a file.
 #include "atlas/access.h"
 #include "base/cancel.h"
-#include "io/read_slabs.h"
+#include "bricks/brick_samples.h"
+#include "codec/checksum.h"
+#include "formats/volume/read_slabs.h"
 #include "isoatlas/atlas.h"
-#include "query/brick_samples.h"
-#include "store/checksum.h"
 
 namespace isoatlas {
 namespace {

@@ -9,14 +9,14 @@
 #include "atlas/access.h"
 #include "atlas/object_arrays.h"
 #include "atlas/surface_size.h"
+#include "atlas/tree_arrays.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "census/count_intervals.h"
 #include "isoatlas/active.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "mesh/extract_level.h"
-#include "store/tree_arrays.h"
-#include "zones/count_intervals.h"
 
 namespace isoatlas {
 namespace {

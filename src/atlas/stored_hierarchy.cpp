@@ -5,11 +5,11 @@
 #include <set>
 
 #include "atlas/access.h"
+#include "atlas/event_arrays.h"
 #include "atlas/object_arrays.h"
-#include "store/event_arrays.h"
-#include "store/tree_arrays.h"
-#include "zones/hierarchy.h"
-#include "zones/keep_entries.h"
+#include "atlas/tree_arrays.h"
+#include "features/hierarchy.h"
+#include "features/keep_entries.h"
 
 namespace isoatlas {
 namespace {

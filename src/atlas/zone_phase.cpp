@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "analysis/analyse.h"
+#include "atlas/event_arrays.h"
 #include "atlas/object_arrays.h"
-#include "store/event_arrays.h"
-#include "store/tree_arrays.h"
-#include "zones/analyse.h"
-#include "zones/rank.h"
+#include "atlas/tree_arrays.h"
+#include "features/rank.h"
 
 namespace isoatlas {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "features/hierarchy.h"
 #include "field/volume_view.h"
 #include "isoatlas/analysis.h"
 #include "store/pack.h"
-#include "zones/hierarchy.h"
 
 namespace isoatlas {
 

@@ -2,7 +2,7 @@
 // another one behind the door, which fails, loses what was not synced, or lives in memory.
 //
 // Nothing here throws: numbers below zero are -errno. Turning them into errors that name file and next step is the callers' business
-// (io/file_access.h for what is read, base/atomic_file.h for what is written).
+// (formats/common/file_access.h for what is read, base/atomic_file.h for what is written).
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@
 
 #include "critical/body_saddle.h"
 #include "critical/faces.h"
-#include "isoatlas/analysis.h"
+#include "isoatlas/interpolant.h"
 
 namespace isoatlas {
 

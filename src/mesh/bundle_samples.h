@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "base/prefetch.h"
+#include "field/brick_grid.h"
 #include "field/sample_grid.h"
 #include "mesh/hit_batch.h"
 #include "mesh/layout.h"
 #include "mesh/physical_map.h"
-#include "store/brick_grid.h"
 
 namespace isoatlas {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "isoatlas/surface.h"
-#include "query/components.h"
+#include "levelset/components.h"
 
 namespace isoatlas {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "isoatlas/surface.h"
-#include "query/tau_level.h"
+#include "levelset/tau_level.h"
 
 namespace isoatlas {
 

@@ -15,7 +15,7 @@
 
 #include "base/big_vector.h"
 #include "isoatlas/surface.h"
-#include "query/active_cells.h"
+#include "levelset/active_cells.h"
 
 namespace isoatlas {
 

@@ -11,9 +11,9 @@
 #include <array>
 #include <cstdint>
 
+#include "levelset/active_cells.h"
 #include "mesh/cell_triangles.h"
 #include "mesh/layout.h"
-#include "query/active_cells.h"
 
 namespace isoatlas {
 

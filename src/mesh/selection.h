@@ -2,8 +2,8 @@
 // In the literature: flexible isosurfaces, single contours by their arc (Carr, Snoeyink, Path seeds and flexible isosurfaces, 2003).
 #pragma once
 
+#include "levelset/components.h"
 #include "mesh/layout.h"
-#include "query/components.h"
 
 namespace isoatlas {
 

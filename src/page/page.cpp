@@ -5,9 +5,9 @@
 #include <set>
 
 #include "base/atomic_file.h"
+#include "catalogue/tunnels.h"
 #include "page/page_json.h"
 #include "page/template.h"
-#include "page/tunnels.h"
 
 namespace isoatlas {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/common/byte_writer.h"
 #include "isoatlas/shell_word.h"
-#include "output/byte_writer.h"
 #include "page/web_colour.h"
 
 namespace isoatlas::page {

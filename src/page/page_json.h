@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "output/json_stream.h"
-#include "page/contents.h"
+#include "catalogue/contents.h"
+#include "formats/common/json_stream.h"
 
 namespace isoatlas::page {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable.h"
 #include "phantom/fill.h"
 #include "phantom/makers.h"
-#include "phantom/portable.h"
 
 namespace isoatlas::phantom {
 namespace {

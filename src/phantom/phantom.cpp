@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable.h"
 #include "phantom/makers.h"
-#include "phantom/portable.h"
 
 namespace isoatlas {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/portable.h"
 #include "phantom/fill.h"
 #include "phantom/makers.h"
-#include "phantom/portable.h"
 
 namespace isoatlas::phantom {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/contents.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/error.h"
 #include "isoatlas/render.h"
-#include "page/contents.h"
 #include "server/lines.h"
 #include "server/opening.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "catalogue/contents.h"
 #include "isoatlas/atlas.h"
-#include "page/contents.h"
 #include "server/words.h"
 
 namespace isoatlas::server {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/text_cache.h"
+#include "catalogue/contents.h"
 #include "isoatlas/atlas.h"
-#include "page/contents.h"
 #include "server/question.h"
 #include "server/turns.h"
 

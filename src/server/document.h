@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "output/json_stream.h"
+#include "formats/common/json_stream.h"
 
 namespace isoatlas::server {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/contents.h"
 #include "isoatlas/atlas.h"
-#include "page/contents.h"
 #include "server/sample_answers.h"
 
 namespace isoatlas::server {

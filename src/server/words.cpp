@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "formats/common/byte_writer.h"
 #include "isoatlas/error.h"
-#include "output/byte_writer.h"
 
 namespace isoatlas::server {
 namespace {

@@ -9,10 +9,10 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "base/sample_types.h"
+#include "codec/brick_codec.h"
+#include "codec/checksum.h"
+#include "field/brick_extremes.h"
 #include "isoatlas/error.h"
-#include "store/brick_codec.h"
-#include "store/brick_extremes.h"
-#include "store/checksum.h"
 
 namespace isoatlas::store {
 namespace {

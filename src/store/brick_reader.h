@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "store/brick_grid.h"
+#include "field/brick_grid.h"
 #include "store/container.h"
 
 namespace isoatlas::store {

@@ -6,11 +6,11 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
-#include "store/brick_codec.h"
-#include "store/brick_extremes.h"
-#include "store/brick_grid.h"
-#include "store/checksum.h"
-#include "store/sample_keys.h"
+#include "codec/brick_codec.h"
+#include "codec/checksum.h"
+#include "codec/sample_keys.h"
+#include "field/brick_extremes.h"
+#include "field/brick_grid.h"
 
 namespace isoatlas::store {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "base/parallel.h"
+#include "codec/checksum.h"
+#include "codec/chunk_codec.h"
 #include "isoatlas/error.h"
-#include "store/checksum.h"
-#include "store/chunk_codec.h"
 
 namespace isoatlas::store {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "io/file_access.h"
+#include "codec/frame.h"
+#include "formats/common/file_access.h"
 #include "store/contents.h"
-#include "store/frame.h"
 
 namespace isoatlas::store {
 

@@ -27,7 +27,7 @@ struct StoredArray {
     std::int64_t block = 0;           ///< bytes under one checksum (the last block may be shorter); 0: the array checks its parts itself
     std::int64_t checksums = 0;       ///< offset of its checksums, 8 bytes a block; they lie under the checksum `sum`
     std::uint64_t sum = 0;
-    /// 0, or numbers in a chunk: the array is compressed chunk by chunk (store/chunk_codec.h), a block is a chunk, and `checksums` is the
+    /// 0, or numbers in a chunk: the array is compressed chunk by chunk (codec/chunk_codec.h), a block is a chunk, and `checksums` is the
     /// offset of a StoredChunk per chunk instead.
     std::int64_t chunk = 0;
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <span>
 
-#include "store/checksum.h"
+#include "codec/checksum.h"
 
 namespace isoatlas::store {
 namespace {

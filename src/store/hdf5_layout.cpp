@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/check.h"
+#include "codec/chunk_codec.h"
 #include "isoatlas/error.h"
-#include "store/chunk_codec.h"
 #include "store/container.h"
 
 namespace isoatlas::store {

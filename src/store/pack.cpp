@@ -8,10 +8,10 @@
 #include "base/atomic_file.h"
 #include "base/check.h"
 #include "base/parallel.h"
-#include "store/checksum.h"
-#include "store/chunk_codec.h"
+#include "codec/checksum.h"
+#include "codec/chunk_codec.h"
+#include "codec/frame.h"
 #include "store/container.h"
-#include "store/frame.h"
 #include "store/hdf5_layout.h"
 
 namespace isoatlas::store {

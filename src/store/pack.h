@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "store/chunk_codec.h"
+#include "codec/chunk_codec.h"
 #include "store/contents.h"
 
 namespace isoatlas::store {

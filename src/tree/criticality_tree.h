@@ -11,7 +11,7 @@
 #include <span>
 
 #include "base/big_vector.h"
-#include "isoatlas/analysis.h"
+#include "isoatlas/criticality.h"
 #include "tree/levels.h"
 
 namespace isoatlas {

@@ -4,12 +4,12 @@
 #include <string>
 #include <unordered_map>
 
+#include "analysis/analysis_data.h"
+#include "base/portable.h"
 #include "field/order.h"
-#include "phantom/portable.h"
 #include "verify/level_checks.h"
 #include "verify/store_checks.h"
 #include "verify/tree_checks.h"
-#include "zones/analysis_data.h"
 
 namespace isoatlas {
 namespace {

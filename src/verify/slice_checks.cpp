@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <unordered_map>
 
-#include "phantom/portable.h"
+#include "base/portable.h"
 
 namespace isoatlas {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "analysis/analysis_data.h"
+#include "atlas/event_arrays.h"
+#include "field/brick_grid.h"
 #include "isoatlas/dump.h"
-#include "store/brick_grid.h"
 #include "store/container.h"
-#include "store/event_arrays.h"
-#include "zones/analysis_data.h"
 
 namespace isoatlas {
 namespace {

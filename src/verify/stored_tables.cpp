@@ -3,12 +3,12 @@
 #include <cstring>
 #include <set>
 
+#include "analysis/analyse.h"
 #include "atlas/census_arrays.h"
+#include "atlas/tree_arrays.h"
 #include "atlas/zone_phase.h"
 #include "store/brick_writer.h"
-#include "store/tree_arrays.h"
 #include "verify/store_checks.h"
-#include "zones/analyse.h"
 
 namespace isoatlas {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "zones/paths.h"
+#include "tree/paths.h"
 
 namespace isoatlas {
 

@@ -2,8 +2,8 @@
 // reads as the same samples. Exhaustive over small files; drawn over the real ones (damaged_data_test.cpp).
 #include <gtest/gtest.h>
 
-#include "unit/io/compressed_files.h"
-#include "unit/io/damage.h"
+#include "unit/formats/volume/compressed_files.h"
+#include "unit/formats/volume/damage.h"
 
 namespace isoatlas {
 namespace {

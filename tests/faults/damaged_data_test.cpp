@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <random>
 
-#include "unit/io/compressed_files.h"
-#include "unit/io/damage.h"
+#include "unit/formats/volume/compressed_files.h"
+#include "unit/formats/volume/damage.h"
 
 namespace isoatlas {
 namespace {

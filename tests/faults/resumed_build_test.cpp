@@ -13,10 +13,10 @@
 
 #include <unistd.h>
 
+#include "base/portable.h"
 #include "faults/faulty_files.h"
 #include "isoatlas/build.h"
 #include "isoatlas/error.h"
-#include "phantom/portable.h"
 
 namespace isoatlas {
 namespace {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <functional>
 
+#include "codec/brick_codec.h"
+#include "codec/checksum.h"
+#include "field/brick_grid.h"
 #include "isoatlas/build.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/verify.h"
-#include "store/brick_codec.h"
-#include "store/brick_grid.h"
-#include "store/checksum.h"
 #include "store/container.h"
 #include "store/pack.h"
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "unit/io/volume_files.h"
+#include "unit/formats/volume/volume_files.h"
 
 namespace {
 std::atomic<std::size_t> g_largest{0};

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "codec/brick_codec.h"
 #include "field/volume_view.h"
-#include "store/brick_codec.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size < 12) return 0;

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "formats/mesh/mesh_formats.h"
 #include "isoatlas/error.h"
-#include "output/mesh_formats.h"
 
 namespace fuzz {
 

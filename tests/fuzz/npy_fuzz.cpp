@@ -1,6 +1,6 @@
 // The NumPy reader takes any bytes: a documented error or a sound volume.
+#include "formats/volume/formats.h"
 #include "fuzz/volume_target.h"
-#include "io/formats.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return fuzz::open_and_read(isoatlas::io::open_npy, data, size);

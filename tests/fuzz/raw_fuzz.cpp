@@ -1,6 +1,6 @@
 // RAW: the input is the sidecar (and the name): a documented error or a sound description.
+#include "formats/volume/raw_description.h"
 #include "fuzz/volume_target.h"
-#include "io/raw_description.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const fuzz::OnlyContent in_use(std::as_bytes(std::span(data, size)));

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "codec/checksum.h"
+#include "field/brick_grid.h"
 #include "fuzz/volume_target.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/dump.h"
 #include "isoatlas/verify.h"
-#include "store/brick_grid.h"
-#include "store/checksum.h"
 #include "store/container.h"
 
 namespace {

@@ -11,7 +11,18 @@ import re
 import sys
 from pathlib import Path
 
-STAGES = ["base", "io", "field", "critical", "tree", "zones", "store", "query", "mesh", "atlas", "output", "render", "page", "server", "phantom", "verify"]
+# library -> the libraries it needs, and its rooms (folders of src) in the order in which data flows through them
+LIBRARIES = {
+    "core": ([], ["base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh"]),
+    "formats": (["core"], ["formats/common", "formats/volume", "formats/mesh", "formats/tree"]),
+    "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
+    "render": (["core"], ["image", "render"]),
+    "server": (["store", "render"], ["catalogue", "page", "server"]),
+    "phantom": (["core"], ["phantom"]),
+    "verify": (["store"], ["verify"]),
+}
+LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for room in rooms}
+FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 MAX_LINES = 400
 
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
@@ -19,24 +30,24 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_limit\.cpp|src/base/workers\.h|src/server/(turns|changes|shared)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_limit\.cpp|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/zones/(analysis_data|open_voxels)\.h|src/store/hdf5_layout\.cpp|src/query/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(turns|changes|opening|event_stream|shared|door)\.h",  # std::once_flag: the index is made when first asked for
-    r"mpi\.h": r"src/dist/.*",
-    r"tiff.*\.h": r"src/io/tiff.*|src/output/.*|tests/.*",
-    r"pugixml\.hpp": r"src/io/.*|src/output/.*|tests/.*",
-    r"zlib\.h": r"src/io/.*|src/output/.*|tests/.*",
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/store/hdf5_layout\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(turns|changes|opening|event_stream|shared|door)\.h",  # std::once_flag: the index is made when first asked for
+    r"mpi\.h": r"(?!)",
+    r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
+    r"pugixml\.hpp": r"src/formats/.*|tests/.*",
+    r"zlib\.h": r"src/formats/.*|tests/.*",
     r"iostream|print": r"apps/.*|tests/.*|bench/.*",
     r"cassert|assert\.h": r"(?!)",
     r"CLI/.*|fmt/.*": r"apps/.*",
-    r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/io/.*|src/output/.*|src/store/contents\.cpp|src/server/client\.cpp",
-    r"libdeflate\.h": r"src/store/chunk_codec\.cpp|src/render/png\.cpp|src/server/coding\.cpp",
+    r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/formats/.*|src/store/contents\.cpp|src/server/client\.cpp",
+    r"libdeflate\.h": r"src/codec/chunk_codec\.cpp|src/image/png\.cpp|src/server/coding\.cpp",
     r"zstd\.h": r"src/server/coding\.cpp",
     r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
     r"meshoptimizer\.h": r"src/server/(wire_mesh|coarse_surface)\.cpp|tests/.*",
-    r"webp/.*": r"src/render/webp\.cpp",
+    r"webp/.*": r"src/image/webp\.cpp",
     r"embree3/.*": r"src/render/ray_surfaces\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",
     r"hdf5\.h": r"src/store/hdf5_layout\.cpp",
-    r"xxhash\.h": r"src/store/checksum\.h",
+    r"xxhash\.h": r"src/codec/checksum\.h",
     r"gtest/.*|gmock/.*|rapidcheck.*": r"tests/.*",
     r"benchmark/.*": r"bench/.*",
 }
@@ -65,29 +76,48 @@ def without_comments_and_strings(text):
     return re.sub(pattern, blank, text, flags=re.S)
 
 
-def stage_of(path):
+def room_of(path):
+    """The room of a file of src, None elsewhere: src/mesh/a.cpp -> mesh, src/formats/mesh/a.cpp -> formats/mesh."""
     parts = path.split("/")
-    return parts[1] if parts[0] == "src" and len(parts) > 2 else None
+    if parts[0] != "src" or len(parts) < 3:
+        return None
+    return "/".join(parts[1:-1])
+
+
+def needed(library):
+    """The libraries that a library may include, itself among them."""
+    found = {library}
+    for other in LIBRARIES[library][0]:
+        found |= needed(other)
+    return found
+
+
+def may_include(room, target):
+    own, other = LIBRARY_OF[room], LIBRARY_OF[target]
+    if own != other:
+        return other in needed(own)
+    rooms = LIBRARIES[own][1]
+    return rooms.index(target) <= rooms.index(room)
 
 
 def include_findings(path, bracket, header):
-    stage = stage_of(path)
+    room = room_of(path)
     for door, allowed in DOORS.items():
         if re.fullmatch(door, header) and not re.fullmatch(allowed, path):
             yield f"includes <{header}>, which only {allowed} may"
     if path.startswith(("apps/", "include/")):
-        if header.split("/")[0] in STAGES and bracket == '"' and "/" in header:
+        if header.split("/")[0] in FOLDERS and bracket == '"' and "/" in header:
             yield f"includes {header}: outside src only the public headers isoatlas/*.h are used"
-    if stage is None or bracket == "<" or header.startswith("isoatlas/"):
+    if room not in LIBRARY_OF or bracket == "<" or header.startswith("isoatlas/"):
         return
     if "/" not in header:
-        yield f'includes "{header}": write the folder, "{stage}/{header}"'
+        yield f'includes "{header}": write the folder, "{room}/{header}"'
         return
-    target = header.split("/")[0]
-    if target not in STAGES:
-        yield f"includes {header}: not a stage"
-    elif STAGES.index(target) > STAGES.index(stage):
-        yield f"includes {header}: {target} comes after {stage}"
+    target = header.rsplit("/", 1)[0]
+    if target not in LIBRARY_OF:
+        yield f"includes {header}: not a room"
+    elif not may_include(room, target):
+        yield f"includes {header}: {target} comes after {room}, or belongs to a library that {LIBRARY_OF[room]} does not need"
 
 
 def findings_of(path, text):
@@ -95,8 +125,8 @@ def findings_of(path, text):
     lines = text.splitlines()
     if len(lines) > MAX_LINES:
         yield len(lines), f"{len(lines)} lines; one idea per file, at most {MAX_LINES}"
-    if path.startswith("src/") and stage_of(path) not in STAGES:
-        yield 1, f"not in a folder of the flow: {' '.join(STAGES)}"
+    if path.startswith("src/") and room_of(path) not in LIBRARY_OF:
+        yield 1, f"not in a room: {' '.join(LIBRARY_OF)}"
     for number, line in enumerate(lines, 1):
         include = INCLUDE.match(line)
         if include:
@@ -118,14 +148,22 @@ def sources_of(root):
                 yield path
 
 
-def stages_in_cmake(root):
-    return re.findall(r"^add_stage\((\w+)\)", (root / "CMakeLists.txt").read_text(), flags=re.M)
+def libraries_in_cmake(root):
+    """As LIBRARIES, from the CMakeLists.txt."""
+    found = {}
+    for word, name, rest in re.findall(r"^isoatlas_(library|room)\(([\w/]+)([^)]*)\)", (root / "CMakeLists.txt").read_text(), flags=re.M):
+        if word == "room":
+            found[list(found)[-1]][1].append(name)
+        else:
+            needs = re.search(r"NEEDS ((?:[a-z]+ ?)*)", rest)
+            found[name] = (needs[1].split() if needs else [], [])
+    return found
 
 
 def check(root):
     findings = []
-    if stages_in_cmake(root) != STAGES:
-        findings.append(f"CMakeLists.txt: the stages are {stages_in_cmake(root)}, this test knows {STAGES}")
+    if libraries_in_cmake(root) != LIBRARIES:
+        findings.append(f"CMakeLists.txt: the libraries are {libraries_in_cmake(root)}, this test knows {LIBRARIES}")
     count = 0
     for path in sources_of(root):
         count += 1
@@ -139,11 +177,17 @@ def check(root):
 
 # path, text, how many findings there must be
 SNIPPETS = [
-    ("src/io/a.cpp", '#include "tree/sweep.h"\n', 1),
-    ("src/tree/a.cpp", '#include "io/bytes.h"\n#include "tree/a.h"\n#include "base/check.h"\n#include "isoatlas/volume.h"\n', 0),
-    ("src/base/a.cpp", '#include "io/bytes.h"\n', 1),
+    ("src/critical/a.cpp", '#include "tree/sweep.h"\n', 1),
+    ("src/tree/a.cpp", '#include "critical/bytes.h"\n#include "tree/a.h"\n#include "base/check.h"\n#include "isoatlas/volume.h"\n', 0),
+    ("src/base/a.cpp", '#include "field/bytes.h"\n', 1),
     ("src/base/a.cpp", '#include "check.h"\n', 1),
     ("src/tree/a.cpp", '#include "store/file.h"\n', 1),
+    ("src/formats/volume/a.cpp", '#include "formats/common/a.h"\n#include "mesh/a.h"\n', 0),
+    ("src/formats/volume/a.cpp", '#include "formats/tree/a.h"\n', 1),
+    ("src/render/a.cpp", '#include "mesh/a.h"\n#include "image/a.h"\n', 0),
+    ("src/render/a.cpp", '#include "store/a.h"\n', 1),  # an earlier library that it does not need
+    ("src/server/a.cpp", '#include "formats/volume/a.h"\n', 0),  # needed by one that it needs
+    ("src/verify/a.cpp", '#include "phantom/a.h"\n', 1),
     ("src/critical/a.cpp", "#include <tbb/parallel_for.h>\n", 1),
     ("src/base/parallel.cpp", "#include <tbb/parallel_for.h>\n", 0),
     ("src/zones/a.cpp", "#include <thread>\n", 1),
@@ -169,7 +213,7 @@ SNIPPETS = [
     ("src/tree/a.cpp", "int x;\n" * MAX_LINES, 0),
     ("src/other/a.cpp", "int x;\n", 1),
     ("src/tree/a.cpp", '#include <gtest/gtest.h>\n', 1),
-    ("src/output/a.cpp", "#include <fstream>\n#include <fcntl.h>\n", 2),
+    ("src/formats/mesh/a.cpp", "#include <fstream>\n#include <fcntl.h>\n", 2),
     ("src/base/a.cpp", "#include <fcntl.h>\n", 0),
 ]
 

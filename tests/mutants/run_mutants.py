@@ -13,8 +13,9 @@ import subprocess
 import sys
 import tempfile
 
-STAGES = ("base", "io", "field", "critical", "tree", "zones", "query", "mesh")  # what the probe runs
-FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp")  # and of others
+# What the probe runs: rooms, and files of others.
+ROOMS = ("base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "formats")
+FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp")
 
 
 def parse(path):
@@ -44,7 +45,7 @@ def mutated(source, mutant):
 
 
 def users(src, name):
-    """Translation units of the stages that include src/name, directly or not."""
+    """Translation units of the rooms that include src/name, directly or not."""
     includes = {}
     for file in src.rglob("*"):
         if file.suffix in (".h", ".cpp"):
@@ -57,7 +58,7 @@ def users(src, name):
             continue
         seen.add(current)
         todo += [file for file, included in includes.items() if current in included]
-    return sorted(file for file in seen if file.endswith(".cpp") and (file.split("/")[0] in STAGES or file in FILES))
+    return sorted(file for file in seen if file.endswith(".cpp") and (file.split("/")[0] in ROOMS or file in FILES))
 
 
 def compile_command(commands, src, overlay, unit, output):

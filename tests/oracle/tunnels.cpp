@@ -7,7 +7,7 @@
 #include "critical/bodies.h"
 #include "critical/open_tunnel.h"
 #include "field/cell_loops.h"
-#include "query/active_cells.h"
+#include "levelset/active_cells.h"
 
 namespace oracle {
 namespace {

@@ -9,13 +9,13 @@
 #include <thread>
 
 #include "atlas/overview.h"
+#include "atlas/tree_arrays.h"
 #include "isoatlas/dark_objects.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
 #include "oracle/stores.h"
 #include "store/brick_writer.h"
-#include "store/tree_arrays.h"
 
 namespace oracle {
 namespace {

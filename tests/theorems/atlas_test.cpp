@@ -10,10 +10,10 @@
 #include <fstream>
 #include <thread>
 
+#include "field/brick_grid.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
 #include "oracle/stores.h"
-#include "store/brick_grid.h"
 #include "store/brick_writer.h"
 
 namespace oracle {

@@ -1,5 +1,5 @@
 // Bodies with their cavities filled are those of brute force; boundaries that are sharp at different isovalues are told apart.
-#include "zones/cavity_walls.h"
+#include "features/cavity_walls.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,10 +8,10 @@
 #include <map>
 #include <numeric>
 
+#include "features/noise.h"
 #include "isoatlas/dark_objects.h"
 #include "oracle/difference.h"
 #include "oracle/mesh_checks.h"
-#include "zones/noise.h"
 
 namespace oracle {
 namespace {

@@ -5,13 +5,13 @@
 
 #include <random>
 
+#include "analysis/analysis_data.h"
+#include "atlas/element_form.h"
 #include "critical/bodies.h"
 #include "critical/element_values.h"
 #include "critical/sort_codes.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
-#include "store/element_form.h"
-#include "zones/analysis_data.h"
 
 namespace oracle {
 namespace {

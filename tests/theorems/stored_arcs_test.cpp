@@ -5,6 +5,9 @@
 
 #include <optional>
 
+#include "analysis/analyse.h"
+#include "analysis/analysis_data.h"
+#include "analysis/trees.h"
 #include "base/memory_limit.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
@@ -12,10 +15,7 @@
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 #include "tree/merge_tree.h"
-#include "zones/analyse.h"
-#include "zones/analysis_data.h"
 #include "zones/count_voxels.h"
-#include "zones/trees.h"
 
 namespace oracle {
 namespace {

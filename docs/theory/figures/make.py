@@ -883,7 +883,7 @@ def stable_isovalues():
 
 
 def neighbourhoods(samples, side):
-    """Pairs (mean, variance around the plane that fits best) of 3^3 samples, by ascending mean: as in src/zones/noise_fit.cpp."""
+    """Pairs (mean, variance around the plane that fits best) of 3^3 samples, by ascending mean: as in src/features/noise_fit.cpp."""
     found = []
     offsets = list(itertools.product((-1, 0, 1), repeat=3))
     for z, y, x in itertools.product(range(1, side - 1, 2), repeat=3):

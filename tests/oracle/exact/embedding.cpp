@@ -6,11 +6,11 @@
 #include <map>
 #include <sstream>
 
+#include "formats/common/precision.h"
 #include "isoatlas/isoatlas.h"
 #include "oracle/exact/crossings.h"
 #include "oracle/tunnels.h"
-#include "output/precision.h"
-#include "unit/output/mesh_samples.h"
+#include "unit/formats/mesh/mesh_samples.h"
 
 namespace oracle {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <numeric>
 
+#include "codec/checksum.h"
 #include "faults/memory_files.h"
 #include "isoatlas/error.h"
-#include "store/checksum.h"
 #include "store/pack.h"
 
 namespace isoatlas::store {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "store/frame.h"
+#include "codec/frame.h"
 
 namespace isoatlas::store {
 namespace {

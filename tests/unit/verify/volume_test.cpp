@@ -5,10 +5,10 @@
 
 #include <map>
 
+#include "analysis/analysis_data.h"
 #include "isoatlas/isoatlas.h"
 #include "verify/slice_checks.h"
 #include "verify/tree_checks.h"
-#include "zones/analysis_data.h"
 
 namespace isoatlas {
 namespace {

@@ -1,0 +1,11 @@
+// Criticality: what changes when an isovalue passes a critical element.
+#pragma once
+
+#include <cstdint>
+
+namespace isoatlas {
+
+enum class Criticality : std::uint8_t { maximum, minimum, merge, split, genus, complex };
+[[nodiscard]] const char* name_of(Criticality kind);  ///< "maximum", "minimum", "merge", "split", "genus change", "complex"
+
+}  // namespace isoatlas

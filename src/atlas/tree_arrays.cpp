@@ -1,0 +1,113 @@
+#include "atlas/tree_arrays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/analyse.h"
+#include "analysis/analysis_data.h"
+#include "analysis/trees.h"
+#include "atlas/element_arrays.h"
+#include "store/typed_arrays.h"
+
+namespace isoatlas::store {
+namespace {
+
+constexpr const char* kTowardsOutside = "elements/towards_outside";
+constexpr const char* kVoxels = "elements/voxels";
+
+/// What the trees are made of without looking: values in order.
+template <class Id>
+void check(const AnalysisArrays<Id>& a, const Container& store) {
+    const std::size_t n = a.value.size();
+    if (n == 0) contradiction(store, "there are no critical elements");
+    if (a.code.size() != n) contradiction(store, "arrays of the same things have different lengths");
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(i == 0 || a.value[i] <= a.value[i - 1]) || std::isnan(a.value[i])) contradiction(store, "values do not descend");
+    }
+}
+
+template <class Id>
+std::unique_ptr<IndexedArrays<Id>> read_arcs(const Container& store, const std::byte* samples, const Context& context) {
+    auto result = std::make_unique<IndexedArrays<Id>>();
+    AnalysisArrays<Id>& arrays = result->arrays;
+    read_elements<Id>(store, samples, context, arrays.code, arrays.value);
+    read_array(store, kTowardsOutside, type_name<Id>(), arrays.contours.other);
+    check(arrays, store);
+    return result;
+}
+
+/// With voxel counts.
+Analysis with_trees(const Container& store, const std::byte* samples, const Context& context) {
+    Analysis analysis = arcs_of(store, samples, context);
+    analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
+        AnalysisArrays<Id>& arrays = held.arrays;
+        if (!restore_trees(arrays, store.contents().volume.extent.rank, context)) contradiction(store, "the contour tree is none");
+        read_array(store, kVoxels, type_name<Id>(), arrays.element_voxels);
+        if (arrays.element_voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
+        add_up_voxels(arrays);
+        release(arrays.element_voxels);
+    });
+    return analysis;
+}
+
+}  // namespace
+
+std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads) {
+    std::vector<PackedArray> packs;
+    analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
+        const AnalysisArrays<Id>& arrays = held.arrays;
+        packs = element_arrays<Id>(arrays.value, arrays.code, volume, threads);
+        packs.push_back(packed_chunks<Id>(kTowardsOutside, type_name<Id>(), std::span<const Id>(arrays.contours.other)));
+    });
+    return packs;
+}
+
+std::vector<PackedArray> zone_arrays(const Analysis& analysis) {
+    return analysis.data().visit([]<class Id>(const IndexedArrays<Id>& held) -> std::vector<PackedArray> {
+        return {packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.element_voxels))};
+    });
+}
+
+std::vector<PackedArray> copied_arrays(const Container& store) {
+    std::vector<PackedArray> packs;
+    for (const StoredArray& array : store.contents().arrays) {
+        packs.push_back({array.name, array.type, array.shape, array.block, [&store, &array](const Put& put) {
+                             std::vector<std::byte> part;
+                             for (std::int64_t first = 0; first < array.bytes(); first += array.block) {
+                                 part.resize(static_cast<std::size_t>(std::min(array.block, array.bytes() - first)));
+                                 store.read(array, first, part);
+                                 put(part);
+                             }
+                         }});
+        if (array.chunk == 0) continue;
+        packs.back().chunk = array.chunk;
+        packs.back().feed_chunks = [&store, &array](const Put& put) { store.for_each_chunk(array, put); };
+    }
+    return packs;
+}
+
+Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context) {
+    const Contents& contents = store.contents();
+    auto data = std::make_unique<Analysis::Data>();
+    data->extent = contents.volume.extent;
+    data->interpolant = contents.parameters.interpolant;
+    data->tunnel_height = contents.parameters.tunnel_height;
+    const bool is_wide = std::any_of(contents.arrays.begin(), contents.arrays.end(),
+                                     [](const StoredArray& a) { return a.name == kTowardsOutside && a.type == "uint64"; });
+    if (is_wide) {
+        data->arrays = read_arcs<std::uint64_t>(store, samples, context);
+    } else {
+        data->arrays = read_arcs<std::uint32_t>(store, samples, context);
+    }
+    return Analysis(std::move(data));
+}
+
+Analysis analysis_of(const Container& store, const Context& context) { return with_trees(store, nullptr, context); }
+
+Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, const Context& context) {
+    Analysis analysis = with_trees(store, volume.bytes, context);
+    if (!add_zones(analysis, volume, context)) contradiction(store, "the trees are not those of the samples");
+    return analysis;
+}
+
+}  // namespace isoatlas::store

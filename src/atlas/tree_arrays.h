@@ -1,0 +1,36 @@
+// An analysis as arrays of a store, and back.
+//
+//   elements/value, place, form the critical elements (atlas/element_arrays.h)
+//   elements/towards_outside    the contour tree (tree/contour_tree.h): per element the other end of its arc; one node more, the outside
+//   elements/voxels             per critical element: voxels that belong to it (zones/count_voxels.h); those of an event are its zone
+//
+// Levels, genera, events and their measures follow from the first four and are made when they are read. Ids are uint32, or uint64 where
+// the engine needs them. Zones of voxels are not stored.
+#pragma once
+
+#include <vector>
+
+#include "field/volume_view.h"
+#include "isoatlas/analysis.h"
+#include "store/container.h"
+#include "store/pack.h"
+
+namespace isoatlas::store {
+
+/// Of find_arcs(), and of count_voxels() (analysis/analyse.h). The analysis must live until they are packed.
+[[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads);
+[[nodiscard]] std::vector<PackedArray> zone_arrays(const Analysis& analysis);
+
+/// All arrays of another store, which must live until they are packed.
+[[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
+
+/// What find_arcs() gave. samples: of the volume, x fastest; null: those of the store, which are read where elements are many. Throws
+/// Error: input (arrays contradict each other), cancelled. Cost: reads them.
+[[nodiscard]] Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context);
+/// The analysis of a store, without zones of voxels. Throws Error: input (arrays contradict each other), cancelled. Cost: reads all of
+/// them, O(n alpha).
+[[nodiscard]] Analysis analysis_of(const Container& store, const Context& context);
+/// The same with zones. volume: all samples of the store. Cost: and add_zones() (analysis/analyse.h).
+[[nodiscard]] Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, const Context& context);
+
+}  // namespace isoatlas::store

@@ -1,0 +1,31 @@
+// The classes of the samples of one brick, as bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "field/brick_grid.h"
+#include "levelset/high_bits.h"
+
+namespace isoatlas {
+
+inline constexpr std::int64_t kBrickRows = store::kBrickSize[1] * store::kBrickSize[2];
+
+/// Bit x of row y + 8 z: is the sample High? Beyond the size of a smaller brick: zeros.
+using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)>;
+
+/// samples: of the place of a brick (bricks/brick_layout.h), row after row, all slices that bricks of the grid have. least: of the Highs.
+/// T: a sample type.
+template <class T>
+[[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T least);
+
+/// Writes them where the brick lies, over what is there.
+void put_brick(const BrickBits& bits, const store::Box& box, HighBits& high);
+
+/// Layers of a brick along each axis that have Highs, that have Lows; what lies beyond a smaller brick is Low.
+struct BrickSides {
+    std::array<std::uint16_t, 3> high{}, low{};
+};
+[[nodiscard]] BrickSides sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size);
+
+}  // namespace isoatlas

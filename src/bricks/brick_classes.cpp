@@ -1,0 +1,135 @@
+#include "bricks/brick_classes.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "bricks/brick_surroundings.h"
+
+namespace isoatlas {
+
+using store::Box;
+using store::BrickGrid;
+
+namespace {
+
+/// Are the bits [begin, end) of a row all equal to `high`? At most 64 of them.
+bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, bool high) {
+    const std::int64_t w = begin / 64, skip = begin % 64;
+    const std::uint64_t bits = skip == 0 ? row[w] : row[w] >> skip | row[w + 1] << (64 - skip);
+    const std::uint64_t mask = ~std::uint64_t{0} >> (64 - (end - begin));
+    return (bits & mask) == (high ? mask : 0);
+}
+
+/// Samples of a box that face one in direction d along an axis: the first one before it, all of them, the first one behind it.
+std::array<std::int64_t, 2> facing(const Box& box, int axis, std::int64_t d) {
+    if (d < 0) return {box.begin[axis] - 1, box.begin[axis]};
+    return d == 0 ? std::array{box.begin[axis], box.end[axis]} : std::array{box.end[axis], box.end[axis] + 1};
+}
+
+/// Are there samples of the other class among those of a divided brick that lie in a cell with one of a brick, which it touches along an
+/// edge or in a corner?
+bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::array<std::int64_t, 3>& d) {
+    const auto xs = facing(box, 0, d[0]), ys = facing(box, 1, d[1]), zs = facing(box, 2, d[2]);
+    for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
+        for (std::int64_t y = ys[0]; y < ys[1]; ++y) {
+            if (!all_equal(high.row(y, z), xs[0] + 1, xs[1] + 1, own)) return true;  // position p is voxel p - 1
+        }
+    }
+    return false;
+}
+
+/// Layers of a brick, as bits, that lie at most `steps` from what lies in direction -d of it.
+std::uint16_t near_layers(std::size_t axis, std::int64_t d, int steps) {
+    const int first = (1 << steps) - 1;
+    return static_cast<std::uint16_t>(d > 0 ? first : first << (store::kBrickSize[axis] - steps));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vector<BrickClass>& classes) {
+    constexpr std::uint8_t kLow = 1, kHigh = 2;
+    std::vector<std::uint8_t> has(classes.size());
+    std::transform(classes.begin(), classes.end(), has.begin(), [](BrickClass own) {
+        return own == BrickClass::divided ? kLow | kHigh : own == BrickClass::high ? kHigh : kLow;
+    });
+    std::vector<std::uint8_t> touching = with_neighbours(grid, has, kLow);
+    for (std::size_t b = 0; b < touching.size(); ++b) touching[b] = classes[b] != BrickClass::divided && touching[b] != has[b];
+    return touching;
+}
+
+bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides, std::int64_t brick) {
+    const BrickGrid& grid = bricks.grid;
+    const BrickClass own = bricks.classes[static_cast<std::size_t>(brick)];
+    const std::array<std::int64_t, 3> place = grid.place(brick);
+    const Box box = grid.box(brick);
+    const auto is_beside = [&](const std::array<std::int64_t, 3>& d) {
+        std::array<std::int64_t, 3> at;
+        int axes = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[axis] = place[axis] + d[axis];
+            axes += d[axis] != 0;
+            if (at[axis] < 0 || at[axis] >= grid.size[axis]) return own == BrickClass::high;  // outside is Low
+        }
+        const auto other = static_cast<std::size_t>(grid.brick(at));
+        if (bricks.classes[other] != BrickClass::divided) return bricks.classes[other] != own;
+        const auto& layers = own == BrickClass::high ? sides[other].low : sides[other].high;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int steps = axes == 1 ? static_cast<int>(kSurroundings) : 1;
+            if (d[axis] != 0 && (layers[axis] & near_layers(axis, d[axis], steps)) == 0) return false;
+        }
+        return axes == 1 || meets_in_cell(high, box, own == BrickClass::high, d);
+    };
+    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
+    for (std::int64_t z = -flat; z <= flat; ++z) {
+        for (std::int64_t y = -1; y <= 1; ++y) {
+            for (std::int64_t x = -1; x <= 1; ++x) {
+                if ((x != 0 || y != 0 || z != 0) && is_beside({x, y, z})) return true;
+            }
+        }
+    }
+    return false;
+}
+
+std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
+                                         int threads) {
+    std::vector<std::uint8_t> wanted = touching_others(bricks.grid, bricks.classes);
+    for_bricks(bricks.grid, threads, [&](std::int64_t b) {
+        const auto i = static_cast<std::size_t>(b);
+        if (wanted[i]) wanted[i] = is_beside_surface(high, bricks, sides, b);
+    });
+    return flagged(wanted);
+}
+
+std::vector<std::uint8_t> with_neighbours(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside) {
+    const std::size_t axes = grid.extent.rank == 2 ? 2 : 3;
+    std::size_t stride = 1;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+        const std::vector<std::uint8_t> before = flags;
+        const auto size = static_cast<std::size_t>(grid.size[axis]), line = stride * size;
+        for (std::size_t first = 0; first < flags.size(); first += line) {
+            const auto add = [&](std::size_t i, std::size_t from) { flags[first + i] |= before[first + from]; };
+            for (std::size_t i = 0; i < stride; ++i) flags[first + i] |= outside, flags[first + line - stride + i] |= outside;
+            for (std::size_t i = stride; i < line; ++i) add(i, i - stride);
+            for (std::size_t i = 0; i + stride < line; ++i) add(i, i + stride);
+        }
+        stride = line;
+    }
+    return flags;
+}
+
+std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags) {
+    std::vector<std::int64_t> list;
+    for (std::size_t b = 0; b < flags.size(); ++b) {
+        if (flags[b]) list.push_back(static_cast<std::int64_t>(b));
+    }
+    return list;
+}
+
+void for_bricks(const BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit) {
+    const std::int64_t layer = grid.size[0] * grid.size[1];
+    for_each_block(threads, grid.size[2], [&](std::int64_t z) {
+        for (std::int64_t b = z * layer; b < (z + 1) * layer; ++b) visit(b);
+    });
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,39 @@
+// The classes of whole bricks and of rows of a brick, as bits.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bricks/brick_bits.h"
+#include "levelset/high_bits.h"
+
+namespace isoatlas {
+
+/// Sets bits [p, p + 16) of a row of classes; positions as in HighBits.
+inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
+    row[p / 64] |= bits << p % 64;
+    if (p % 64 > 48) row[p / 64 + 1] |= bits >> (64 - p % 64);
+}
+
+/// Which bricks are High or Low as a whole, and beside a brick of another class or, if High, at an end of the grid?
+[[nodiscard]] std::vector<std::uint8_t> touching_others(const store::BrickGrid& grid, const std::vector<BrickClass>& classes);
+
+/// Of a brick that touches others: is there something else among the samples around it that matter (bricks/brick_surroundings.h)? sides: of
+/// the divided bricks.
+[[nodiscard]] bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
+                                     std::int64_t brick);
+/// All of these.
+[[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks,
+                                                       const std::vector<BrickSides>& sides, int threads);
+
+/// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
+[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const store::BrickGrid& grid, std::vector<std::uint8_t> flags,
+                                                        std::uint8_t outside = 0);
+
+/// The numbers of the flagged bricks.
+[[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);
+
+/// Calls visit(brick) for all bricks, a layer at a time.
+void for_bricks(const store::BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit);
+
+}  // namespace isoatlas

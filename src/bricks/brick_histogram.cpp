@@ -1,0 +1,71 @@
+#include "bricks/brick_histogram.h"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+#include "base/sample_types.h"
+
+namespace isoatlas {
+namespace {
+
+/// Which of the parts between edges a value lies in: 0 before the first edge, edges.size() behind the last.
+std::size_t part_of(std::span<const double> edges, double value) {
+    if (value == edges.back()) return edges.size() - 1;
+    return static_cast<std::size_t>(std::ranges::upper_bound(edges, value) - edges.begin());
+}
+
+/// The same for samples: looked up for those of few bits.
+template <class T>
+class PartOf {
+public:
+    explicit PartOf(std::span<const double> edges) : edges_(edges) {
+        if constexpr (kFew) {
+            for (int value = Limits::min(); value <= Limits::max(); ++value)
+                of_.push_back(static_cast<std::uint32_t>(part_of(edges, value)));
+        }
+    }
+    std::size_t operator()(T sample) const {
+        if constexpr (kFew) return of_[static_cast<std::size_t>(sample - Limits::min())];
+        return part_of(edges_, static_cast<double>(sample));
+    }
+
+private:
+    using Limits = std::numeric_limits<T>;
+    static constexpr bool kFew = Limits::is_integer && sizeof(T) <= 2;
+
+    std::span<const double> edges_;
+    std::vector<std::uint32_t> of_;
+};
+
+}  // namespace
+
+template <class T>
+std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, std::span<const double> edges, const Context& context,
+                                          store::IoCounters& counters) {
+    std::vector<std::int64_t> counts(edges.size() + 1), wanted;
+    for (std::int64_t b = 0; b < bricks.grid().count(); ++b) {
+        const std::size_t part = part_of(edges, static_cast<double>(bricks.low(b)));
+        if (part == part_of(edges, static_cast<double>(bricks.high(b))))
+            counts[part] += bricks.grid().box(b).count();
+        else
+            wanted.push_back(b);
+    }
+    const PartOf<T> part(edges);
+    std::mutex mutex;
+    counters += bricks.read(std::move(wanted), context, [&](std::int64_t, std::span<const T> samples) {
+        std::vector<std::int64_t> own(counts.size());
+        for (const T sample : samples) ++own[part(sample)];
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < own.size(); ++i) counts[i] += own[i];
+    });
+    return {counts.begin() + 1, counts.end() - 1};
+}
+
+#define ISOATLAS_INSTANTIATE(T)                                                                                                  \
+    template std::vector<std::int64_t> brick_histogram<T>(const store::BrickReader<T>&, std::span<const double>, const Context&, \
+                                                          store::IoCounters&);
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
+
+}  // namespace isoatlas

@@ -1,0 +1,59 @@
+#include "bricks/bricks_in_view.h"
+
+#include <algorithm>
+
+#include "bricks/brick_classes.h"
+
+namespace isoatlas {
+namespace {
+
+using store::BrickGrid;
+using store::kBrickSize;
+
+/// Between what the values in the cells of a brick lie: those at its end have corners in the next bricks.
+std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, const std::vector<std::array<double, 2>>& ranges) {
+    const std::array<std::int64_t, 3> first = grid.place(brick);
+    std::array<double, 2> all = ranges[brick];
+    for (int corner = 1; corner < 8; ++corner) {
+        std::array<std::int64_t, 3> place = first;
+        for (int a = 0; a < 3; ++a) place[a] = std::min(place[a] + (corner >> a & 1), grid.size[a] - 1);
+        const auto& [low, high] = ranges[grid.brick(place)];
+        all = {std::min(all[0], low), std::max(all[1], high)};
+    }
+    return all;
+}
+
+void flag_box(const BrickGrid& grid, const SampleBox& box, std::vector<std::uint8_t>& flags) {
+    std::array<std::int64_t, 3> begin{}, end{};
+    for (int a = 0; a < 3; ++a) {
+        begin[a] = std::max<std::int64_t>(0, box.begin[a]) / kBrickSize[a];
+        end[a] = std::min(grid.size[a], (box.end[a] + kBrickSize[a] - 1) / kBrickSize[a]);
+    }
+    for (std::int64_t z = begin[2]; z < end[2]; ++z) {
+        for (std::int64_t y = begin[1]; y < end[1]; ++y) {
+            for (std::int64_t x = begin[0]; x < end[0]; ++x) flags[grid.brick({x, y, z})] = 1;
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> bricks_in_view(const BrickGrid& grid, const SamplesWanted& wanted,
+                                         const std::function<std::array<double, 2>(std::int64_t)>& range) {
+    std::vector<std::uint8_t> flags(static_cast<std::size_t>(grid.count()));
+    if (!wanted.values.empty()) {
+        std::vector<std::array<double, 2>> ranges(flags.size());
+        for (std::int64_t b = 0; b < grid.count(); ++b) ranges[b] = range(b);
+        for (std::int64_t b = 0; b < grid.count(); ++b) {
+            const std::array<double, 2> cells = range_of_cells(grid, b, ranges);
+            flags[b] = std::any_of(wanted.values.begin(), wanted.values.end(),
+                                   [&](const std::array<double, 2>& values) { return cells[1] >= values[0] && cells[0] <= values[1]; });
+        }
+        // Whatever lies within a few samples of a cell lies in the bricks around: those that have others behind them are whole.
+        flags = with_neighbours(grid, std::move(flags));
+    }
+    for (const SampleBox& box : wanted.boxes) flag_box(grid, box, flags);
+    return flags;
+}
+
+}  // namespace isoatlas

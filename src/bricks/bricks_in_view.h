@@ -1,0 +1,18 @@
+// Which bricks a picture needs.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "field/brick_grid.h"
+#include "isoatlas/atlas.h"
+
+namespace isoatlas {
+
+/// Flags of the bricks that hold what is wanted. range: lowest and highest sample of a brick.
+/// Cost: O(bricks * ranges).
+[[nodiscard]] std::vector<std::uint8_t> bricks_in_view(const store::BrickGrid& grid, const SamplesWanted& wanted,
+                                                       const std::function<std::array<double, 2>(std::int64_t)>& range);
+
+}  // namespace isoatlas

@@ -1,0 +1,376 @@
+#include "bricks/stored_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/prefetch.h"
+#include "bricks/brick_classes.h"
+#include "bricks/brick_histogram.h"
+#include "bricks/brick_layout.h"
+#include "bricks/brick_part.h"
+#include "bricks/brick_samples.h"
+#include "isoatlas/error.h"
+#include "levelset/threshold.h"
+
+namespace isoatlas {
+namespace {
+
+using store::Box;
+using store::BrickGrid;
+using store::BrickReader;
+using store::IoCounters;
+using store::kBrickRow;
+
+template <class T>
+class Samples final : public StoredSamples {
+public:
+    Samples(const store::Container& store, std::int64_t cache_bytes)
+        : info_(store.contents().volume),
+          bricks_(store),
+          grid_(bricks_.grid()),
+          layout_(grid_),
+          array_(static_cast<std::size_t>(layout_.first_sample(grid_.count())) * sizeof(T)),
+          cache_(grid_.count(), layout_.samples_of_brick() * static_cast<std::int64_t>(sizeof(T)), array_, cache_bytes, mutex_) {}
+
+    [[nodiscard]] SampleView view() const override { return {info_, array_.data(), layout_.by_voxel()}; }
+
+    [[nodiscard]] StoredLevel classify(double tau, const Context& context, LevelQuery& query) override {
+        require_finite(tau);
+        const std::lock_guard lock(mutex_);
+        const Threshold<T> threshold = threshold_for<T>(tau);
+        return classify_part(BrickPart(grid_), threshold, context, query).level;
+    }
+
+    std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) override {
+        require_finite(tau);
+        const std::lock_guard lock(mutex_);
+        const Threshold<T> threshold = threshold_for<T>(tau);
+        const std::optional<double> before = std::exchange(kept.tau, tau);
+        if (!kept.level) {
+            Classified all = classify_part(BrickPart(grid_), threshold, context, query);
+            kept.beside.assign(all.level.bricks.classes.size(), 0);
+            for (const std::int64_t b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
+            kept.level = std::move(all.level);
+            kept.sides = std::move(all.sides);
+            return grid_.count();
+        }
+        auto& [high, bricks] = *kept.level;
+        bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
+        high.set_busy(bricks);
+        hold(divided_bricks(BrickPart(grid_), bricks), context, query);
+        const std::vector<std::uint8_t> changed = bricks_between(threshold_for<T>(*before), threshold);
+        refill(changed, bricks.classes, threshold.least, context.threads, kept);
+        const std::vector<std::uint8_t> near = with_neighbours(grid_, changed);
+        const std::vector<std::uint8_t> touching = touching_others(grid_, bricks.classes);
+        for_bricks(grid_, context.threads, [&](std::int64_t b) {
+            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, bricks, kept.sides, b);
+        });
+        hold(flagged(kept.beside), context, query);
+        return std::count(changed.begin(), changed.end(), std::uint8_t{1});
+    }
+
+    void add_extremes(LevelBricks& bricks, const Context& context) const override {
+        add_extremes(BrickPart(grid_), context.threads, bricks);
+    }
+
+    [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
+
+    [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) override {
+        LevelQuery own;  // what is copied need not be held; ends after the lock
+        const std::lock_guard lock(mutex_);
+        const Threshold<T> threshold = threshold_for<T>(tau);
+        const BrickPart part(grid_, bricks);
+        Classified classified = classify_part(part, threshold, context, own);
+        StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
+        result.info.extent = part.grid.extent;
+        add_extremes(part, 1, result.level.bricks);
+        result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
+        for (const std::int64_t b : classified.needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
+        query += own;
+        query.visited += own.visited;
+        return result;
+    }
+
+    [[nodiscard]] Foreseen foresee(double tau) const override {
+        const LevelBricks bricks = bricks_of(BrickPart(grid_), threshold_for<T>(tau), 1);
+        const std::vector<std::int64_t> beside = flagged(touching_others(grid_, bricks.classes));
+        const IoCounters least = bricks_.cost_of(divided_bricks(BrickPart(grid_), bricks));
+        Foreseen foreseen{least, least};
+        foreseen.most += bricks_.most_of_part(beside);
+        return foreseen;
+    }
+
+    [[nodiscard]] std::array<double, 2> range() const override {
+        T low = bricks_.low(0), high = bricks_.high(0);
+        for (std::int64_t b = 1; b < grid_.count(); ++b) low = std::min(low, bricks_.low(b)), high = std::max(high, bricks_.high(b));
+        return {static_cast<double>(low), static_cast<double>(high)};
+    }
+
+    [[nodiscard]] std::array<double, 2> range(std::int64_t brick) const override {
+        return {static_cast<double>(bricks_.low(brick)), static_cast<double>(bricks_.high(brick))};
+    }
+
+    [[nodiscard]] double sample(std::int64_t voxel, IoCounters& counters) override {
+        LevelQuery query;  // ends after the lock
+        const std::lock_guard lock(mutex_);
+        const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);
+        Context alone;
+        alone.threads = 1;
+        load({grid_.brick(BrickGrid::place_of(at))}, alone, query);
+        counters += query;
+        return static_cast<double>(samples()[layout_.by_voxel().at(at[0], at[1], at[2])]);
+    }
+
+    void read_all(std::span<std::byte> out, const Context& context, IoCounters& counters) override {
+        counters += bricks_.read_all(std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), context);
+    }
+
+    void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
+        T* whole = reinterpret_cast<T*>(out.data());
+        std::vector<std::int64_t> wanted;
+        for (std::int64_t b = 0; b < grid_.count(); ++b) {
+            if (bricks[b] != 0) wanted.push_back(b);
+        }
+        for_bricks(grid_, context.threads, [&](std::int64_t b) {
+            if (bricks[b] == 0) fill_with(bricks_.low(b), grid_.box(b), whole);
+        });
+        counters += bricks_.read_into(whole, std::move(wanted), context);
+    }
+
+    void read_box(const Box& box, std::int64_t step, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
+        read_samples(bricks_, box, step, context, std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), counters);
+    }
+
+    void read_means(std::int64_t step, std::int64_t layer, std::span<float> out, const Context& context, IoCounters& counters) override {
+        isoatlas::read_means(bricks_, step, layer, context, out, counters);
+    }
+
+    std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context, IoCounters& counters) override {
+        return brick_histogram(bricks_, edges, context, counters);
+    }
+
+    void check(const Context& context) const override { bricks_.check(context); }
+
+    void clear() override {
+        const std::lock_guard lock(mutex_);
+        cache_.clear();
+    }
+
+    [[nodiscard]] std::int64_t present_bytes() const override {
+        const std::lock_guard lock(mutex_);
+        return cache_.bytes();
+    }
+
+private:
+    [[nodiscard]] T* samples() { return reinterpret_cast<T*>(array_.data()); }
+
+    /// The samples of a brick, from how they are coded to its place.
+    void place(std::int64_t brick, std::span<const T> values) {
+        if (static_cast<std::int64_t>(values.size()) == layout_.samples_of_brick()) {
+            std::copy(values.begin(), values.end(), samples() + layout_.first_sample(brick));
+            return;
+        }
+        const std::array<std::int64_t, 3> size = grid_.box(brick).size();
+        const T* from = values.data();
+        for (std::int64_t z = 0; z < size[2]; ++z) {
+            for (std::int64_t y = 0; y < size[1]; ++y, from += size[0]) std::copy_n(from, size[0], samples() + layout_.row(brick, y, z));
+        }
+    }
+
+    static void require_finite(double tau) {
+        if (std::isfinite(tau)) return;
+        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
+    }
+
+    /// Of bricks in ascending order, for those that lie side by side at once.
+    void take_memory(const std::vector<std::int64_t>& bricks, int threads) {
+        constexpr std::int64_t kTogether = 1024;
+        const auto count = static_cast<std::int64_t>(bricks.size());
+        for_each_block(threads, (count + kTogether - 1) / kTogether, [&](std::int64_t block) {
+            const std::int64_t end = std::min((block + 1) * kTogether, count);
+            for (std::int64_t i = block * kTogether; i < end;) {
+                std::int64_t next = i + 1;
+                while (next < end && bricks[next] == bricks[next - 1] + 1) ++next;
+                array_.take(static_cast<std::size_t>(layout_.first_sample(bricks[i])) * sizeof(T),
+                            static_cast<std::size_t>(layout_.first_sample(next - i)) * sizeof(T));
+                i = next;
+            }
+        });
+    }
+
+    /// Makes bricks present; the query holds them.
+    void load(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
+        const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
+        try {
+            take_memory(missing, context.threads);
+            query += bricks_.read(missing, context, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
+        } catch (...) {
+            cache_.abandon(missing);
+            throw;
+        }
+        cache_.settle(missing);
+    }
+    /// The same, and the query looks at them.
+    void hold(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
+        load(wanted, context, query);
+        for (const std::int64_t b : wanted) query.visited += grid_.box(b).count();
+    }
+
+    [[nodiscard]] BrickClass class_of(std::int64_t brick, const Threshold<T>& threshold) const {
+        if (threshold.none_high || bricks_.high(brick) < threshold.least) return BrickClass::low;
+        return bricks_.low(brick) >= threshold.least ? BrickClass::high : BrickClass::divided;
+    }
+
+    struct Classified {
+        StoredLevel level;
+        std::vector<BrickSides> sides;     ///< of the divided bricks
+        std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
+    };
+
+    Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
+        LevelBricks around = bricks_of(part, threshold, context.threads);
+        HighBits bits(around);
+        Classified result{{std::move(bits), std::move(around)}, std::vector<BrickSides>(static_cast<std::size_t>(part.grid.count())), {}};
+        auto& [high, bricks] = result.level;
+        result.needed = divided_bricks(part, bricks);
+        hold(result.needed, context, query);
+        fill(high, part, bricks.classes, threshold.least, context.threads, result.sides);
+        std::vector<std::int64_t> beside = beside_surface(high, bricks, result.sides, context.threads);
+        for (std::int64_t& b : beside) b = part.number(b);
+        hold(beside, context, query);
+        result.needed.insert(result.needed.end(), beside.begin(), beside.end());
+        return result;
+    }
+
+    /// Numbers in the whole grid.
+    static std::vector<std::int64_t> divided_bricks(const BrickPart& part, const LevelBricks& bricks) {
+        std::vector<std::int64_t> divided;
+        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+            if (bricks.classes[b] == BrickClass::divided) divided.push_back(part.number(b));
+        }
+        return divided;
+    }
+
+    /// Which bricks have a sample that one isovalue calls High and the other one Low?
+    [[nodiscard]] std::vector<std::uint8_t> bricks_between(Threshold<T> low, Threshold<T> high) const {
+        if (low.none_high || (!high.none_high && high.least < low.least)) std::swap(low, high);
+        std::vector<std::uint8_t> between(static_cast<std::size_t>(grid_.count()));
+        if (low.none_high || (!high.none_high && low.least == high.least)) return between;
+        for (std::int64_t b = 0; b < grid_.count(); ++b)
+            between[b] = bricks_.high(b) >= low.least && (high.none_high || bricks_.low(b) < high.least);
+        return between;
+    }
+
+    void refill(const std::vector<std::uint8_t>& changed, const std::vector<BrickClass>& classes, T least, int threads, KeptLevel& kept) {
+        HighBits& high = kept.level->high;
+        for_each_block(threads, grid_.size[1] * grid_.size[2], [&](std::int64_t row_of_bricks) {
+            for (std::int64_t b = row_of_bricks * grid_.size[0]; b < (row_of_bricks + 1) * grid_.size[0]; ++b) {
+                if (!changed[b]) continue;
+                const Box box = grid_.box(b);
+                if (classes[b] == BrickClass::divided)
+                    kept.sides[b] = fill_brick(high, box, b, least);
+                else
+                    put_brick(classes[b] == BrickClass::high ? all_high(box) : BrickBits{}, box, high);
+            }
+        });
+    }
+    static BrickBits all_high(const Box& box) {
+        BrickBits bits;
+        bits.fill(static_cast<std::uint16_t>(0xffff >> (kBrickRow - box.size(0))));
+        return bits;
+    }
+
+    /// What the numbers of the bricks say.
+    [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold, int threads) const {
+        LevelBricks bricks{part.grid, std::vector<BrickClass>(static_cast<std::size_t>(part.grid.count())), {}, {}};
+        for_bricks(part.grid, threads, [&](std::int64_t b) { bricks.classes[b] = class_of(part.number(b), threshold); });
+        return bricks;
+    }
+    void add_extremes(const BrickPart& part, int threads, LevelBricks& bricks) const {
+        bricks.highest.resize(bricks.classes.size());
+        bricks.lowest.resize(bricks.classes.size());
+        for_bricks(part.grid, threads, [&](std::int64_t b) {
+            const std::int64_t brick = part.number(b);
+            if (bricks.classes[b] != BrickClass::low)
+                bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
+            if (bricks.classes[b] != BrickClass::high)
+                bricks.lowest[b] = {part.voxel(bricks_.lowest_voxel(brick)), static_cast<double>(bricks_.low(brick))};
+        });
+    }
+
+    void fill_with(T value, const Box& box, T* whole) const {
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y)
+                std::fill_n(whole + grid_.extent.index(box.begin[0], y, z), box.size(0), value);
+        }
+    }
+
+    void copy_brick(std::int64_t brick, const BrickPart& part, T* to) {
+        const Box box = grid_.box(brick);
+        const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+                const std::int64_t at = part.grid.extent.index(box.begin[0] - part.origin[0], y - part.origin[1], z - part.origin[2]);
+                std::memcpy(to + at, samples() + layout_.row(brick, y - box.begin[1], z - box.begin[2]), bytes);
+            }
+        }
+    }
+
+    void fill(HighBits& high, const BrickPart& part, const std::vector<BrickClass>& classes, T least, int threads,
+              std::vector<BrickSides>& sides) {
+        const BrickGrid& grid = part.grid;
+        for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
+            const std::int64_t first = row_of_bricks * grid.size[0];
+            const Box box = grid.box(first);
+            std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
+            for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+                if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones(grid, i));
+            }
+            for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+                for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) std::copy(whole.begin(), whole.end(), high.row(y, z));
+            }
+            for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+                if (classes[first + i] != BrickClass::divided) continue;
+                if (i + 1 < grid.size[0] && classes[first + i + 1] == BrickClass::divided) prefetch_brick(part.number(first + i + 1));
+                sides[first + i] = fill_brick(high, grid.box(first + i), part.number(first + i), least);
+            }
+        });
+    }
+
+    /// A bit for every sample of a row of brick i of an axis.
+    static std::uint64_t ones(const BrickGrid& grid, std::int64_t i) {
+        return 0xffff >> (kBrickRow - std::min(kBrickRow, grid.extent.size[0] - i * kBrickRow));
+    }
+
+    void prefetch_brick(std::int64_t brick) {
+        constexpr std::int64_t kLine = 64 / static_cast<std::int64_t>(sizeof(T));
+        const T* const place = samples() + layout_.first_sample(brick);
+        for (std::int64_t i = 0; i < layout_.samples_of_brick(); i += kLine) prefetch(place + i);
+    }
+    /// box: of the brick in the part that `high` belongs to.
+    BrickSides fill_brick(HighBits& high, const Box& box, std::int64_t brick, T least) {
+        const BrickBits bits = bits_of_brick(samples() + layout_.first_sample(brick), box.size(), least);
+        put_brick(bits, box, high);
+        return sides_of(bits, box.size());
+    }
+
+    VolumeInfo info_;
+    BrickReader<T> bricks_;
+    const BrickGrid& grid_;
+    BrickLayout layout_;
+    VirtualArray array_;
+    mutable std::mutex mutex_;
+    BrickCache cache_;
+};
+
+}  // namespace
+
+std::unique_ptr<StoredSamples> stored_samples(const store::Container& store, std::int64_t cache_bytes) {
+    return visit_type(store.contents().volume.type,
+                      [&]<class T>(T) -> std::unique_ptr<StoredSamples> { return std::make_unique<Samples<T>>(store, cache_bytes); });
+}
+
+}  // namespace isoatlas

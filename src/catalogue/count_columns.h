@@ -1,0 +1,30 @@
+// Counts over the isovalue, thinned to what can be drawn.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "catalogue/page_axis.h"
+#include "isoatlas/analysis.h"
+#include "isoatlas/spectrum.h"
+
+namespace isoatlas::page {
+
+/// For isovalues in (low, high] the counts take their values between least and most, both of them.
+struct CountColumn {
+    double low, high;  ///< stored values
+    LevelCounts least, most, essential_least, essential_most;
+};
+
+/// Columns by ascending isovalue that cover the part of `intervals` (as in Spectrum) that lies in (low, scale.high]. When there are at most
+/// so many intervals, they are the columns and least equals most; else the columns are equally wide on the axis: drawn with a column a
+/// pixel they look as all intervals would (Jugel et al., M4, 2014). Cost: O(intervals + columns).
+[[nodiscard]] std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> intervals, double low, const AxisScale& scale,
+                                                     std::int64_t columns);
+
+/// What the object of a branch is like for every isovalue: the intervals (merges, appears] from the event at which the branch begins down,
+/// counts of one object in `all`. Cost: O(events of the branch).
+[[nodiscard]] std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::int64_t branch_top, double merges);
+
+}  // namespace isoatlas::page

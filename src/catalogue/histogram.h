@@ -1,0 +1,20 @@
+// How many samples have which value.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "catalogue/page_axis.h"
+#include "isoatlas/atlas.h"
+
+namespace isoatlas::page {
+
+struct Histogram {
+    std::vector<double> edges;         ///< ascending
+    std::vector<std::int64_t> counts;  ///< one less, as in Atlas::histogram()
+};
+
+/// Integers of a range of at most 256 have a bin for every value, else there are 160 bins, equally wide on the axis.
+[[nodiscard]] Histogram make_histogram(const Atlas& atlas, const AxisScale& scale, const Context& context = {});
+
+}  // namespace isoatlas::page

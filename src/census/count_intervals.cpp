@@ -1,0 +1,91 @@
+#include "census/count_intervals.h"
+
+#include <limits>
+
+namespace isoatlas {
+namespace {
+
+template <class Id>
+double value_of(const AnalysisArrays<Id>& arrays, std::size_t event) {
+    return arrays.value[arrays.tree.top[event]];
+}
+
+template <class Id>
+LevelCounts counts_of(const AnalysisArrays<Id>& arrays, std::size_t event, int rank) {
+    LevelCounts counts{1, static_cast<std::int64_t>(arrays.measures.contours[event]), 0, 0};
+    counts.cavities = rank == 3 ? counts.contours - 1 : 0;
+    counts.tunnels = 1 + counts.cavities - static_cast<std::int64_t>(arrays.measures.chi[event]);
+    return counts;
+}
+
+void add(LevelCounts& counts, const LevelCounts& more, std::int64_t times) {
+    counts.objects += times * more.objects, counts.contours += times * more.contours;
+    counts.tunnels += times * more.tunnels, counts.cavities += times * more.cavities;
+}
+
+[[noreturn]] void contradiction() {
+    throw Error(
+        ErrorKind::input,
+        {.where = "objects", .what = "the table of objects does not belong to the trees", .next = "build the store again from the volume"});
+}
+
+}  // namespace
+
+template <class Id>
+std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std::vector<ObjectEntry>& entries) {
+    const CriticalityTree<Id>& tree = arrays.tree;
+    std::vector<bool> essential(tree.size(), false);
+    for (const ObjectEntry& entry : entries) {
+        if (entry.branch_top < 0 || entry.branch_top >= static_cast<std::int64_t>(tree.size())) contradiction();
+        for (auto e = static_cast<std::size_t>(entry.branch_top); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
+            if (essential[e]) break;  // another entry of the branch: branches have no event in common
+            essential[e] = true;
+            if (tree.is_root(e)) break;
+        }
+    }
+    return essential;
+}
+
+// Events come in descending order. A zone begins to count at its own value and ends at that of its parent.
+template <class Id>
+std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& essential) {
+    const CriticalityTree<Id>& tree = arrays.tree;
+    std::vector<SpectrumInterval> intervals;
+    std::vector<Id> place(tree.size());
+    for (std::size_t e = 0; e < tree.size(); ++e) {
+        const double value = value_of(arrays, e);
+        if (intervals.empty() || intervals.back().high != value)
+            intervals.push_back({-std::numeric_limits<double>::infinity(), value, {}, {}});
+        place[e] = static_cast<Id>(intervals.size() - 1);
+    }
+    for (std::size_t e = 0; e < tree.size(); ++e) {
+        const LevelCounts counts = counts_of(arrays, e, rank);
+        const auto change = [&](SpectrumInterval& interval, std::int64_t times) {
+            add(interval.all, counts, times);
+            if (essential[e]) add(interval.essential, counts, times);
+        };
+        change(intervals[place[e]], 1);
+        if (!tree.is_root(e)) change(intervals[place[tree.parent[e]]], -1);
+    }
+    for (std::size_t i = 1; i < intervals.size(); ++i) {
+        intervals[i - 1].low = intervals[i].high;
+        add(intervals[i].all, intervals[i - 1].all, 1);
+        add(intervals[i].essential, intervals[i - 1].essential, 1);
+    }
+    return intervals;
+}
+
+std::vector<SpectrumInterval> count_intervals(const Analysis& analysis, const ObjectTable& table) {
+    return analysis.data().visit([&](const auto& held) {
+        return count_intervals(held.arrays, analysis.extent().rank, events_of_entries(held.arrays, table.entries));
+    });
+}
+
+#define ISOATLAS_COUNT_INTERVALS(Id)                                                                          \
+    template std::vector<bool> events_of_entries(const AnalysisArrays<Id>&, const std::vector<ObjectEntry>&); \
+    template std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>&, int, const std::vector<bool>& essential);
+ISOATLAS_COUNT_INTERVALS(std::uint32_t)
+ISOATLAS_COUNT_INTERVALS(std::uint64_t)
+#undef ISOATLAS_COUNT_INTERVALS
+
+}  // namespace isoatlas

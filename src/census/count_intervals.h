@@ -1,0 +1,25 @@
+// How many objects, contours, tunnels and cavities there are at every isovalue, from the criticality tree alone.
+// In the literature: Betti curves; part of a contour spectrum (Bajaj, Pascucci, Schikore, The contour spectrum, 1997).
+#pragma once
+
+#include <vector>
+
+#include "analysis/analysis_data.h"
+#include "isoatlas/objects.h"
+#include "isoatlas/spectrum.h"
+
+namespace isoatlas {
+
+/// Per event: does its object belong to a branch of the table? Every branch counts once, however many entries it has. Throws Error{input}
+/// when the table is not of these trees. Cost: O(events of these branches).
+template <class Id>
+[[nodiscard]] std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std::vector<ObjectEntry>& entries);
+
+/// Intervals between neighbouring values of events, descending. essential: per event. Cost: O(events).
+template <class Id>
+[[nodiscard]] std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& essential);
+
+/// The same; essential is what a table of these trees lists.
+[[nodiscard]] std::vector<SpectrumInterval> count_intervals(const Analysis& analysis, const ObjectTable& table);
+
+}  // namespace isoatlas

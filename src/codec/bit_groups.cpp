@@ -1,0 +1,213 @@
+#include "codec/bit_groups.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#include "base/wide.h"
+
+namespace isoatlas::store {
+namespace {
+
+constexpr int kWidest = 64;
+
+/// Widths of groups are stored in `more` bits, less `least`.
+struct Widths {
+    int least = 0, more = 0;
+    std::int64_t bytes = 0;  ///< of everything
+};
+
+/// Rows and columns of 8 x 8 bits change places (Warren, Hacker's Delight, 7-3).
+[[gnu::always_inline]] inline std::uint64_t transposed(std::uint64_t bits) {
+    std::uint64_t change = (bits ^ bits >> 7) & 0x00aa00aa00aa00aa;
+    bits ^= change ^ change << 7;
+    change = (bits ^ bits >> 14) & 0x0000cccc0000cccc;
+    bits ^= change ^ change << 14;
+    change = (bits ^ bits >> 28) & 0x00000000f0f0f0f0;
+    return bits ^ change ^ change << 28;
+}
+
+template <class N>
+int width_of(const N* group) {
+    N all = 0;
+    for (std::size_t i = 0; i < kGroup; ++i) all |= group[i];
+    return static_cast<int>(std::bit_width(all));
+}
+
+std::int64_t bytes_of_widths(std::int64_t groups, int more) { return (groups + 7) / 8 * more; }
+
+/// The cheapest way to tell the widths: narrow groups may be stored wider than they need.
+template <class N>
+Widths best_widths(std::span<const N> numbers) {
+    std::array<std::int64_t, kWidest + 1> count{};
+    for (std::size_t i = 0; i < numbers.size(); i += kGroup) ++count[static_cast<std::size_t>(width_of(numbers.data() + i))];
+    const auto groups = static_cast<std::int64_t>(numbers.size() / kGroup);
+    const auto first = std::find_if(count.begin(), count.end(), [](std::int64_t n) { return n > 0; });
+    const int narrowest = static_cast<int>(first - count.begin());
+    int widest = kWidest;
+    while (widest > narrowest && count[static_cast<std::size_t>(widest)] == 0) --widest;
+    Widths best;
+    for (int more = 0;; ++more) {
+        const int least = std::max(narrowest, widest - (1 << more) + 1);
+        std::int64_t bytes = 2 + bytes_of_widths(groups, more);
+        for (int w = narrowest; w <= widest; ++w) bytes += count[static_cast<std::size_t>(w)] * std::max(w, least);
+        if (more == 0 || bytes < best.bytes) best = {least, more, bytes};
+        if (least == narrowest) return best;
+    }
+}
+
+template <class N>
+void append_group(const N* group, int width, std::vector<std::byte>& out) {
+    for (int done = 0; done < width; done += 8) {
+        std::uint64_t bytes = 0;
+        for (std::size_t i = 0; i < kGroup; ++i) bytes |= (static_cast<std::uint64_t>(group[i]) >> done & 0xff) << 8 * i;
+        const int left = std::min(8, width - done);
+        if (left < 8) bytes = transposed(bytes);
+        std::array<std::byte, 8> raw;
+        std::memcpy(raw.data(), &bytes, 8);
+        out.insert(out.end(), raw.begin(), raw.begin() + left);
+    }
+}
+
+template <class N>
+constexpr std::size_t kLookedAt = 8 * sizeof(N) + 8;  ///< bytes from the start of a group on
+
+std::uint64_t word_at(const std::byte* from) {
+    std::uint64_t word;
+    std::memcpy(&word, from, 8);
+    return word;
+}
+
+/// Reads one group without a branch.
+template <class N>
+[[gnu::always_inline]] inline void read_group(const std::byte* from, int width, N* group) {
+    const int whole = width / 8, left = width % 8;
+    std::array<std::uint64_t, sizeof(N) + 1> words;  // bytes k of the 8 numbers
+    for (int k = 0; k < static_cast<int>(sizeof(N)); ++k) words[static_cast<std::size_t>(k)] = k < whole ? word_at(from + 8 * k) : 0;
+    words[static_cast<std::size_t>(whole)] = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(words.data());
+    std::array<N, kGroup> numbers{};
+    for (std::size_t k = 0; k < sizeof(N); ++k) {
+        for (std::size_t i = 0; i < kGroup; ++i) numbers[i] |= static_cast<N>(static_cast<N>(bytes[8 * k + i]) << 8 * k);
+    }
+    std::copy(numbers.begin(), numbers.end(), group);
+}
+
+#if ISOATLAS_HAS_WIDE_512
+/// Byte j of the numbers of a group is byte order[j] of the bytes of the group.
+template <class N>
+constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
+    std::array<std::uint8_t, 64> order{};
+    for (std::size_t i = 0; i < kGroup; ++i) {
+        for (std::size_t k = 0; k < sizeof(N); ++k) order[i * sizeof(N) + k] = static_cast<std::uint8_t>(8 * k + i);
+    }
+    return order;
+}();
+
+/// The same in one permutation.
+template <class N>
+[[gnu::always_inline]] ISOATLAS_WIDE_512 inline void read_group_wide(const std::byte* from, int width, N* group) {
+    const int whole = width / 8, left = width % 8;
+    const auto low_bytes = [](int words) { return words >= 8 ? ~__mmask64{0} : (__mmask64{1} << 8 * words) - 1; };
+    __m512i words = _mm512_maskz_loadu_epi8(low_bytes(whole), from);
+    const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
+    words = _mm512_mask_set1_epi64(words, static_cast<__mmask8>(1U << whole), static_cast<long long>(bits));
+    const __m512i numbers = _mm512_maskz_permutexvar_epi8(~__mmask64{0}, _mm512_loadu_si512(kByteOrder<N>.data()), words);
+    _mm512_mask_storeu_epi8(group, low_bytes(sizeof(N)), numbers);
+}
+
+template <class N>
+ISOATLAS_WIDE_512 void read_groups_wide(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+    for (const int width : widths) {
+        read_group_wide(from, width, numbers);
+        from += width, numbers += kGroup;
+    }
+}
+#endif
+
+/// Groups one behind the other; kLookedAt bytes may be read from the start of the last one on.
+template <class N>
+void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+#if ISOATLAS_HAS_WIDE_512
+    if (kHasWide512) return read_groups_wide(from, widths, numbers);
+#endif
+    for (const int width : widths) {
+        read_group(from, width, numbers);
+        from += width, numbers += kGroup;
+    }
+}
+
+/// Reads groups of the widths that they have; false where they end too early.
+template <class N>
+bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_t> widths, N* numbers) {
+    const std::size_t size = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
+    if (packed.size() < size) return false;
+    if (packed.size() >= size + kLookedAt<N>) {
+        read_groups(packed.data(), widths, numbers);
+    } else {
+        std::vector<std::byte> padded(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
+        padded.resize(size + kLookedAt<N>);
+        read_groups(padded.data(), widths, numbers);
+    }
+    packed = packed.subspan(size);
+    return true;
+}
+
+}  // namespace
+
+template <class N>
+ISOATLAS_WIDE std::int64_t group_bytes(std::span<const N> numbers) {
+    return best_widths(numbers).bytes;
+}
+
+template <class N>
+void pack_groups(std::span<const N> numbers, std::vector<std::byte>& out) {
+    const Widths widths = best_widths(numbers);
+    out.push_back(static_cast<std::byte>(widths.least));
+    out.push_back(static_cast<std::byte>(widths.more));
+    const auto stored_width = [&](std::size_t i) { return std::max(widths.least, width_of(numbers.data() + i)); };
+    for (std::size_t i = 0; i < numbers.size(); i += 8 * kGroup) {
+        std::array<std::uint8_t, kGroup> above{};
+        for (std::size_t k = 0; k < 8 && i + k * kGroup < numbers.size(); ++k)
+            above[k] = static_cast<std::uint8_t>(stored_width(i + k * kGroup) - widths.least);
+        append_group(above.data(), widths.more, out);
+    }
+    for (std::size_t i = 0; i < numbers.size(); i += kGroup) append_group(numbers.data() + i, stored_width(i), out);
+}
+
+template <class N>
+bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
+    if (packed.size() < 2) return false;
+    const int least = static_cast<int>(packed[0]), more = static_cast<int>(packed[1]);
+    packed = packed.subspan(2);
+    const std::int64_t size = bytes_of_widths(static_cast<std::int64_t>(numbers.size() / kGroup), more);
+    if (more > 7 || static_cast<std::int64_t>(packed.size()) < size) return false;
+    std::span<const std::byte> widths = packed.first(static_cast<std::size_t>(size));
+    packed = packed.subspan(widths.size());
+    std::array<std::uint8_t, kGroup> group{};
+    for (std::size_t i = 0; i < numbers.size(); i += 8 * kGroup) {
+        const std::array<std::uint8_t, 1> width_of_widths{static_cast<std::uint8_t>(more)};
+        if (!take_groups<std::uint8_t>(widths, width_of_widths, group.data())) return false;
+        for (std::uint8_t& width : group) {
+            if (least + width > static_cast<int>(8 * sizeof(N))) return false;
+            width = static_cast<std::uint8_t>(width + least);
+        }
+        const std::size_t count = std::min<std::size_t>(8, (numbers.size() - i) / kGroup);
+        if (!take_groups<N>(packed, std::span(group).first(count), numbers.data() + i)) return false;
+    }
+    return true;
+}
+
+#define ISOATLAS_INSTANTIATE(N)                                                \
+    template std::int64_t group_bytes<N>(std::span<const N>);                  \
+    template void pack_groups<N>(std::span<const N>, std::vector<std::byte>&); \
+    template bool unpack_groups<N>(std::span<const std::byte>&, std::span<N>)
+ISOATLAS_INSTANTIATE(std::uint8_t);
+ISOATLAS_INSTANTIATE(std::uint16_t);
+ISOATLAS_INSTANTIATE(std::uint32_t);
+ISOATLAS_INSTANTIATE(std::uint64_t);
+#undef ISOATLAS_INSTANTIATE
+
+}  // namespace isoatlas::store

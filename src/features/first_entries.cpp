@@ -1,0 +1,93 @@
+// The head of a table of objects, the notes that its entries have there, and why their isovalues were chosen.
+#include <algorithm>
+#include <set>
+
+#include "features/keep_entries.h"
+#include "isoatlas/dark_objects.h"
+#include "isoatlas/objects.h"
+
+namespace isoatlas {
+
+const char* name_of(IsovalueReason reason) {
+    switch (reason) {
+        case IsovalueReason::steady: return "steady";
+        case IsovalueReason::outline: return "outline";
+        case IsovalueReason::outer: return "outer";
+        case IsovalueReason::inner: return "inner";
+        case IsovalueReason::merge: return "merge";
+        case IsovalueReason::middle: return "middle";
+    }
+    return "";
+}
+
+const char* text_of(IsovalueReason reason) {
+    switch (reason) {
+        case IsovalueReason::steady: return "its size hardly depends on the isovalue here: its boundary is sharp";
+        case IsovalueReason::outline: return "everything that is not background";
+        case IsovalueReason::outer: return "its outside alone, as if its cavities were filled, is sharpest here";
+        case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
+        case IsovalueReason::merge: return "as large as it gets before it merges with another object";
+        case IsovalueReason::middle: return "the middle of its range; no isovalue stands out";
+    }
+    return "";
+}
+
+std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top) {
+    std::vector<RecommendedIsovalue> own;
+    std::ranges::copy_if(isovalues, std::back_inserter(own),
+                         [&](const RecommendedIsovalue& isovalue) { return isovalue.branch_top == branch_top; });
+    return own;
+}
+
+std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry) {
+    const auto own = std::ranges::find_if(table.isovalues, [&](const RecommendedIsovalue& isovalue) {
+        return isovalue.branch_top == entry.branch_top && isovalue.tau == entry.best_tau;
+    });
+    return own == table.isovalues.end() ? std::nullopt : std::optional(*own);
+}
+
+bool is_background(const ObjectEntry& entry, const Extent& extent) {
+    return entry.outline && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
+}
+
+namespace {
+
+template <class Entry>
+void keep_first(std::vector<Entry>& entries, std::int64_t top) {
+    std::vector<bool> keep(entries.size(), true);
+    for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = top <= 0 || static_cast<std::int64_t>(i) < top;
+    keep_entries(entries, keep);
+}
+
+/// Those of objects that have lines.
+void keep_isovalues(std::vector<RecommendedIsovalue>& isovalues, const std::set<std::int64_t>& branches) {
+    std::erase_if(isovalues, [&](const RecommendedIsovalue& isovalue) { return !branches.contains(isovalue.branch_top); });
+}
+
+std::string inside_text(std::int64_t inside) { return "inside " + std::to_string(inside + 1); }
+
+}  // namespace
+
+ObjectTable first_entries(ObjectTable table, std::int64_t top) {
+    keep_first(table.entries, top);
+    std::set<std::int64_t> tops;
+    for (ObjectEntry& entry : table.entries) {
+        entry.note = entry.outline ? "outline" : entry.inside >= 0 ? inside_text(entry.inside) : entry.trunk ? "largest" : "";
+        tops.insert(entry.branch_top);
+    }
+    keep_isovalues(table.isovalues, tops);
+    return table;
+}
+
+DarkTable first_entries(DarkTable table, std::int64_t top) {
+    keep_first(table.entries, top);
+    std::set<std::int64_t> minima;
+    for (DarkEntry& entry : table.entries) {
+        entry.note = entry.inside >= 0 ? inside_text(entry.inside) : "";
+        minima.insert(entry.branch_minimum);
+    }
+    keep_isovalues(table.isovalues, minima);
+    return table;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,114 @@
+// The table of essential objects: gate, isovalues, sizes (docs/theory/7-which-objects-matter.md).
+#include <algorithm>
+#include <limits>
+
+#include "analysis/analysis_data.h"
+#include "base/memory_limit.h"
+#include "features/cavity_walls.h"
+#include "features/noise.h"
+#include "features/rank.h"
+#include "field/order.h"
+#include "isoatlas/objects.h"
+
+namespace isoatlas {
+namespace {
+
+template <class Id>
+class Ranking {
+public:
+    Ranking(const VolumeView& volume, const AnalysisArrays<Id>& arrays, bool is_3d)
+        : volume_(volume),
+          arrays_(arrays),
+          is_3d_(is_3d),
+          values_(event_values(arrays)),
+          tree_(bright_side<Id>(arrays, values_)),
+          branches_(make_branches(tree_, sum_zones(tree_, volume_))) {}
+
+    /// around: as for wall_isovalues().
+    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const DarkSide<Id>& dark,
+                                    const std::vector<std::int64_t>& around_dark) const {
+        ObjectTable table;
+        table.noise = noise.sigma;
+        PacedCheck memory;
+        for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges, memory.step(sizeof b);
+        BranchRows chosen = branch_rows(volume_, tree_, branches_, noise, options);
+        const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
+        const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, dark, around_dark);
+        chosen.isovalues.insert(chosen.isovalues.end(), walls.begin(), walls.end());
+        std::ranges::stable_sort(chosen.isovalues, {}, &BranchIsovalue::branch);
+        for (const BranchIsovalue& own : chosen.isovalues)
+            table.isovalues.push_back({branches_.branch[own.branch].top, own.tau, own.prominence, own.reason, own.cavity});
+        for (std::size_t i = 0; i < chosen.rows.size(); ++i) table.entries.push_back(entry(chosen.rows[i], around[i]));
+        return first_entries(std::move(table), 0);
+    }
+
+private:
+    [[nodiscard]] ObjectEntry entry(const BranchRow& row, std::int64_t inside) const {
+        const ElementCode code{arrays_.code[arrays_.tree.top[branches_.highest[row.event]]]};
+        ObjectEntry entry{};
+        entry.id = code.index();  // the highest element of an object is a maximum: a voxel
+        entry.event = row.event;
+        entry.appears = row.appears, entry.merges = row.merges, entry.best_tau = row.tau;
+        entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
+        const auto contours = static_cast<std::int64_t>(arrays_.measures.contours[row.event]);
+        entry.cavities = is_3d_ ? contours - 1 : 0;
+        entry.tunnels = 1 + entry.cavities - static_cast<std::int64_t>(arrays_.measures.chi[row.event]);
+        entry.position = element_position(code, volume_.info->extent);
+        entry.tau_low = tree_.is_root(row.event) ? -std::numeric_limits<double>::infinity() : values_[tree_.parent[row.event]];
+        entry.tau_high = values_[row.event];
+        entry.inside = inside;
+        entry.branch_top = branches_.branch[row.branch].top;
+        entry.outline = row.outline;
+        entry.trunk = row.branch == 0;
+        return entry;
+    }
+
+    const VolumeView volume_;
+    const AnalysisArrays<Id>& arrays_;
+    bool is_3d_;
+    BigVector<double> values_;
+    SideTree<Id> tree_;
+    Branches branches_;
+};
+
+/// Calls use(arrays, noise, dark objects that matter, table of bright objects).
+template <class Use>
+auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context, const Use& use) {
+    if (volume.info->extent != analysis.extent())
+        throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
+    const NoiseModel noise = fit_noise(volume);
+    return analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
+        const AnalysisArrays<Id>& arrays = held.arrays;
+        if (arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
+        const DarkSide<Id> dark = make_dark_side(volume, arrays, noise, {.top = 0}, context);
+        const Ranking<Id> ranking(volume, arrays, analysis.extent().rank == 3);
+        return use(arrays, noise, dark, ranking.table(noise, options, dark, objects_around(analysis, arrays, dark)));
+    });
+}
+
+}  // namespace
+
+ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return with_tables(volume, analysis, options, context,
+                       [](const auto&, const NoiseModel&, const auto&, ObjectTable table) { return table; });
+}
+
+ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return rank_objects(VolumeView(volume), analysis, options, context);
+}
+
+BothTables rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return with_tables(volume, analysis, options, context,
+                       [&](const auto& arrays, const NoiseModel& noise, const auto& dark, ObjectTable table) {
+                           const bool is_same = options.gate && !options.selection;  // as what matters for the bright ones
+                           DarkTable dark_ones = is_same ? dark_table(volume, analysis, arrays, dark, noise, options.top)
+                                                         : rank_dark_objects(volume, analysis, options, context);
+                           return BothTables{std::move(table), std::move(dark_ones)};
+                       });
+}
+
+BothTables rank_both(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    return rank_both(VolumeView(volume), analysis, options, context);
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,31 @@
+// Which branches are kept: by a selection, or by what noise explains (docs/theory/7-which-objects-matter.md#the-noise-gate).
+// In the literature: topological simplification by persistence (Edelsbrunner, Letscher, Zomorodian 2002) and by geometric measures (Carr,
+// Snoeyink, van de Panne 2004).
+#pragma once
+
+#include <vector>
+
+#include "features/branches.h"
+#include "features/noise.h"
+#include "isoatlas/selection.h"
+
+namespace isoatlas {
+
+/// Physical volume of the object of every branch just before it merges. Cost: O(branches); on rectilinear grids, where tree.zone is needed,
+/// one pass over the voxels.
+template <class Id>
+[[nodiscard]] BigVector<double> branch_measures(const SideTree<Id>& tree, const Branches& branches, const VolumeInfo& info);
+
+/// Positions by rank, the trunk first. measure: of branch_measures(); empty when the selection does not ask for it. Cost: O(branches).
+[[nodiscard]] std::vector<std::int64_t> select_branches(const Branches& branches, std::span<const double> measure,
+                                                        const Selection& selection);
+
+/// How many voxels say something of a shape, in a volume of so many.
+[[nodiscard]] std::int64_t least_voxels(std::int64_t voxels);
+
+/// Branches that noise does not explain and that are not tiny beside the largest; the trunk first. The noise is that around the value where
+/// they merge. voxels: of the volume; sign: of SideTree. Cost: O(branches that are large enough).
+[[nodiscard]] std::vector<std::int64_t> essential_branches(const Branches& branches, std::int64_t voxels, const NoiseModel& noise,
+                                                           double sign);
+
+}  // namespace isoatlas

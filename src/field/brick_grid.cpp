@@ -1,0 +1,39 @@
+#include "field/brick_grid.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isoatlas::store {
+namespace {
+
+/// Is p before q on the curve that takes the bits of z, y, x in turns? The highest bit in which they differ decides (Chan 2002).
+bool comes_before(const std::array<std::int64_t, 3>& p, const std::array<std::int64_t, 3>& q) {
+    int axis = 2;
+    std::int64_t most = p[2] ^ q[2];
+    for (const int other : {1, 0}) {
+        const std::int64_t differing = p[other] ^ q[other];
+        if (most < differing && most < (most ^ differing)) axis = other, most = differing;
+    }
+    return p[axis] < q[axis];
+}
+
+}  // namespace
+
+Box BrickGrid::box(std::int64_t brick) const {
+    const std::array<std::int64_t, 3> at = place(brick);
+    Box box{};
+    for (int axis = 0; axis < 3; ++axis) {
+        box.begin[axis] = at[axis] * kBrickSize[axis];
+        box.end[axis] = box.begin[axis] + length(axis, at[axis]);
+    }
+    return box;
+}
+
+std::vector<std::int64_t> BrickGrid::file_order() const {
+    std::vector<std::int64_t> order(static_cast<std::size_t>(count()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
+    std::sort(order.begin(), order.end(), [this](std::int64_t p, std::int64_t q) { return comes_before(place(p), place(q)); });
+    return order;
+}
+
+}  // namespace isoatlas::store

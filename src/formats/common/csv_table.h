@@ -1,0 +1,61 @@
+// Tables as CSV: numbers, names of ours and lists of numbers separated by spaces; what does not exist is empty.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "formats/common/byte_writer.h"
+#include "formats/common/connectivity.h"
+
+namespace isoatlas::output {
+
+/// One row of cells, ended by last_cells. No cell needs quotes: all are numbers, names of ours or lists of numbers.
+class CsvRow {
+public:
+    CsvRow(ByteWriter& out, const std::string& last_cells) : out_(out), last_cells_(last_cells) {}
+    ~CsvRow() { out_.text(last_cells_); }
+    CsvRow(const CsvRow&) = delete;
+    CsvRow& operator=(const CsvRow&) = delete;
+
+    CsvRow& text(std::string_view cell) {
+        separate();
+        out_.text(cell);
+        return *this;
+    }
+    template <class T>
+    CsvRow& number(T value, bool known = true) {
+        separate();
+        if (known) out_.number(value);
+        return *this;
+    }
+    CsvRow& real(double value) { return number(value, std::isfinite(value)); }
+    CsvRow& position(const std::array<double, 3>& p) { return real(p[0]).real(p[1]).real(p[2]); }
+
+private:
+    void separate() {
+        if (!first_) out_.text(",");
+        first_ = false;
+    }
+    ByteWriter& out_;
+    const std::string& last_cells_;
+    bool first_ = true;
+};
+
+/// The columns of a detail, then the interpolant in each row: readers of tables would stumble over a comment line.
+class CsvTable {
+public:
+    CsvTable(ByteWriter& out, const Connectivity& connectivity, const std::string& columns) : out_(out) {
+        const std::string height = connectivity.has_tunnels() ? number_text(connectivity.tunnel_height) : "";
+        last_cells_ = std::string(",") + connectivity.name() + "," + height + "\n";
+        out_.text(columns + ",interpolant,tunnel_height\n");
+    }
+    [[nodiscard]] CsvRow row() const { return {out_, last_cells_}; }
+
+private:
+    ByteWriter& out_;
+    std::string last_cells_;
+};
+
+}  // namespace isoatlas::output

@@ -1,0 +1,76 @@
+// VTK XML files with raw appended data (header_type UInt64, little endian): the elements first, then one block of bytes per array.
+// Source: VTK file formats, docs.vtk.org.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "formats/common/byte_writer.h"
+#include "formats/common/generator.h"
+
+namespace isoatlas::output {
+
+template <class T>
+inline constexpr const char* vtk_type = nullptr;
+template <>
+inline constexpr const char* vtk_type<std::uint8_t> = "UInt8";
+template <>
+inline constexpr const char* vtk_type<std::int32_t> = "Int32";
+template <>
+inline constexpr const char* vtk_type<std::int64_t> = "Int64";
+template <>
+inline constexpr const char* vtk_type<float> = "Float32";
+template <>
+inline constexpr const char* vtk_type<double> = "Float64";
+
+/// The blocks behind the XML. add() gives the element that refers to the block; write() comes after all elements are written.
+class AppendedArrays {
+public:
+    /// put writes exactly tuples * components values of T.
+    template <class T>
+    [[nodiscard]] std::string add(std::string_view name, std::int64_t components, std::int64_t tuples, std::function<void(ByteWriter&)> put,
+                                  bool field = false) {
+        std::string element = "<DataArray type=\"" + std::string(vtk_type<T>) + "\" Name=\"" + std::string(name) + "\" ";
+        if (components > 1) element += "NumberOfComponents=\"" + std::to_string(components) + "\" ";
+        if (field) element += "NumberOfTuples=\"" + std::to_string(tuples) + "\" ";  // other arrays have the length of their piece
+        element += "format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
+        const std::int64_t bytes = components * tuples * static_cast<std::int64_t>(sizeof(T));
+        blocks_.push_back({bytes, std::move(put)});
+        offset_ += 8 + bytes;
+        return element;
+    }
+    void write(ByteWriter& out) const {
+        out.text("<AppendedData encoding=\"raw\">\n_");
+        for (const Block& block : blocks_) {
+            out.put(static_cast<std::uint64_t>(block.bytes));
+            block.put(out);
+        }
+        out.text("\n</AppendedData>\n");
+    }
+
+private:
+    struct Block {
+        std::int64_t bytes;
+        std::function<void(ByteWriter&)> put;
+    };
+    std::vector<Block> blocks_;
+    std::int64_t offset_ = 0;
+};
+
+[[nodiscard]] inline std::string vtk_file_begin(const char* type) {
+    return "<?xml version=\"1.0\"?>\n<!-- " + std::string(kGenerator) + " -->\n<VTKFile type=\"" + type +
+           "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+}
+
+/// A text as VTK stores it in field data: its bytes as numbers, ended by 0. No character of it can break the XML.
+[[nodiscard]] inline std::string vtk_string(std::string_view name, std::string_view text) {
+    std::string element = "<DataArray type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"1\" format=\"ascii\">";
+    for (const char c : decoded_text(text)) element += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
+    return element + "0</DataArray>\n";
+}
+
+}  // namespace isoatlas::output

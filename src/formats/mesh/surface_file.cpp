@@ -1,0 +1,63 @@
+// write_surface and read_mesh: the extension chooses the format.
+
+#include "formats/common/file_access.h"
+#include "formats/common/file_extension.h"
+#include "formats/mesh/mesh_formats.h"
+#include "isoatlas/surface.h"
+
+namespace isoatlas {
+
+namespace {
+
+using output::Warnings;
+
+struct MeshFormat {
+    const char* extension;
+    void (*write)(AtomicFile&, const Surface&, Warnings&);
+    Mesh (*parse)(std::string_view, const std::string&);
+    bool curves;  ///< holds segments too
+};
+
+constexpr MeshFormat kFormats[] = {{".ply", output::write_ply, output::parse_ply, true},
+                                   {".stl", output::write_stl, output::parse_stl, false},
+                                   {".obj", output::write_obj, output::parse_obj, true},
+                                   {".vtp", output::write_vtp, output::parse_vtp, true},
+                                   {".glb", output::write_glb, output::parse_glb, false}};
+
+const MeshFormat& format_of(const std::string& path) {
+    const std::string extension = output::lower_extension(path);
+    for (const MeshFormat& format : kFormats) {
+        if (extension == format.extension) return format;
+    }
+    output::refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
+}
+
+}  // namespace
+
+std::vector<std::string> write_surface(const std::string& path, const Surface& surface) {
+    const MeshFormat& format = format_of(path);
+    if (!surface.segments.empty() && !format.curves) {
+        throw Error(ErrorKind::usage,
+                    {.file = path,
+                     .what = std::string(format.extension) + " holds triangles only, and the contours of a 2D image are curves",
+                     .next = "write .ply, .obj or .vtp"});
+    }
+    output::check_surface(surface, path);
+    Warnings warnings;
+    AtomicFile file(path);
+    format.write(file, surface, warnings);
+    return warnings;
+}
+
+Mesh read_mesh(const std::string& path) {
+    const MeshFormat& format = format_of(path);
+    std::string bytes;
+    {
+        const std::unique_ptr<File> file = io::open_file(path);
+        bytes.resize(static_cast<std::size_t>(file->size()));
+        io::read_fully(*file, path, 0, std::as_writable_bytes(std::span(bytes.data(), bytes.size())));
+    }
+    return format.parse(bytes, path);
+}
+
+}  // namespace isoatlas

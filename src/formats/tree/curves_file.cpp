@@ -1,0 +1,107 @@
+// write_curves: how many objects there are for every threshold of a size.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "formats/common/byte_writer.h"
+#include "formats/common/connectivity.h"
+#include "formats/common/file_extension.h"
+#include "formats/common/generator.h"
+#include "formats/common/plot.h"
+#include "formats/tree/simplified_formats.h"
+#include "formats/volume/volume_json.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas::output {
+namespace {
+
+/// Decades from the smallest positive threshold; what is 0 is drawn at the left end.
+Plot plot_of(const VolumeInfo& info, const SelectionCurve& curve) {
+    double low = INFINITY, high = 0;
+    for (const double threshold : curve.threshold) {
+        const double x = reported_threshold(info, curve, threshold);
+        if (x > 0) low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    if (!std::isfinite(low)) low = high = 1;
+    const auto place = [&](double threshold) { return std::log10(std::max(reported_threshold(info, curve, threshold), low)); };
+    Plot plot;
+    plot.title = "Objects that are kept, by the least " + curve.size;
+    plot.x_name = "log10 of the least " + curve.size;
+    plot.x_low = std::log10(low), plot.x_high = std::log10(high);
+    plot.logarithmic = true;
+    PlotCurve steps{"objects", "#1f77b4", {}, true, true};
+    for (std::size_t i = curve.threshold.size(); i-- > 0;)  // kept[i] for thresholds above threshold[i + 1]
+        steps.points.push_back(
+            {i + 1 < curve.threshold.size() ? place(curve.threshold[i + 1]) : plot.x_low, static_cast<double>(curve.kept[i])});
+    steps.points.push_back({plot.x_high, static_cast<double>(curve.kept.front())});
+    plot.curves.push_back(std::move(steps));
+    plot.curves.push_back(
+        {"automatic: " + std::to_string(curve.automatic_kept),
+         "#d62728",
+         {{place(curve.automatic_threshold), 0}, {place(curve.automatic_threshold), static_cast<double>(curve.automatic_kept)}},
+         false,
+         false});
+    return plot;
+}
+
+}  // namespace
+
+double reported_threshold(const VolumeInfo& info, const SelectionCurve& curve, double threshold) {
+    return curve.size == "voxels" ? threshold : info.calibration.reported_difference(threshold);
+}
+
+void write_curves_json(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    JsonStream json([&](std::string_view text) { file.write(text); });
+    json.begin_object().line().key("schema").value("isoatlas/curves/1").key("version").value(kVersion);
+    put_volume(json, info);
+    json.line().key("curves").begin_array();
+    for (const SelectionCurve& curve : curves) {
+        json.line().begin_object().key("size").value(curve.size).key("automatic").begin_object();
+        json.key("threshold").value(reported_threshold(info, curve, curve.automatic_threshold)).key("kept").value(curve.automatic_kept);
+        json.end_object().key("points").begin_array();
+        for (std::size_t i = 0; i < curve.threshold.size(); ++i) {
+            json.begin_array().value(reported_threshold(info, curve, curve.threshold[i])).value(curve.kept[i]).end_array();
+        }
+        json.end_array().end_object();
+    }
+    json.line().end_array().line().end_object().finish();
+    file.commit();
+}
+
+void write_curves_csv(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    ByteWriter out(file);
+    out.text("size,threshold,kept,automatic\n");
+    for (const SelectionCurve& curve : curves) {
+        for (std::size_t i = 0; i < curve.threshold.size(); ++i) {
+            out.text(curve.size + ",");
+            out.number(reported_threshold(info, curve, curve.threshold[i]));
+            out.text(",");
+            out.number(curve.kept[i]);
+            out.text(curve.threshold[i] == curve.automatic_threshold ? ",1\n" : ",0\n");
+        }
+    }
+    out.finish();
+}
+
+void write_curves_svg(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    std::vector<Plot> plots;
+    for (const SelectionCurve& curve : curves) plots.push_back(plot_of(info, curve));
+    file.write(svg_of(plots));
+    file.commit();
+}
+
+}  // namespace isoatlas::output
+
+namespace isoatlas {
+
+void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    const std::string extension =
+        output::known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
+    AtomicFile file(path);
+    if (extension == ".json") return output::write_curves_json(file, info, curves);
+    if (extension == ".csv") return output::write_curves_csv(file, info, curves);
+    output::write_curves_svg(file, info, curves);
+}
+
+}  // namespace isoatlas

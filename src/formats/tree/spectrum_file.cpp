@@ -1,0 +1,89 @@
+// write_spectrum: the extension chooses the format.
+#include "formats/common/connectivity.h"
+#include "formats/common/file_extension.h"
+#include "formats/common/generator.h"
+#include "formats/tree/spectrum_formats.h"
+#include "formats/volume/volume_json.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas::output {
+namespace {
+
+void put_counts(JsonStream& json, const char* key, const LevelCounts& counts) {
+    json.key(key).begin_object().key("objects").value(counts.objects).key("contours").value(counts.contours);
+    json.key("tunnels").value(counts.tunnels).key("cavities").value(counts.cavities).end_object();
+}
+
+void put_intervals(JsonStream& json, const VolumeInfo& info, const Spectrum& spectrum) {
+    json.line().key("intervals").begin_array();
+    for (const SpectrumInterval& interval : spectrum.intervals) {
+        json.line().begin_object().key("low").value(info.calibration.reported(interval.low));
+        json.key("high").value(info.calibration.reported(interval.high));
+        put_counts(json, "all", interval.all);
+        put_counts(json, "essential", interval.essential);
+        json.end_object();
+    }
+    json.line().end_array();
+}
+
+void put_sizes(JsonStream& json, const VolumeInfo& info, const Spectrum& spectrum) {
+    json.line().key("sizes").begin_array();
+    for (const SpectrumSize& size : spectrum.sizes) {
+        json.line().begin_object().key("tau").value(info.calibration.reported(size.tau));
+        json.key("voxels").begin_object().key("least").value(size.voxels.least).key("most").value(size.voxels.most).end_object();
+        json.key("cells").value(size.cells).key(info.extent.rank == 3 ? "triangles" : "segments").value(size.facets);
+        json.key("area").value(size.area).key("measure").value(size.measure).end_object();
+    }
+    json.line().end_array();
+}
+
+void put_advice(JsonStream& json, const VolumeInfo& info, const Spectrum& spectrum) {
+    json.line().key("advice").begin_array();
+    for (const SpectrumAdvice& advice : spectrum.advice) {
+        json.line().begin_object().key("tau").value(info.calibration.reported(advice.tau)).key("object").value(advice.object);
+        json.key("reason");
+        advice.reason ? json.value(name_of(*advice.reason)) : json.null();
+        if (advice.reason == IsovalueReason::inner) json.key("cavity").value(advice.cavity);
+        json.key("note").value(advice.note).end_object();
+    }
+    json.line().end_array();
+}
+
+}  // namespace
+
+void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
+    JsonStream json(sink);
+    json.begin_object().line().key("schema").value("isoatlas/spectrum/1").key("version").value(kVersion);
+    put_members(json.line(), {spectrum.interpolant, info.calibration.reported_difference(spectrum.tunnel_height)});
+    json.key("boundary").value("closed");
+    put_volume(json, info);
+    json.line().key("selected").value(spectrum.selected);
+    put_advice(json, info, spectrum);
+    put_sizes(json, info, spectrum);
+    put_intervals(json, info, spectrum);
+    json.line().end_object().finish();
+}
+
+}  // namespace isoatlas::output
+
+namespace isoatlas {
+
+void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum) {
+    const std::string extension = output::known_extension(path, {".json", ".csv", ".svg"},
+                                                          {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
+    AtomicFile file(path);
+    if (extension == ".csv") {
+        output::write_spectrum_csv(file, info, spectrum);
+    } else if (extension == ".svg") {
+        output::write_spectrum_svg(file, info, spectrum);
+    } else {
+        output::write_spectrum([&](std::string_view text) { file.write(text); }, info, spectrum);
+        file.commit();
+    }
+}
+
+void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum) {
+    output::write_spectrum(output::stream_sink(out, "the spectrum"), info, spectrum);
+}
+
+}  // namespace isoatlas

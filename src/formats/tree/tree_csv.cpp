@@ -1,0 +1,62 @@
+// The tree as CSV: a row for each event, level, element or contour; lists are separated by spaces; what does not exist is empty.
+#include "formats/common/csv_table.h"
+#include "formats/tree/tree_formats.h"
+
+namespace isoatlas::output {
+
+namespace {
+
+void put_events(ByteWriter& out, const TreeView& tree) {
+    const CsvTable table(
+        out, tree.connectivity(),
+        "id,value,x,y,z,kind,parent,children,objects_in,lows_out,delta_chi,tau_low,tau_high,voxels,chi,b1,b2,object_voxels,contours,"
+        "genera");
+    visit_events(tree, [&](const Event& e, std::span<const GenusCount> genera) {
+        CsvRow row = table.row();
+        row.number(e.id).real(tree.reported(e.value)).position(e.position).text(isoatlas::name_of(e.kind)).number(e.parent, e.parent >= 0);
+        row.text(list_text(e.children)).number(e.objects_in).number(e.lows_out).number(e.delta_chi);
+        row.real(tree.reported(e.zone.tau_low)).real(tree.reported(e.zone.tau_high)).number(e.zone.voxels, tree.has_zones);
+        row.number(e.chi).number(e.b1).number(e.b2).number(e.object_voxels, tree.has_zones).number(e.contours).text(histogram_text(genera));
+    });
+}
+
+void put_levels(ByteWriter& out, const TreeView& tree) {
+    const CsvTable table(out, tree.connectivity(), "id,value,event,in,out");
+    for (std::int64_t id = 0; id < tree.analysis.level_count(); ++id) {
+        const Level level = tree.analysis.level(id);
+        table.row().number(id).real(tree.reported(level.value)).number(level.event).text(list_text(level.in)).text(list_text(level.out));
+    }
+}
+
+void put_elements(ByteWriter& out, const TreeView& tree) {
+    const CsvTable table(out, tree.connectivity(), "id,value,x,y,z,h0,l0");
+    for (std::int64_t id = 0; id < tree.analysis.element_count(); ++id) {
+        const Element e = tree.analysis.element(id);
+        table.row().number(id).real(tree.reported(e.value)).position(e.position).number(e.h0).number(e.l0);
+    }
+}
+
+void put_contours(ByteWriter& out, const TreeView& tree) {
+    const CsvTable table(out, tree.connectivity(), "id,upper,lower,tau_high,tau_low,genus");
+    for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
+        const ContourArc arc = tree.analysis.contour_arc(id);
+        CsvRow row = table.row();
+        row.number(id).number(arc.upper).number(arc.lower, !tree.is_outside(arc.lower));
+        row.real(tree.reported(arc.value_high)).real(tree.reported(arc.value_low)).number(arc.genus);
+    }
+}
+
+}  // namespace
+
+void write_tree_csv(AtomicFile& file, const TreeView& tree) {
+    ByteWriter out(file);
+    switch (tree.options.detail) {
+        case TreeDetail::events: put_events(out, tree); break;
+        case TreeDetail::levels: put_levels(out, tree); break;
+        case TreeDetail::elements: put_elements(out, tree); break;
+        case TreeDetail::contours: put_contours(out, tree); break;
+    }
+    out.finish();
+}
+
+}  // namespace isoatlas::output

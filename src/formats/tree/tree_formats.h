@@ -1,0 +1,51 @@
+// The formats behind write_tree: one function each, all reading the tree through TreeView. docs/formats.md lists the columns.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "formats/common/connectivity.h"
+#include "formats/common/json_stream.h"
+#include "isoatlas/output.h"
+
+namespace isoatlas::output {
+
+/// The tree as the user sees it: values are reported (calibrated) values.
+struct TreeView {
+    const Volume& volume;
+    const Analysis& analysis;
+    const TreeOutput& options;
+    bool has_zones;  ///< false: voxel counts are unknown
+
+    TreeView(const Volume& the_volume, const Analysis& the_analysis, const TreeOutput& the_options);
+    [[nodiscard]] double reported(double stored) const { return volume.info.calibration.reported(stored); }
+    [[nodiscard]] Connectivity connectivity() const {
+        return {analysis.interpolant(), volume.info.calibration.reported_difference(analysis.tunnel_height())};
+    }
+    [[nodiscard]] std::int64_t item_count() const;  ///< of the chosen detail
+    [[nodiscard]] bool is_outside(std::int64_t element) const { return element == analysis.element_count(); }
+};
+
+using EventVisitor = std::function<void(const Event&, std::span<const GenusCount>)>;
+/// Every event in id order, with the genera of the contours of its object.
+void visit_events(const TreeView& tree, const EventVisitor& visit);
+
+[[nodiscard]] const char* name_of(TreeDetail detail);
+
+void write_json(const TreeView& tree, const JsonStream::Sink& sink);
+// Each writes the whole file and commits.
+void write_tree_csv(AtomicFile& file, const TreeView& tree);
+void write_tree_graphml(AtomicFile& file, const TreeView& tree);
+void write_tree_vtu(AtomicFile& file, const TreeView& tree);
+
+/// "0:2 3:1": two contours of genus 0, one of genus 3.
+[[nodiscard]] std::string histogram_text(std::span<const GenusCount> genera);
+/// Numbers between spaces.
+[[nodiscard]] std::string list_text(std::span<const std::int64_t> numbers);
+
+}  // namespace isoatlas::output

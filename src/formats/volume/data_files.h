@@ -1,0 +1,55 @@
+// The samples of formats whose header may point to other files (NRRD, MetaImage): one file, a list, or a numbered series.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/common/byte_source.h"
+#include "isoatlas/volume.h"
+
+namespace isoatlas::io {
+
+/// Names of data files, as the header has them. A numbered series is kept as its rule, so a hostile count costs nothing.
+struct DataFiles {
+    std::vector<std::string> names;  ///< used when pattern is empty
+    std::string pattern;             ///< contains one %d, %3d, %03d, ...
+    std::int64_t first = 0, last = 0, step = 1;
+
+    [[nodiscard]] std::int64_t count() const;
+    [[nodiscard]] std::string name(std::int64_t i) const;
+};
+
+/// Whether the word contains a number directive like %d or %03d.
+[[nodiscard]] bool has_number_directive(std::string_view word);
+/// A series from its words: pattern first last [step]. Throws Error{input} with `where` for words that make no series.
+[[nodiscard]] DataFiles parse_series(const std::string& header_path, const std::string& where, const std::vector<std::string_view>& words);
+
+enum class Encoding : std::uint8_t { raw, deflate, text };
+
+/// Where the samples are and how they are wrapped.
+struct PayloadPlan {
+    std::string header_path;
+    DataFiles files;  ///< no files: the samples are in header_path
+    Encoding encoding = Encoding::raw;
+    std::int64_t offset = 0;         ///< where the data begin in each file (an attached payload: behind its header)
+    std::int64_t line_skip = 0;      ///< then this many lines are passed over
+    std::int64_t skip = 0;           ///< then this many bytes; -1: as many as leave exactly the samples (raw only)
+    std::int64_t inflated_skip = 0;  ///< then this many decompressed bytes
+    ValueType type = ValueType::u8;
+    std::int64_t sample_bytes = 0;                 ///< of all files together, decoded
+    bool skip_rest = false, follow_links = false;  ///< as in OpenOptions
+};
+
+/// Path of data file i. Throws Error{input} for names with control bytes, which no sound header has and no terminal should get, and for
+/// files outside the folder of the header (unless follow_links).
+[[nodiscard]] std::string data_file_path(const PayloadPlan& plan, std::int64_t i);
+/// Opens the payload; looks at every data file of a raw plan, at none beyond its size in other plans.
+/// Throws Error{input}: missing or short data files, files that do not divide the samples evenly.
+[[nodiscard]] std::unique_ptr<ByteSource> open_payload(const PayloadPlan& plan);
+/// Sum of the sizes of the header and its data files (overflow is impossible: they exist).
+[[nodiscard]] std::int64_t bytes_on_disk(const PayloadPlan& plan);
+
+}  // namespace isoatlas::io

@@ -1,0 +1,221 @@
+// NIfTI-1 and NIfTI-2: .nii, .nii.gz and pairs .hdr + .img (each may be compressed).
+#include "formats/volume/nifti_header.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "formats/common/byte_source.h"
+#include "formats/common/own_folder.h"
+#include "formats/common/text.h"
+#include "formats/volume/axes.h"
+#include "formats/volume/formats.h"
+#include "formats/volume/nifti_geometry.h"
+#include "formats/volume/sample_reader.h"
+
+namespace isoatlas::io {
+
+namespace {
+
+constexpr double kLargestOffset = 9.0e15;  ///< below 2^53: exact
+
+[[noreturn]] void bad_header(const std::string& path, const std::string& field, const std::string& what, const std::string& expected) {
+    throw Error(ErrorKind::input, {.file = path,
+                                   .where = "header, " + field,
+                                   .what = what,
+                                   .expected = expected,
+                                   .next = "the header is damaged: get the file again or correct it"});
+}
+
+[[noreturn]] void unsupported(const std::string& path, const std::string& what, const std::string& expected, const std::string& next) {
+    throw Error(ErrorKind::unsupported, {.file = path, .where = "header", .what = what, .expected = expected, .next = next});
+}
+
+bool is_gzip(const std::string& path) { return starts_like_gzip(read_header_bytes(path, 2)); }
+
+std::vector<std::byte> header_bytes(const std::string& path) {
+    return is_gzip(path) ? read_inflated_bytes(path, kNifti2HeaderBytes) : read_header_bytes(path, kNifti2HeaderBytes);
+}
+
+/// "brain.img.gz" -> "brain.hdr.gz": the other file of a pair, with the case of the letters kept. Nothing: not such a name.
+std::optional<std::string> partner(const std::string& path, std::string_view from, std::string_view to) {
+    const std::string end = ends_with_ignoring_case(path, ".gz") ? path.substr(path.size() - 3) : "";
+    std::string stem = path.substr(0, path.size() - end.size());
+    if (!ends_with_ignoring_case(stem, from)) return std::nullopt;
+    const bool upper = stem.back() < 'a';
+    stem.resize(stem.size() - to.size());
+    for (const char c : to) stem += upper && c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
+    return stem + end;
+}
+
+bool is_readable(const std::string& path) {
+    try {
+        (void)file_size(path);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// The partner with or without .gz, whichever is there; the first choice when none is (opening it explains).
+std::string find_partner(const std::string& path, std::string_view from, std::string_view to) {
+    const std::string first = partner(path, from, to).value_or(path);
+    const std::string second = ends_with_ignoring_case(first, ".gz") ? first.substr(0, first.size() - 3) : first + ".gz";
+    return !is_readable(first) && is_readable(second) ? second : first;
+}
+
+ValueType value_type(const std::string& path, const NiftiHeader& header) {
+    struct Known {
+        int code;
+        ValueType type;
+    };
+    static constexpr Known kKnown[] = {{2, ValueType::u8},   {4, ValueType::i16},  {8, ValueType::i32},   {16, ValueType::f32},
+                                       {64, ValueType::f64}, {256, ValueType::i8}, {512, ValueType::u16}, {768, ValueType::u32}};
+    struct Other {
+        int code;
+        const char* name;
+    };
+    static constexpr Other kOther[] = {{1, "single bits"},        {32, "complex numbers"},   {128, "RGB colours"},
+                                       {1024, "64-bit integers"}, {1280, "64-bit integers"}, {1536, "128-bit floating point numbers"},
+                                       {1792, "complex numbers"}, {2048, "complex numbers"}, {2304, "RGBA colours"}};
+    for (const Known& known : kKnown) {
+        if (known.code != header.datatype) continue;
+        if (header.bits != 0 && header.bits != static_cast<int>(8 * size_of(known.type))) {
+            bad_header(path, "bitpix", "datatype " + std::to_string(header.datatype) + " with " + std::to_string(header.bits) + " bits",
+                       std::to_string(8 * size_of(known.type)));
+        }
+        return known.type;
+    }
+    for (const Other& other : kOther) {
+        if (other.code == header.datatype) {
+            unsupported(path, std::string("samples are ") + other.name, "8, 16 or 32-bit integers, 32 or 64-bit floating point",
+                        "convert it, e.g. in Python: nibabel.Nifti1Image(data.astype('float32'), image.affine)");
+        }
+    }
+    bad_header(path, "datatype", "unknown code " + std::to_string(header.datatype), "2, 4, 8, 16, 64, 256, 512 or 768");
+}
+
+struct Shape {
+    Extent extent;
+    std::int64_t volumes = 1;
+};
+
+Shape read_shape(const std::string& path, const NiftiHeader& header) {
+    const std::int64_t dimensions = header.dim[0];
+    if (dimensions < 1 || dimensions > 7) bad_header(path, "dim[0]", std::to_string(dimensions) + " dimensions", "2 to 7");
+    if (dimensions == 1)
+        unsupported(path, "the file has one dimension", "2 or 3 (4 with --time-step)", "reshape it to the size of the image");
+    for (std::int64_t i = 1; i <= dimensions; ++i) {
+        const std::int64_t size = header.dim[static_cast<std::size_t>(i)];
+        if (size < 1) bad_header(path, "dim[" + std::to_string(i) + "]", "an axis has " + std::to_string(size) + " samples", "at least 1");
+        if (i > 4 && size > 1) {
+            unsupported(path,
+                        "dimension " + std::to_string(i) + " has " + std::to_string(size) + " values (vectors or more than 4 dimensions)",
+                        "one value per voxel", "save one component as a file, e.g. in Python: nibabel, image.dataobj[..., 0]");
+        }
+    }
+    Shape shape;
+    shape.extent = {.rank = dimensions == 2 ? 2 : 3, .size = {header.dim[1], header.dim[2], dimensions > 2 ? header.dim[3] : 1}};
+    shape.volumes = dimensions > 3 ? header.dim[4] : 1;
+    return shape;
+}
+
+std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std::vector<std::string>& notes) {
+    const double offset = header.vox_offset;
+    if (!std::isfinite(offset) || offset < 0 || offset > kLargestOffset || offset != std::floor(offset)) {
+        bad_header(path, "vox_offset", "the samples start at byte " + std::to_string(offset), "a position in the file");
+    }
+    const std::int64_t header_size = header.version == 1 ? kNifti1HeaderBytes : kNifti2HeaderBytes;
+    if (!header.pair && offset == 0) {
+        notes.push_back("the header does not say where the samples start: taken as right behind it");
+        return header_size + 4;
+    }
+    if (!header.pair && offset < static_cast<double>(header_size)) {
+        bad_header(path, "vox_offset", "the samples start inside the header, at byte " + std::to_string(static_cast<std::int64_t>(offset)),
+                   std::to_string(header_size + 4) + " or more");
+    }
+    return static_cast<std::int64_t>(offset);
+}
+
+NiftiHeader read_header(const std::string& path) {
+    const std::vector<std::byte> bytes = header_bytes(path);
+    const NiftiKind kind = nifti_kind(bytes);
+    if (kind == NiftiKind::analyze && bytes.size() >= static_cast<std::size_t>(kNifti1HeaderBytes)) {
+        unsupported(path, "is an ANALYZE 7.5 header (NIfTI without its mark 'n+1' or 'ni1'): it has no orientation", "NIfTI-1 or NIfTI-2",
+                    "convert it, e.g. with `nib-convert` of nibabel or `fslchfiletype NIFTI_GZ`");
+    }
+    const std::int64_t size = kind == NiftiKind::nifti2 ? kNifti2HeaderBytes : kNifti1HeaderBytes;
+    if (static_cast<std::int64_t>(bytes.size()) < size) {
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "header",
+                                       .what = "the file ends after " + std::to_string(bytes.size()) + " bytes",
+                                       .expected = std::to_string(size) + " bytes of header",
+                                       .next = "the file is truncated: get it again"});
+    }
+    if (kind == NiftiKind::no) {
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "header",
+                                       .what = "is not a NIfTI file",
+                                       .expected = "the size 348 or 540 and the mark 'n+1' or 'n+2'",
+                                       .next = "check the file, or give it the extension of its real format"});
+    }
+    return decode_nifti(bytes, kind);
+}
+
+std::unique_ptr<ByteSource> open_samples(const std::string& path, std::int64_t offset) {
+    if (!is_gzip(path)) return open_file_source(path, offset);
+    return skip_bytes(open_inflate_source(path), offset);
+}
+
+/// The header beside an .img file, when there is one.
+bool has_nifti_header(const std::string& image) {
+    try {
+        const NiftiKind kind = nifti_kind(header_bytes(find_partner(image, ".img", ".hdr")));
+        return kind != NiftiKind::no;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+bool looks_like_nifti(FirstBytes first, const std::string& path) {
+    const NiftiKind kind = nifti_kind(first);
+    if (kind == NiftiKind::nifti1 || kind == NiftiKind::nifti2) return true;
+    if (ends_with_ignoring_case(path, ".nii") || ends_with_ignoring_case(path, ".nii.gz")) return true;
+    const bool is_header = partner(path, ".hdr", ".img").has_value();
+    if (kind == NiftiKind::analyze) return is_header;
+    return partner(path, ".img", ".hdr").has_value() && has_nifti_header(path);
+}
+
+std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOptions& options) {
+    const std::string header_path = partner(path, ".img", ".hdr") ? find_partner(path, ".img", ".hdr") : path;
+    const NiftiHeader header = read_header(header_path);
+    const std::string data_path = !header.pair ? header_path : header_path == path ? find_partner(path, ".hdr", ".img") : path;
+    if (!options.follow_links && data_path != header_path) require_own_folder(path, data_path == path ? header_path : data_path);
+    if (header.pair && data_path == header_path) {
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "header",
+                                       .what = "says that its samples are in a second file",
+                                       .expected = "a pair NAME.hdr and NAME.img",
+                                       .next = "rename the header to .hdr and put the .img beside it"});
+    }
+    VolumeInfo info;
+    info.path = path;
+    info.format = header.version == 1 ? "NIfTI-1" : "NIfTI-2";
+    info.encoding = is_gzip(data_path) ? "gzip" : "raw";
+    if (data_path != path) info.data_file = data_path;
+    info.type = value_type(header_path, header);
+    info.big_endian = header.big_endian;
+    const Shape shape = read_shape(header_path, header);
+    info.extent = shape.extent;
+    const TimeStep step = choose_time_step(path, options, shape.volumes);
+    info.geometry = nifti_geometry(header, shape.extent.rank, info.notes);
+    if (header.slope != 0) set_calibration(info, header.slope, header.intercept);  // 0: no scaling
+    info.description = header.description;
+    info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
+    const std::int64_t offset = data_offset(header_path, header, info.notes);
+    return make_sample_reader(std::move(info), open_samples(data_path, offset), options, step);
+}
+
+}  // namespace isoatlas::io

@@ -1,0 +1,217 @@
+// open_volume: which format is this file? Content decides; a name decides only where bytes say nothing (RAW).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <utility>
+
+#include "formats/common/byte_source.h"
+#include "formats/common/file_access.h"
+#include "formats/common/text.h"
+#include "formats/volume/formats.h"
+#include "formats/volume/raw_description.h"
+#include "isoatlas/volume.h"
+
+namespace isoatlas {
+namespace io {
+namespace {
+
+constexpr std::int64_t kFirstBytes = 4096;
+constexpr const char* kSupported =
+    "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti), TIFF (.tif), a folder of slices, "
+    "RAW";
+
+struct Format {
+    const char* name;
+    const char* extensions;  ///< separated by blanks
+    bool (*looks_like)(FirstBytes, const std::string&);
+    std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
+};
+
+constexpr std::array<Format, 6> kFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
+                                             {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
+                                             {"NumPy", ".npy", looks_like_npy, open_npy},
+                                             {"VTK image", ".vti", looks_like_vti, open_vti},
+                                             {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
+                                             {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage}}};
+
+/// Files that people have and isoatlas does not read, and what to do with them.
+constexpr std::array<std::pair<std::string_view, const char*>, 14> kForeign = {
+    {{".dcm", "convert the DICOM series to NIfTI, for example with dcm2niix"},
+     {".hdr", "give the .nii or .mhd file of the pair; Analyze 7.5 pairs must be converted to NIfTI"},
+     {".img", "give it as RAW with --dims and --type, or convert the pair to NIfTI"},
+     {".h5", "export the dataset to .npy (h5py and numpy.save)"},
+     {".hdf5", "export the dataset to .npy (h5py and numpy.save)"},
+     {".mat", "export the array to .npy (scipy.io.loadmat and numpy.save)"},
+     {".mrc", "convert the map to NRRD or .npy, for example with the Python package mrcfile"},
+     {".map", "convert the map to NRRD or .npy, for example with the Python package mrcfile"},
+     {".fits", "export the cube to .npy (astropy.io.fits and numpy.save)"},
+     {".nc", "export the variable to .npy (netCDF4 and numpy.save)"},
+     {".vtk", "convert the legacy VTK file to .vti, for example with ParaView"},
+     {".png", "give the folder that holds the slices, or convert the image to TIFF"},
+     {".npz", "save the array by itself: numpy.save"},
+     {".zip", "unpack the archive and give the file inside"}}};
+
+/// Edit distance of two short words (Wagner & Fischer 1974).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, change}));
+        }
+    }
+    return row.back();
+}
+
+bool has_extension(const std::string& path, const Format& format) {
+    const std::vector<std::string_view> extensions = split_words(format.extensions);
+    return std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
+}
+
+/// Names the file of the same folder that a missing one was probably meant to be.
+[[noreturn]] void missing_file(const std::string& path) {
+    constexpr std::size_t kMostEntries = 10000, kFarthest = 2;
+    const std::filesystem::path whole(path);
+    const std::string name = whole.filename().string();
+    const std::string folder = whole.has_parent_path() ? whole.parent_path().string() : ".";
+    std::string best;
+    std::size_t best_distance = kFarthest + 1;
+    for (const std::string& entry : directory_entries(folder, kMostEntries)) {
+        if (std::max(entry.size(), name.size()) - std::min(entry.size(), name.size()) > kFarthest) continue;
+        const std::size_t distance = edit_distance(lower(name), lower(entry));
+        if (distance < best_distance || (distance == best_distance && entry < best)) {
+            best = entry;
+            best_distance = distance;
+        }
+    }
+    throw Error(ErrorKind::input,
+                {.file = path,
+                 .what = "there is no such file",
+                 .next = best.empty() ? "check the path" : "did you mean " + (whole.parent_path() / best).string() + "?"});
+}
+
+[[noreturn]] void unknown_format(const std::string& path) {
+    for (const Format& format : kFormats) {
+        if (!has_extension(path, format)) continue;
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "first bytes",
+                                       .what = std::string("the file is named like ") + format.name + " but does not begin like one",
+                                       .next = "the file is damaged or misnamed: get it again"});
+    }
+    const std::string extension = lower(std::filesystem::path(path).extension().string());
+    if (extension == ".atlas") {  // nothing is left by which it could be told
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "first bytes",
+                                       .what = "the file is named like a store but does not begin like one",
+                                       .next = "the file is damaged or misnamed: build it again from the volume"});
+    }
+    std::string next = "convert the file, or give --dims and --type if it is RAW";
+    for (const auto& [foreign, hint] : kForeign) {
+        if (extension == foreign) next = hint;
+    }
+    for (const Format& format : kFormats) {
+        for (const std::string_view known : split_words(format.extensions)) {
+            if (extension.size() > 1 && edit_distance(extension, known) == 1) next = "did you mean " + std::string(known) + "? " + next;
+        }
+    }
+    throw Error(ErrorKind::unsupported,
+                {.file = path, .what = "the format of the file is not known", .expected = kSupported, .next = next});
+}
+
+/// Whether the name is taken, also by something that cannot be read: then opening it says why.
+bool anything_at(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::symlink_status(path, ignored).type() != std::filesystem::file_type::not_found;
+}
+
+/// RAW by name, or because somebody has said what it is.
+bool is_described_raw(const std::string& path, const OpenOptions& options) {
+    if (ends_with_ignoring_case(path, ".raw")) return true;
+    if (options.dims && options.type) return true;
+    const RawDescription name = description_from_name(path);
+    return (name.dims && name.type) || find_sidecar(path).has_value();
+}
+
+/// What a format may look at; for gzip files the payload.
+struct Start {
+    std::vector<std::byte> bytes;
+    bool gzipped = false;
+};
+
+Start first_bytes(const std::string& path, bool may_be_raw) {
+    Start start{.bytes = read_header_bytes(path, kFirstBytes)};
+    if (!starts_like_gzip(start.bytes)) return start;
+    try {
+        start = {.bytes = read_inflated_bytes(path, kFirstBytes), .gzipped = true};
+    } catch (const Error&) {
+        if (!may_be_raw) throw;  // else these are samples that happen to begin like gzip
+    }
+    return start;
+}
+
+std::unique_ptr<VolumeReader> open_file_volume(const std::string& path, const OpenOptions& options) {
+    if (ends_with_ignoring_case(path, ".raw")) return open_raw(path, options);
+    const bool described = is_described_raw(path, options);
+    const Start start = first_bytes(path, described);
+    if (start.bytes.empty()) {
+        throw Error(ErrorKind::input, {.file = path, .what = "the file is empty", .expected = "a volume", .next = "get the file again"});
+    }
+    for (const Format& format : kFormats) {
+        if (!format.looks_like(start.bytes, path)) continue;
+        if (start.gzipped && format.open != open_nifti) {
+            throw Error(ErrorKind::unsupported, {.file = path,
+                                                 .what = std::string("a whole ") + format.name + " file in gzip is not read",
+                                                 .next = "unpack it with gunzip"});
+        }
+        return format.open(path, options);
+    }
+    if (described) return open_raw(path, options);
+    unknown_format(path);
+}
+
+[[noreturn]] void contradiction(const std::string& path, const std::string& option, const std::string& header) {
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = option + " contradicts the header of the file",
+                                   .expected = header,
+                                   .next = "leave " + option + " out; it is for RAW files"});
+}
+
+std::string text_of(const Vec3& vector) {
+    return std::to_string(vector[0]) + "," + std::to_string(vector[1]) + "," + std::to_string(vector[2]);
+}
+
+/// Options describe RAW files; for other files they may repeat the header and not contradict it.
+void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
+    if (info.format == "RAW") return;
+    const Extent& extent = info.extent;
+    const std::vector<std::int64_t> dims(extent.size.begin(), extent.size.begin() + extent.rank);
+    if (options.dims && *options.dims != dims) {
+        std::string text = std::to_string(dims[0]);
+        for (int axis = 1; axis < extent.rank; ++axis) text += "x" + std::to_string(dims[static_cast<std::size_t>(axis)]);
+        contradiction(info.path, "--dims", text);
+    }
+    if (options.type && *options.type != info.type) contradiction(info.path, "--type", name_of(info.type));
+    if (options.big_endian && *options.big_endian != info.big_endian && size_of(info.type) > 1) {
+        contradiction(info.path, "--endian", info.big_endian ? "big" : "little");
+    }
+    if (options.skip_bytes && *options.skip_bytes != 0) contradiction(info.path, "--skip", "samples where the header says");
+    if (options.spacing && *options.spacing != info.geometry.spacing) contradiction(info.path, "--spacing", text_of(info.geometry.spacing));
+    if (options.origin && *options.origin != info.geometry.origin) contradiction(info.path, "--origin", text_of(info.geometry.origin));
+}
+
+}  // namespace
+}  // namespace io
+
+std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options) {
+    const bool folder = io::is_directory(path);
+    if (!folder && !io::anything_at(path)) io::missing_file(path);
+    std::unique_ptr<VolumeReader> reader = folder ? io::open_folder(path, options) : io::open_file_volume(path, options);
+    io::check_agreement(reader->info(), options);
+    return reader;
+}
+
+}  // namespace isoatlas

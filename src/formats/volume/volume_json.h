@@ -1,0 +1,12 @@
+// What every JSON file says of its volume.
+#pragma once
+
+#include "formats/common/json_stream.h"
+#include "isoatlas/volume.h"
+
+namespace isoatlas::output {
+
+/// Member "volume" of the object that is open: path, extent, type, geometry, units, calibration.
+void put_volume(JsonStream& json, const VolumeInfo& info);
+
+}  // namespace isoatlas::output

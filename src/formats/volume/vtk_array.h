@@ -1,0 +1,43 @@
+// The data arrays of VTK XML files as byte sources: ascii, base64, appended raw and appended base64, each with or without zlib blocks.
+// Source: "VTK File Formats" (Kitware), XML formats.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "formats/common/byte_source.h"
+#include "isoatlas/volume.h"
+
+namespace isoatlas::io {
+
+enum class VtkFormat : std::uint8_t { ascii, binary, appended };
+
+/// What holds for all arrays of a file.
+struct VtkFile {
+    std::string path;
+    bool big_endian = false;
+    bool wide_headers = false;    ///< header_type UInt64 instead of UInt32
+    bool compressed = false;      ///< vtkZLibDataCompressor
+    std::int64_t appended = -1;   ///< offset of the appended section; -1: none
+    bool appended_is_raw = true;  ///< else base64
+    bool skip_rest = false;       ///< an array may hold more samples than the extent
+};
+
+struct VtkArray {
+    std::string name;
+    ValueType type = ValueType::u8;
+    VtkFormat format = VtkFormat::ascii;
+    std::int64_t begin = 0, end = 0;  ///< bytes of the file with the text (ascii, binary)
+    std::int64_t offset = 0;          ///< in the appended section
+};
+
+/// The `count` samples of an array, in the byte order of the file (ascii: of this machine). Random access for appended raw.
+/// Throws Error{input}, before anything of that size is allocated, when the array cannot hold exactly `count` samples (with
+/// skip_rest: at least so many).
+[[nodiscard]] std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, std::int64_t count);
+
+/// "ascii", "base64", "raw", "raw zlib", ...: for the user.
+[[nodiscard]] std::string vtk_encoding(const VtkFile& file, const VtkArray& array);
+
+}  // namespace isoatlas::io

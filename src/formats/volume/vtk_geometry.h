@@ -1,0 +1,41 @@
+// Extent and geometry of VTK XML grids.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/volume/vtk_array.h"
+#include "isoatlas/volume.h"
+
+namespace pugi {
+class xml_node;
+}
+
+namespace isoatlas::io {
+
+/// Points of a grid: low[a] to low[a] + size[a] - 1 along axis a.
+struct VtkExtent {
+    std::array<std::int64_t, 3> low{}, size{};
+    /// Samples at the points, or in the cells between them; a single slice along z has rank 2 (VTK has no other way to say so).
+    [[nodiscard]] Extent samples(bool cells) const;
+};
+
+/// The extent of the piece (of the grid when it has none). Throws Error{input} for anything but three ranges.
+[[nodiscard]] VtkExtent read_vtk_extent(const std::string& path, const pugi::xml_node& grid, const pugi::xml_node& piece,
+                                        std::vector<std::string>& notes);
+
+/// Origin, Spacing and Direction of ImageData; the origin is moved to the first sample.
+void set_image_geometry(const pugi::xml_node& grid, const VtkExtent& points, bool cells, VolumeInfo& info);
+
+using CoordinateReader = std::function<std::vector<double>(const pugi::xml_node& array, std::int64_t count)>;
+/// Coordinates of RectilinearGrid; they must ascend. Throws Error: input, unsupported.
+[[nodiscard]] Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& piece, const VtkExtent& points, bool cells,
+                                            const CoordinateReader& read);
+
+/// All numbers of a data array.
+[[nodiscard]] std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, std::int64_t count);
+
+}  // namespace isoatlas::io

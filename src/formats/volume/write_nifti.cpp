@@ -1,0 +1,180 @@
+// NIfTI-1 and NIfTI-2, single files. Source: nifti1.h and nifti2.h of the NIfTI working group.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "formats/common/byte_writer.h"
+#include "formats/common/gzip_stream.h"
+#include "formats/common/volume_file.h"
+
+namespace isoatlas::output {
+
+namespace {
+
+constexpr std::size_t kHeader1 = 348, kHeader2 = 540, kExtension = 4;
+constexpr int kScannerSpace = 1, kAlignedSpace = 2;
+
+/// Numbers at byte offsets.
+class Fields {
+public:
+    explicit Fields(std::size_t bytes) : bytes_(bytes) {}
+    template <class T>
+    void set(std::size_t offset, T value) {
+        std::memcpy(bytes_.data() + offset, &value, sizeof(T));
+    }
+    void text(std::size_t offset, std::size_t size, const std::string& text) {
+        std::memcpy(bytes_.data() + offset, text.data(), std::min(size, text.size()));
+    }
+    [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+int datatype(ValueType type) {
+    static constexpr int kCodes[] = {2, 256, 512, 4, 768, 8, 16, 64};
+    return kCodes[static_cast<int>(type)];
+}
+
+struct LengthUnit {
+    int code = 0;       ///< 1: m, 2: mm, 3: um
+    double factor = 1;  ///< to that unit
+};
+
+LengthUnit length_unit(const std::string& unit) {
+    if (unit == "m") return {1, 1};
+    if (unit == "mm") return {2, 1};
+    if (unit == "cm") return {2, 10};
+    if (unit == "um") return {3, 1};
+    if (unit == "nm") return {3, 1e-3};
+    return {};
+}
+
+/// What both versions hold.
+struct Contents {
+    std::array<std::int64_t, 8> dim{};
+    std::array<double, 8> pixdim{};
+    int sform_code = 0, unit = 0;
+    std::array<std::array<double, 4>, 3> rows{};
+    double slope = 0, intercept = 0;
+    std::string description;
+};
+
+constexpr std::size_t kDescription = 79;  ///< and a zero
+
+/// At most `room` characters; if it must, it ends at a comma: a number cut short would be another number.
+std::string shortened(const std::string& text, std::size_t room) {
+    if (text.size() <= room) return text;
+    return std::string(utf8_prefix(text, std::min(room, text.rfind(", ", room))));
+}
+
+std::string description_of(const VolumeInfo& info) {
+    const std::string text = one_line(info.description);
+    if (!is_rectilinear(info.geometry)) return shortened(text, kDescription);
+    if (text.empty()) return "rectilinear coordinates replaced by their mean spacing";
+    const std::string note = "; was rectilinear";
+    return shortened(text, kDescription - note.size()) + note;
+}
+
+bool is_default(const Geometry& geometry) { return geometry.direction == Geometry{}.direction && geometry.origin == Geometry{}.origin; }
+
+Contents contents_of(const VolumeInfo& info) {
+    Contents contents;
+    const Geometry geometry = turned_to(regular_geometry(info), "RAS");
+    const LengthUnit unit = length_unit(geometry.unit);
+    contents.unit = unit.code;
+    contents.dim.fill(1);
+    contents.dim[0] = info.extent.rank;
+    contents.pixdim.fill(1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        contents.dim[axis + 1] = info.extent.size[axis];
+        contents.pixdim[axis + 1] = geometry.spacing[axis] * unit.factor;
+        for (std::size_t row = 0; row < 3; ++row)
+            contents.rows[row][axis] = geometry.direction[row][axis] * geometry.spacing[axis] * unit.factor;
+        contents.rows[axis][3] = geometry.origin[axis] * unit.factor;
+    }
+    // A grid at the origin without orientation stays one.
+    contents.sform_code = is_anatomical(info.geometry) ? kScannerSpace : is_default(geometry) ? 0 : kAlignedSpace;
+    if (!info.calibration.is_identity()) {
+        contents.slope = info.calibration.slope;
+        contents.intercept = info.calibration.intercept;
+    }
+    contents.description = description_of(info);
+    return contents;
+}
+
+template <class Float>
+void set_rows(Fields& fields, std::size_t offset, const Contents& contents) {
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t i = 0; i < 4; ++i) fields.set(offset + (row * 4 + i) * sizeof(Float), static_cast<Float>(contents.rows[row][i]));
+    }
+}
+
+Fields header_1(const Contents& contents, ValueType type) {
+    Fields fields(kHeader1 + kExtension);
+    fields.set(0, static_cast<std::int32_t>(kHeader1));
+    fields.set(38, 'r');  // "regular", as ANALYZE readers expect
+    for (std::size_t i = 0; i < 8; ++i) fields.set(40 + 2 * i, static_cast<std::int16_t>(contents.dim[i]));
+    fields.set(70, static_cast<std::int16_t>(datatype(type)));
+    fields.set(72, static_cast<std::int16_t>(8 * size_of(type)));
+    for (std::size_t i = 0; i < 8; ++i) fields.set(76 + 4 * i, static_cast<float>(contents.pixdim[i]));
+    fields.set(108, static_cast<float>(kHeader1 + kExtension));
+    fields.set(112, static_cast<float>(contents.slope));
+    fields.set(116, static_cast<float>(contents.intercept));
+    fields.set(123, static_cast<char>(contents.unit));
+    fields.text(148, kDescription, contents.description);
+    fields.set(254, static_cast<std::int16_t>(contents.sform_code));
+    set_rows<float>(fields, 280, contents);
+    fields.text(344, 4, "n+1");
+    return fields;
+}
+
+Fields header_2(const Contents& contents, ValueType type) {
+    Fields fields(kHeader2 + kExtension);
+    fields.set(0, static_cast<std::int32_t>(kHeader2));
+    fields.text(4, 8, std::string("n+2\0\r\n\032\n", 8));
+    fields.set(12, static_cast<std::int16_t>(datatype(type)));
+    fields.set(14, static_cast<std::int16_t>(8 * size_of(type)));
+    for (std::size_t i = 0; i < 8; ++i) fields.set(16 + 8 * i, contents.dim[i]);
+    for (std::size_t i = 0; i < 8; ++i) fields.set(104 + 8 * i, contents.pixdim[i]);
+    fields.set(168, static_cast<std::int64_t>(kHeader2 + kExtension));
+    fields.set(176, contents.slope);
+    fields.set(184, contents.intercept);
+    fields.text(240, kDescription, contents.description);
+    fields.set(348, static_cast<std::int32_t>(contents.sform_code));
+    set_rows<double>(fields, 400, contents);
+    fields.set(500, static_cast<std::int32_t>(contents.unit));
+    return fields;
+}
+
+/// NIfTI-1 holds 16-bit sizes and 32-bit floats; rounding is fine, infinity and zero are not.
+bool needs_version_2(const Contents& contents) {
+    const auto survives = [](double x) { return x == 0 || (std::isfinite(static_cast<float>(x)) && static_cast<float>(x) != 0); };
+    if (!survives(contents.slope) || !survives(contents.intercept)) return true;
+    if (!std::all_of(contents.pixdim.begin(), contents.pixdim.end(), survives)) return true;
+    return *std::max_element(contents.dim.begin(), contents.dim.end()) > std::numeric_limits<std::int16_t>::max();
+}
+
+}  // namespace
+
+void write_nifti(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing) {
+    const Contents contents = contents_of(info);
+    const Fields header = needs_version_2(contents) ? header_2(contents, info.type) : header_1(contents, info.type);
+    AtomicFile file(path);
+    if (packing == Packing::gzip) {
+        GzipStream stream(file);
+        stream.write(header.bytes());
+        samples([&](std::span<const std::byte> bytes) { stream.write(bytes); });
+        stream.finish();
+    } else {
+        file.write(header.bytes());
+        samples([&](std::span<const std::byte> bytes) { file.write(bytes); });
+    }
+    file.commit();
+}
+
+}  // namespace isoatlas::output

@@ -1,0 +1,30 @@
+// Sample volumes in the format that the name asks for.
+#include "formats/common/text.h"
+#include "formats/common/volume_file.h"
+#include "isoatlas/output.h"
+
+namespace isoatlas {
+
+void write_volume(const std::string& path, const Volume& volume) {
+    const VolumeInfo& info = volume.info;
+    if (static_cast<std::int64_t>(volume.bytes.size()) != info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type))) {
+        throw Error(ErrorKind::usage, {.file = path,
+                                       .what = "the number of samples does not match the extent",
+                                       .expected = std::to_string(info.extent.voxels()) + " samples"});
+    }
+    const output::SampleFeed feed = [&](const output::Put& put) { put(volume.bytes); };
+    const auto ends = [&](const char* end) { return io::ends_with_ignoring_case(path, end); };
+    if (ends(".nrrd")) return output::write_nrrd(path, info, feed, output::Packing::raw);
+    if (ends(".npy")) return output::write_npy(path, info, feed);
+    if (ends(".raw")) return output::write_raw(path, info, feed);
+    if (ends(".mha")) return output::write_metaimage(path, info, feed);
+    if (ends(".nii")) return output::write_nifti(path, info, feed, output::Packing::raw);
+    if (ends(".nii.gz")) return output::write_nifti(path, info, feed, output::Packing::gzip);
+    if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, info, feed);
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = "the name does not say in which format to write the volume",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .npy, .tif or .raw",
+                                   .next = "change the extension of the output file"});
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,11 @@
+// What cut() does once the samples are classified.
+#pragma once
+
+#include "isoatlas/cut.h"
+#include "levelset/tau_level.h"
+
+namespace isoatlas {
+
+[[nodiscard]] Cut cut_level(const TauLevel& level, const CutOptions& options, const Context& context);
+
+}  // namespace isoatlas

@@ -1,0 +1,28 @@
+// The bricks of a volume at one isovalue: what they say about classes and names before any sample is looked at.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "field/brick_grid.h"
+
+namespace isoatlas {
+
+/// High or Low as a whole, or divided by the isovalue. The samples of divided bricks are present.
+enum class BrickClass : std::uint8_t { low, high, divided };
+
+struct Extremum {
+    std::int64_t voxel;
+    double value;
+    /// In the total order (field/order.h).
+    [[nodiscard]] bool is_above(const Extremum& other) const { return value != other.value ? value > other.value : voxel > other.voxel; }
+};
+
+struct LevelBricks {
+    store::BrickGrid grid;                  ///< of the volume, or of the window that is asked
+    std::vector<BrickClass> classes;        ///< per brick
+    std::vector<Extremum> highest, lowest;  ///< per brick: of one that has a High, of one that has a Low; voxels are those of the grid.
+                                            ///< Empty where nobody asks for names
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,181 @@
+// Exact handles: which tunnel does an element close? Reduction of a boundary matrix mod 2 (Edelsbrunner, Letscher, Zomorodian 2002).
+//
+// Rows are the elements that open a tunnel, columns those that close one. Elements that merge objects or part low components are paired by
+// the trees: a merge is never the lowest of a reduced column, so its row is left out; a parting element has the column 0.
+#include <limits>
+#include <unordered_map>
+
+#include "base/cancel.h"
+#include "base/check.h"
+#include "base/parallel.h"
+#include "field/volume_view.h"
+#include "persistence/descending_disk.h"
+#include "persistence/handle_pairs.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kBatch = 64;  // columns
+
+/// Rows of a column, ascending: the last one was opened last.
+using Column = std::vector<std::int64_t>;
+
+Column sum(const Column& p, const Column& q) {
+    Column both;
+    std::ranges::set_symmetric_difference(p, q, std::back_inserter(both));
+    return both;
+}
+
+/// Elements of the object of an event, of all when it is -1.
+template <class Id>
+std::vector<bool> events_inside(const AnalysisArrays<Id>& arrays, std::int64_t event) {
+    std::vector<bool> inside(arrays.tree.size(), event < 0);
+    if (event < 0) return inside;
+    inside[event] = true;
+    for (auto e = static_cast<std::size_t>(event); e-- > 0;) inside[e] = inside[arrays.tree.parent[e]];
+    return inside;
+}
+
+/// Elements that open and that close tunnels, descending.
+struct TunnelElements {
+    std::vector<std::int64_t> opening, closing;
+};
+
+template <class Id>
+TunnelElements tunnel_elements(const AnalysisArrays<Id>& arrays, std::int64_t event) {
+    const std::vector<bool> inside = events_inside(arrays, event);
+    TunnelElements elements;
+    for (std::size_t x = 0; x < arrays.code.size(); ++x) {
+        const ElementCode code{arrays.code[x]};
+        const bool in_one_contour = arrays.contours.above(x) == 1 && arrays.contours.below(x) == 1;
+        if (!in_one_contour || !inside[arrays.tree.event_of_element[x]]) continue;
+        if (code.h0() == 2) elements.opening.push_back(static_cast<std::int64_t>(x));
+        if (code.l0() == 2) elements.closing.push_back(static_cast<std::int64_t>(x));
+    }
+    return elements;
+}
+
+template <class T, class Id>
+class Reduction {
+public:
+    Reduction(const GridView<T>& grid, double tunnel_height, const AnalysisArrays<Id>& arrays, std::int64_t event, const Context& context)
+        : arrays_(arrays), event_(event), context_(context), disks_(grid, tunnel_height), elements_(tunnel_elements(arrays, event)) {
+        for (std::size_t row = 0; row < elements_.opening.size(); ++row)
+            row_of_[place_of(ElementCode{arrays.code[elements_.opening[row]]})] = static_cast<std::int64_t>(row);
+    }
+
+    [[nodiscard]] std::int64_t tunnels() const { return static_cast<std::int64_t>(elements_.opening.size()); }
+
+    [[nodiscard]] std::vector<HandlePair> pairs() {
+        const auto closing = static_cast<std::int64_t>(elements_.closing.size());
+        std::vector<Column> traced(static_cast<std::size_t>(kBatch));
+        for (std::int64_t first = 0; first < closing; first += kBatch) {
+            stop_if_cancelled(context_);
+            context_.report("tunnels", 0, 1, static_cast<double>(first) / static_cast<double>(closing));
+            const std::int64_t count = std::min(kBatch, closing - first);
+            for_each_block(context_.threads, count, [&](std::int64_t i) { traced[i] = column(elements_.closing[first + i]); });
+            for (std::int64_t i = 0; i < count; ++i) reduce(std::move(traced[i]), elements_.closing[first + i]);
+        }
+        add_open();
+        return std::move(pairs_);
+    }
+
+private:
+    [[nodiscard]] Column column(std::int64_t element) const {
+        Column rows;
+        for (const ElementPlace place : disks_.boundary(ElementCode{arrays_.code[element]})) {
+            const auto row = row_of_.find(place);
+            if (row != row_of_.end()) rows.push_back(row->second);
+        }
+        std::ranges::sort(rows);
+        return rows;
+    }
+
+    void reduce(Column rows, std::int64_t element) {
+        while (!rows.empty()) {
+            const auto other = reduced_.find(rows.back());
+            if (other == reduced_.end()) break;
+            rows = sum(rows, other->second);
+        }
+        ISOATLAS_CHECK(!rows.empty());  // it closes a tunnel
+        const std::int64_t row = rows.back();
+        pairs_.push_back({elements_.opening[row], element});
+        reduced_.emplace(row, std::move(rows));
+    }
+
+    /// Tunnels that the object takes along when it merges.
+    void add_open() {
+        const bool is_root = event_ < 0 || arrays_.tree.is_root(static_cast<std::size_t>(event_));
+        ISOATLAS_CHECK(!is_root || pairs_.size() == elements_.opening.size());
+        if (is_root) return;
+        const auto merge = static_cast<std::int64_t>(arrays_.tree.top[arrays_.tree.parent[event_]]);
+        for (std::size_t row = 0; row < elements_.opening.size(); ++row) {
+            if (!reduced_.contains(static_cast<std::int64_t>(row))) pairs_.push_back({elements_.opening[row], merge, true});
+        }
+    }
+
+    const AnalysisArrays<Id>& arrays_;
+    std::int64_t event_;
+    const Context& context_;
+    DescendingDisks<T> disks_;
+    TunnelElements elements_;
+    std::unordered_map<ElementPlace, std::int64_t> row_of_;
+    std::unordered_map<std::int64_t, Column> reduced_;  // by lowest row
+    std::vector<HandlePair> pairs_;
+};
+
+void check(const Volume& volume, const Analysis& analysis, const ExactHandles& options) {
+    if (volume.info.extent != analysis.extent())
+        throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
+    if (options.event >= analysis.event_count())
+        throw Error(ErrorKind::usage, {.what = "there is no event " + std::to_string(options.event)});
+}
+
+void check_size(std::int64_t tunnels, std::int64_t most) {
+    if (tunnels <= most) return;
+    throw Error(ErrorKind::usage, {.what = std::to_string(tunnels) + " tunnels are too many to pair exactly",
+                                   .expected = "at most " + std::to_string(most),
+                                   .next = "take one object, filter the volume first, or take the approximate pairs"});
+}
+
+}  // namespace
+
+std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& analysis, const ExactHandles& options,
+                                         const Context& context) {
+    check(volume, analysis, options);
+    if (analysis.extent().rank == 2) return {};
+    const double tunnel_height = tunnel_height_of(analysis.interpolant(), analysis.tunnel_height());
+    return analysis.data().visit([&](const auto& held) {
+        return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+            const GridView<T> grid{samples.data(), volume.info.extent};
+            Reduction reduction(grid, tunnel_height, held.arrays, options.event, context);
+            check_size(reduction.tunnels(), options.most);
+            return handles_of(held.arrays, analysis.extent(), reduction.pairs(), options.least_persistence);
+        });
+    });
+}
+
+std::int64_t event_of_highest(const Analysis& analysis, std::int64_t voxel) {
+    return analysis.data().visit([&](const auto& held) -> std::int64_t {
+        const auto& arrays = held.arrays;
+        const auto is_it = [&](std::uint64_t bits) {
+            const ElementCode code{bits};
+            return code.kind() == CodeKind::vertex && code.h0() == 0 && code.index() == voxel;
+        };
+        const auto found = std::ranges::find_if(arrays.code, is_it);
+        if (found == arrays.code.end()) return -1;
+        std::vector<std::size_t> highest(arrays.tree.size());
+        for (std::size_t e = 0; e < highest.size(); ++e) highest[e] = e;
+        for (std::size_t e = 0; e < highest.size(); ++e) {
+            std::size_t& below = highest[arrays.tree.parent[e]];
+            below = std::min(below, highest[e]);
+        }
+        std::size_t event = arrays.tree.event_of_element[found - arrays.code.begin()];
+        const std::size_t top = event;
+        if (arrays.tree.top[top] != static_cast<std::size_t>(found - arrays.code.begin())) return -1;
+        while (!arrays.tree.is_root(event) && highest[arrays.tree.parent[event]] == top) event = arrays.tree.parent[event];
+        return static_cast<std::int64_t>(event);
+    });
+}
+
+}  // namespace isoatlas

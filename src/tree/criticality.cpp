@@ -1,0 +1,10 @@
+#include "isoatlas/criticality.h"
+
+namespace isoatlas {
+
+const char* name_of(Criticality kind) {
+    static constexpr const char* kName[] = {"maximum", "minimum", "merge", "split", "genus change", "complex"};
+    return kName[static_cast<int>(kind)];
+}
+
+}  // namespace isoatlas

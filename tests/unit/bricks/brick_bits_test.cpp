@@ -1,0 +1,122 @@
+// Bits of bricks are those of their samples; bricks beside a surface are those with another class among the samples that matter to them.
+#include "bricks/brick_bits.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "bricks/brick_classes.h"
+
+namespace isoatlas {
+namespace {
+
+using store::Box;
+using store::BrickGrid;
+
+template <class T>
+void bits_are_those_of_samples(T low, T high) {
+    const std::array<std::int64_t, 3> size{*rc::gen::inRange<std::int64_t>(1, 17), *rc::gen::inRange<std::int64_t>(1, 9),
+                                           *rc::gen::inRange<std::int64_t>(1, 9)};
+    std::vector<T> samples(static_cast<std::size_t>(store::kBrickSamples));
+    for (T& sample : samples) sample = *rc::gen::element(low, T{0}, T{1}, high);
+    const T least = *rc::gen::element(low, T{0}, T{1}, high);
+    const BrickBits bits = bits_of_brick(samples.data(), size, least);
+    for (std::int64_t z = 0; z < 8; ++z) {
+        for (std::int64_t y = 0; y < 8; ++y) {
+            for (std::int64_t x = 0; x < 16; ++x) {
+                const bool inside = x < size[0] && y < size[1] && z < size[2];
+                const bool expected = inside && samples[static_cast<std::size_t>(x + 16 * (y + 8 * z))] >= least;
+                RC_ASSERT((bits[static_cast<std::size_t>(y + 8 * z)] >> x & 1) == int{expected});
+            }
+        }
+    }
+}
+
+RC_GTEST_PROP(BrickBits, AreThoseOfSamples, ()) {
+    bits_are_those_of_samples<std::uint8_t>(0, 255);
+    bits_are_those_of_samples<std::int8_t>(-128, 127);
+    bits_are_those_of_samples<std::uint16_t>(0, 65535);
+    bits_are_those_of_samples<std::int16_t>(-32768, 32767);
+    bits_are_those_of_samples<std::uint32_t>(0, 4294967295U);
+    bits_are_those_of_samples<std::int32_t>(-2147483647, 2147483647);
+    bits_are_those_of_samples<float>(-1e30F, 1e30F);
+    bits_are_those_of_samples<double>(-1e300, 1e300);
+}
+
+/// A grid of a few bricks, with some samples of the other class than their surroundings.
+struct Scene {
+    BrickGrid grid;
+    std::vector<bool> is_high;  ///< per voxel
+
+    [[nodiscard]] bool at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        const std::array<std::int64_t, 3>& size = grid.extent.size;
+        const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
+        return inside && is_high[static_cast<std::size_t>(grid.extent.index(x, y, z))];
+    }
+};
+
+Scene arbitrary_scene() {
+    Extent extent;
+    extent.rank = *rc::gen::element(2, 3, 3);
+    extent.size = {*rc::gen::inRange<std::int64_t>(1, 50), *rc::gen::inRange<std::int64_t>(1, 26),
+                   extent.rank == 2 ? 1 : *rc::gen::inRange<std::int64_t>(1, 26)};
+    Scene scene{BrickGrid(extent), {}};
+    scene.is_high.assign(static_cast<std::size_t>(extent.voxels()), *rc::gen::arbitrary<bool>());
+    const auto some = *rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, extent.voxels()));
+    for (const std::int64_t voxel : some) scene.is_high[static_cast<std::size_t>(voxel)].flip();
+    return scene;
+}
+
+/// As bricks/brick_surroundings.h says in words, sample by sample. In an image nothing lies before or behind it.
+bool matters_to_some_other(const Scene& scene, const Box& box, bool own) {
+    const std::int64_t reach_z = scene.grid.extent.rank == 2 ? 0 : 2;
+    for (std::int64_t z = box.begin[2] - reach_z; z < box.end[2] + reach_z; ++z) {
+        for (std::int64_t y = box.begin[1] - 2; y < box.end[1] + 2; ++y) {
+            for (std::int64_t x = box.begin[0] - 2; x < box.end[0] + 2; ++x) {
+                const std::array<std::int64_t, 3> at{x, y, z};
+                std::int64_t steps = 0, furthest = 0;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const std::int64_t away = std::max<std::int64_t>({0, box.begin[axis] - at[axis], at[axis] - box.end[axis] + 1});
+                    steps += away;
+                    furthest = std::max(furthest, away);
+                }
+                if ((steps <= 2 || furthest <= 1) && scene.at(x, y, z) != own) return true;
+            }
+        }
+    }
+    return false;
+}
+
+RC_GTEST_PROP(BricksBesideASurface, HaveAnotherClassAmongWhatMatters, ()) {
+    const Scene scene = arbitrary_scene();
+    HighBits high(scene.grid.extent);
+    LevelBricks bricks{scene.grid, std::vector<BrickClass>(static_cast<std::size_t>(scene.grid.count())), {}, {}};
+    std::vector<BrickSides> sides(bricks.classes.size());
+    for (std::int64_t b = 0; b < scene.grid.count(); ++b) {
+        const Box box = scene.grid.box(b);
+        BrickBits bits{};
+        bool any = false, all = true;
+        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
+            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
+                for (std::int64_t x = box.begin[0]; x < box.end[0]; ++x) {
+                    const bool is_high = scene.at(x, y, z);
+                    any |= is_high, all &= is_high;
+                    if (is_high)
+                        bits[static_cast<std::size_t>(y - box.begin[1] + 8 * (z - box.begin[2]))] |=
+                            static_cast<std::uint16_t>(1 << (x - box.begin[0]));
+                }
+            }
+        }
+        bricks.classes[static_cast<std::size_t>(b)] = all ? BrickClass::high : any ? BrickClass::divided : BrickClass::low;
+        put_brick(bits, box, high);
+        sides[static_cast<std::size_t>(b)] = sides_of(bits, box.size());
+    }
+    std::vector<std::int64_t> expected;
+    for (std::int64_t b = 0; b < scene.grid.count(); ++b) {
+        const BrickClass own = bricks.classes[static_cast<std::size_t>(b)];
+        if (own != BrickClass::divided && matters_to_some_other(scene, scene.grid.box(b), own == BrickClass::high)) expected.push_back(b);
+    }
+    RC_ASSERT(beside_surface(high, bricks, sides, 1) == expected);
+}
+
+}  // namespace
+}  // namespace isoatlas

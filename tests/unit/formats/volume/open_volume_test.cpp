@@ -1,0 +1,82 @@
+// open_volume: content decides, options must agree with headers, and every refusal says what next.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "unit/formats/volume/volume_files.h"
+
+namespace isoatlas {
+namespace {
+
+using test::expect_helpful;
+using test::failure_of_loading;
+
+const std::string kNrrd =
+    "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\nspacings: 1 2 3\n\n" + std::string(16, 'x');
+
+TEST(OpenVolume, ContentDecides) {
+    const test::TestFolder folder;
+    for (const char* name : {"v.nrrd", "v.nhdr", "v.mha", "v", "v.dat", "volume of 5x5_uint8 samples.nii"}) {
+        EXPECT_EQ(open_volume(folder.write(name, kNrrd))->info().format, "NRRD") << name;
+    }
+    const std::string meta = "NDims = 2\nDimSize = 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nx";
+    EXPECT_EQ(open_volume(folder.write("v.nrrd", meta))->info().format, "MetaImage");
+    EXPECT_EQ(open_volume(folder.write("w", "Comment = some text\n" + meta))->info().format, "MetaImage");
+    EXPECT_EQ(open_volume(folder.write("x_1x2_u8.bin", "\x1f\x8b"))->info().format, "RAW");
+    EXPECT_EQ(open_volume(folder.write("x_1x2_u8.raw", "II"))->info().format, "RAW");
+}
+
+TEST(OpenVolume, PathsThatAreNoVolume) {
+    const test::TestFolder folder;
+    folder.write("volume.nrrd", kNrrd);
+    expect_helpful(failure_of_loading(folder / "volume.nrd"), ErrorKind::input, "did you mean");
+    expect_helpful(failure_of_loading(folder / "volume.nrd"), ErrorKind::input, "volume.nrrd?");
+    expect_helpful(failure_of_loading(folder / "something else"), ErrorKind::input, "there is no such file");
+    expect_helpful(failure_of_loading(folder / "no folder/file"), ErrorKind::input, "there is no such file");
+    expect_helpful(failure_of_loading(folder.write("empty.nrrd", "")), ErrorKind::input, "empty");
+    expect_helpful(failure_of_loading(folder.write("bad.nrrd", "something")), ErrorKind::input, "named like NRRD");
+    expect_helpful(failure_of_loading(folder.write("bad.npy", "something")), ErrorKind::input, "named like NumPy");
+    expect_helpful(failure_of_loading(folder.write("scan.dcm", "something")), ErrorKind::unsupported, "dcm2niix");
+    expect_helpful(failure_of_loading(folder.write("scan.nrrrd", "something")), ErrorKind::unsupported, "did you mean .nrrd?");
+    expect_helpful(failure_of_loading(folder.write("scan.xyz", "something")), ErrorKind::unsupported, "MetaImage (.mha .mhd)");
+    expect_helpful(failure_of_loading(folder.write("v.nrrd.gz", test::gzip(kNrrd))), ErrorKind::unsupported, "gunzip");
+    expect_helpful(failure_of_loading(folder.write("v.bin.gz", test::gzip("abc").substr(0, 12))), ErrorKind::input, "ends early");
+    ASSERT_EQ(mkfifo((folder / "pipe.nrrd").c_str(), 0600), 0);
+    expect_helpful(failure_of_loading(folder / "pipe.nrrd"), ErrorKind::input, "not a regular file");
+    std::filesystem::create_symlink("nowhere", folder / "dangling.nrrd");
+    expect_helpful(failure_of_loading(folder / "dangling.nrrd"), ErrorKind::input, "No such file");
+    const std::string secret = folder.write("secret.nrrd", kNrrd);
+    std::filesystem::permissions(secret, std::filesystem::perms::none);
+    if (::access(secret.c_str(), R_OK) != 0) {  // root may read everything
+        expect_helpful(failure_of_loading(secret), ErrorKind::input, "permission");
+    }
+}
+
+TEST(OpenVolume, OptionsMayRepeatAHeaderButNotContradictIt) {
+    const test::TestFolder folder;
+    const std::string path = folder.write("v.nrrd", kNrrd);
+    OpenOptions same;
+    same.dims = std::vector<std::int64_t>{2, 2, 2};
+    same.type = ValueType::i16;
+    same.big_endian = false;
+    same.spacing = Vec3{1, 2, 3};
+    same.origin = Vec3{0, 0, 0};
+    same.skip_bytes = 0;
+    same.time_step = 0;
+    EXPECT_EQ(open_volume(path, same)->info().format, "NRRD");
+    const std::pair<std::string, std::function<void(OpenOptions&)>> changes[] = {
+        {"--dims", [](OpenOptions& o) { o.dims = std::vector<std::int64_t>{2, 4}; }},
+        {"--type", [](OpenOptions& o) { o.type = ValueType::u16; }},
+        {"--endian", [](OpenOptions& o) { o.big_endian = true; }},
+        {"--spacing", [](OpenOptions& o) { o.spacing = Vec3{1, 1, 1}; }},
+        {"--origin", [](OpenOptions& o) { o.origin = Vec3{1, 1, 1}; }},
+        {"--skip", [](OpenOptions& o) { o.skip_bytes = 4; }},
+        {"--time-step", [](OpenOptions& o) { o.time_step = 1; }}};
+    for (const auto& [option, change] : changes) {
+        OpenOptions other = same;
+        change(other);
+        expect_helpful(failure_of_loading(path, other), ErrorKind::usage, option);
+    }
+}
+
+}  // namespace
+}  // namespace isoatlas
