@@ -14,7 +14,7 @@ struct AtlasAccess {
     [[nodiscard]] static const Analysis& analysis(const Atlas& atlas);
     /// The trees from now on, unless there are some: nobody should read what somebody has. analysis: of the store, with voxel counts.
     static void keep(const Atlas& atlas, Analysis analysis);
-    [[nodiscard]] static const store::Container& store(const Atlas& atlas);
+    [[nodiscard]] static const Container& store(const Atlas& atlas);
     [[nodiscard]] static StoredSamples& samples(const Atlas& atlas);
     /// Adds to what Atlas::reads() tells, and to `cost`.
     static void count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost);

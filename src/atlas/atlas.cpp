@@ -45,21 +45,21 @@ struct Trees {
 }  // namespace
 
 struct Atlas::Data {
-    store::Container store;
+    Container store;
     std::unique_ptr<StoredSamples> samples;
     Lazy<std::unique_ptr<Trees>> trees;
     Lazy<LevelCensus> census;
     Lazy<ObjectTable> objects;
     mutable std::mutex mutex;
-    store::IoCounters reads;
+    IoCounters reads;
 
     Data(const std::string& path, const AtlasOptions& options) : store(path), samples(stored_samples(store, options.cache_bytes)) {}
 
     [[nodiscard]] const Trees& trees_now() const {
-        return *trees.get([this] { return std::make_unique<Trees>(store::analysis_of(store, {})); });
+        return *trees.get([this] { return std::make_unique<Trees>(analysis_of(store, {})); });
     }
 
-    void count(const store::IoCounters& counters) {
+    void count(const IoCounters& counters) {
         const std::lock_guard lock(mutex);
         reads += counters;
     }
@@ -108,10 +108,10 @@ struct Atlas::Data {
 };
 
 bool is_atlas(const std::string& path) try {
-    const std::unique_ptr<File> file = io::open_file(path);
-    std::array<std::byte, store::kBeginning> first{};
-    const std::size_t got = io::read_available(*file, path, 0, first);
-    return store::begins_like_a_store(std::span(first).first(got));
+    const std::unique_ptr<File> file = open_file(path);
+    std::array<std::byte, kBeginning> first{};
+    const std::size_t got = read_available(*file, path, 0, first);
+    return begins_like_a_store(std::span(first).first(got));
 } catch (const Error&) {
     return false;
 }
@@ -166,7 +166,7 @@ ObjectTable Atlas::objects(const RankOptions& options, const Context& context) c
         }
     }
     const Volume whole = volume(context);
-    return rank_objects(whole, store::zoned_analysis_of(data_->store, whole, context), options, context);
+    return rank_objects(whole, zoned_analysis_of(data_->store, whole, context), options, context);
 }
 
 DarkTable Atlas::dark_objects(const RankOptions& options, const Context& context) const {
@@ -182,15 +182,15 @@ DarkTable Atlas::dark_objects(const RankOptions& options, const Context& context
 BranchHierarchy Atlas::hierarchy(const Context& context) const {
     if (std::optional<BranchHierarchy> stored = stored_hierarchy(*this, context)) return std::move(*stored);
     const Volume whole = volume(context);
-    return {whole, store::zoned_analysis_of(data_->store, whole, context), context};
+    return {whole, zoned_analysis_of(data_->store, whole, context), context};
 }
 
-Analysis Atlas::analysis() const { return store::analysis_of(data_->store, {}); }
+Analysis Atlas::analysis() const { return analysis_of(data_->store, {}); }
 
 Volume Atlas::volume(const Context& context) const {
     Volume volume = make_volume(info().extent, info().type, info().geometry);
     volume.info = info();
-    store::IoCounters counters;
+    IoCounters counters;
     data_->samples->read_all(volume.bytes, context, counters);
     data_->count(counters);
     return volume;
@@ -213,7 +213,7 @@ std::vector<std::int64_t> Atlas::histogram(std::span<const double> edges, const 
         throw Error(ErrorKind::usage,
                     {.where = "edges of a histogram", .what = "they do not ascend", .expected = "two or more, ascending"});
     }
-    store::IoCounters counters;
+    IoCounters counters;
     std::vector<std::int64_t> counts = data_->samples->histogram(edges, context, counters);
     data_->count(counters);
     return counts;
@@ -229,7 +229,7 @@ Volume Atlas::check(const Context& context) const {
     data_->store.check_all();
     data_->samples->check(context);
     Volume samples = volume(context);
-    if (store::checksum(samples.bytes) != data_->store.contents().parameters.samples_checksum) {
+    if (checksum(samples.bytes) != data_->store.contents().parameters.samples_checksum) {
         throw Error(ErrorKind::input, {.file = data_->store.path(),
                                        .where = "volume/data",
                                        .what = "the samples are not those that the store was made of",
@@ -264,7 +264,7 @@ void AtlasAccess::keep(const Atlas& atlas, Analysis analysis) {
     });
 }
 
-const store::Container& AtlasAccess::store(const Atlas& atlas) { return atlas.data_->store; }
+const Container& AtlasAccess::store(const Atlas& atlas) { return atlas.data_->store; }
 StoredSamples& AtlasAccess::samples(const Atlas& atlas) { return *atlas.data_->samples; }
 void AtlasAccess::count(const Atlas& atlas, const LevelQuery& spent, std::int64_t active, QueryCost* cost) {
     atlas.data_->count(spent, active, cost);

@@ -41,7 +41,7 @@ Context shifted(const Context& context, int by, const Extent& extent) {
 /// Of samples that may be larger than memory.
 std::uint64_t checksum_of(std::span<const std::byte> samples) {
     constexpr std::size_t kPart = std::size_t{1} << 22;
-    store::Checksum sum;
+    Checksum sum;
     for (std::size_t first = 0; first < samples.size(); first += kPart) {
         sum.add(samples.subspan(first, std::min(kPart, samples.size() - first)));
         check_memory();
@@ -50,9 +50,9 @@ std::uint64_t checksum_of(std::span<const std::byte> samples) {
 }
 
 /// fingerprint: of what is asked for. samples: checksum of those in the file; nothing: they are those that are analysed.
-store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, store::Fingerprint fingerprint,
-                            std::optional<std::uint64_t> samples) {
-    store::Contents contents;
+Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, Fingerprint fingerprint,
+                     std::optional<std::uint64_t> samples) {
+    Contents contents;
     contents.volume = *volume.info;
     const std::size_t slash = volume.info->path.rfind('/');
     if (slash != std::string::npos) contents.volume.path = volume.info->path.substr(slash + 1);  // where it lay does not matter
@@ -65,13 +65,13 @@ store::Contents contents_of(const VolumeView& volume, const AnalysisOptions& opt
 }
 
 /// Counts bytes of the bricks as they are written; all else is copied.
-void report_packing(std::vector<store::PackedArray>& arrays, const Context& context) {
+void report_packing(std::vector<PackedArray>& arrays, const Context& context) {
     double total = 0;
-    for (const store::PackedArray& array : arrays) total += array.chunk > 0 ? 0 : static_cast<double>(array.bytes());
+    for (const PackedArray& array : arrays) total += array.chunk > 0 ? 0 : static_cast<double>(array.bytes());
     const auto done = std::make_shared<double>(0);
-    for (store::PackedArray& array : arrays) {
+    for (PackedArray& array : arrays) {
         if (array.chunk > 0) continue;
-        array.feed = [feed = std::move(array.feed), done, total, context](const store::Put& put) {
+        array.feed = [feed = std::move(array.feed), done, total, context](const Put& put) {
             feed([&](std::span<const std::byte> bytes) {
                 stop_if_cancelled(context);
                 put(bytes);
@@ -110,26 +110,26 @@ public:
 
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
 
-    BuildReport run(const VolumeView& volume, const AnalysisOptions& options, const store::Contents& contents) {
+    BuildReport run(const VolumeView& volume, const AnalysisOptions& options, const Contents& contents) {
         std::optional<Analysis> analysis;
-        std::unique_ptr<store::Container> trees = finished(kTrees, contents);
+        std::unique_ptr<Container> trees = finished(kTrees, contents);
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
             analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
-            store::pack_store(folder_.file(kTrees), contents, store::tree_arrays(*analysis, *volume.info, context_.threads));
-            trees = std::make_unique<store::Container>(folder_.file(kTrees));
+            pack_store(folder_.file(kTrees), contents, tree_arrays(*analysis, *volume.info, context_.threads));
+            trees = std::make_unique<Container>(folder_.file(kTrees));
         }
-        std::unique_ptr<store::Container> zones = finished(kZones, contents);
+        std::unique_ptr<Container> zones = finished(kZones, contents);
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = store::arcs_of(*trees, volume.bytes, context_);
+            if (!analysis) analysis = arcs_of(*trees, volume.bytes, context_);
             const Context part = shifted(context_, 1, volume.info->extent);
             const auto done = [this](double fraction) { context_.report("objects", 6, kPhases, fraction); };
             const std::unique_ptr<ZonePhase> made = zone_phase(*analysis, volume, context_, part, done);
-            store::pack_store(folder_.file(kZones), contents, made->arrays);
-            zones = std::make_unique<store::Container>(folder_.file(kZones));
+            pack_store(folder_.file(kZones), contents, made->arrays);
+            zones = std::make_unique<Container>(folder_.file(kZones));
         }
         analysis.reset();
         return_big_memory();
@@ -139,9 +139,9 @@ public:
 
 private:
     /// What is not used is reported; phases that have the same wrong with them, together.
-    [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& contents) {
+    [[nodiscard]] std::unique_ptr<Container> finished(const std::string& phase, const Contents& contents) {
         std::string why_not;
-        std::unique_ptr<store::Container> found = folder_.finished(phase, contents, why_not);
+        std::unique_ptr<Container> found = folder_.finished(phase, contents, why_not);
         if (why_not.empty()) return found;
         const std::string reason = " of an earlier build are not used: " + why_not;
         const bool is_same = !report_.not_used.empty() && report_.not_used.back().ends_with(reason);
@@ -152,15 +152,15 @@ private:
         return found;
     }
 
-    void pack(const VolumeView& volume, const store::Contents& contents, const std::vector<const store::Container*>& phases) {
-        std::vector<store::PackedArray> arrays = store::brick_arrays(volume, context_);
-        for (const store::Container* phase : phases) {
-            for (store::PackedArray& array : store::copied_arrays(*phase)) arrays.push_back(std::move(array));
+    void pack(const VolumeView& volume, const Contents& contents, const std::vector<const Container*>& phases) {
+        std::vector<PackedArray> arrays = brick_arrays(volume, context_);
+        for (const Container* phase : phases) {
+            for (PackedArray& array : copied_arrays(*phase)) arrays.push_back(std::move(array));
         }
         const LevelCensus census = take_census(volume, context_);
-        for (store::PackedArray& array : census_arrays(census)) arrays.push_back(std::move(array));
+        for (PackedArray& array : census_arrays(census)) arrays.push_back(std::move(array));
         report_packing(arrays, context_);
-        report_.bytes = store::pack_store(path_, contents, arrays);
+        report_.bytes = pack_store(path_, contents, arrays);
         if (!folder_.remove()) report_.left_behind = folder_.path();
         report_.peak_memory = peak_memory();
     }
@@ -180,19 +180,19 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
     check_estimate(estimate, reader.info().path, path);
     const MemoryLimit limit(estimate.uses_scratch ? estimate.budget : 0, build.scratch_folder());
     BigVector<std::byte> samples;
-    const io::Allocate allocate = [&samples](std::size_t bytes) {
+    const Allocate allocate = [&samples](std::size_t bytes) {
         samples.resize(bytes);
         return std::span<std::byte>(samples);
     };
     SummingReader summed(reader);
-    VolumeInfo info = io::load_samples(summed, options.missing, allocate, shifted(build.context(), 0, reader.info().extent));
+    VolumeInfo info = load_samples(summed, options.missing, allocate, shifted(build.context(), 0, reader.info().extent));
     if (options.geometry) info.geometry = *options.geometry;
     if (options.gaussian > 0) filter_in_place(info, samples.data(), options.gaussian, build.context());
     const VolumeView volume(info, samples.data());
     AnalysisOptions analysis = options.analysis;
     if (options.tunnel_height_percent > 0) analysis.tunnel_height = options.tunnel_height_percent / 100 * range_of(volume);
-    store::Fingerprint fingerprint = header_fingerprint(reader.info(), options, analysis.tunnel_height);
-    store::Contents contents = contents_of(volume, analysis, std::move(fingerprint), summed.sum());
+    Fingerprint fingerprint = header_fingerprint(reader.info(), options, analysis.tunnel_height);
+    Contents contents = contents_of(volume, analysis, std::move(fingerprint), summed.sum());
     contents.is_replaceable = options.is_replaceable;
     return build.run(volume, analysis, contents);
 }
@@ -202,8 +202,7 @@ BuildReport build_atlas(const std::string& path, const Volume& volume, const Ana
     BuildOptions asked;
     asked.analysis = options;
     asked.gaussian = volume.info.gaussian;
-    const store::Contents contents =
-        contents_of(volume, options, header_fingerprint(volume.info, asked, options.tunnel_height), std::nullopt);
+    const Contents contents = contents_of(volume, options, header_fingerprint(volume.info, asked, options.tunnel_height), std::nullopt);
     return Build(path, false, context).run(volume, options, contents);
 }
 

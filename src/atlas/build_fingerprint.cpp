@@ -9,8 +9,8 @@
 namespace isoatlas {
 namespace {
 
-using store::exact_text;
-using store::Fingerprint;
+using exact_text;
+using Fingerprint;
 
 std::string size_text(const Extent& extent) {
     std::string text = std::to_string(extent.size[0]) + " x " + std::to_string(extent.size[1]);
@@ -25,7 +25,7 @@ std::string missing_text(const MissingPolicy& policy) {
 
 /// Of the places of all slices of a grid with uneven steps.
 std::string coordinates_text(const Geometry& geometry) {
-    store::Checksum sum;
+    Checksum sum;
     bool is_uneven = false;
     for (const std::vector<double>& places : geometry.coordinates) {
         const std::uint64_t count = places.size();
@@ -33,7 +33,7 @@ std::string coordinates_text(const Geometry& geometry) {
         sum.add(std::as_bytes(std::span(&count, 1)));
         sum.add(std::as_bytes(std::span(places)));
     }
-    return is_uneven ? "uneven, checksum " + store::checksum_text(sum.sum()) : "even";
+    return is_uneven ? "uneven, checksum " + checksum_text(sum.sum()) : "even";
 }
 
 void add_geometry(Fingerprint& fingerprint, const Geometry& geometry) {
@@ -48,7 +48,7 @@ void add_geometry(Fingerprint& fingerprint, const Geometry& geometry) {
 }
 
 /// What stores of versions 1 and 2 tell, in the words of header_fingerprint().
-Fingerprint fingerprint_of(const store::Contents& contents) {
+Fingerprint fingerprint_of(const Contents& contents) {
     BuildOptions options;
     options.gaussian = contents.volume.gaussian;
     options.analysis.interpolant = contents.parameters.interpolant;
@@ -64,13 +64,13 @@ VolumeInfo analysed(VolumeInfo info) {
 }
 
 std::uint64_t sum_of(VolumeReader& volume, const Context& context) {
-    store::Checksum sum;
-    io::for_each_slab(volume, context, {}, [&sum](std::int64_t, std::span<std::byte> samples) { sum.add(samples); });
+    Checksum sum;
+    for_each_slab(volume, context, {}, [&sum](std::int64_t, std::span<std::byte> samples) { sum.add(samples); });
     return sum.sum();
 }
 
 /// Of stores that tell no fingerprint.
-std::vector<std::string> differences_of_old(const store::Contents& contents, VolumeReader& volume, const BuildOptions& options,
+std::vector<std::string> differences_of_old(const Contents& contents, VolumeReader& volume, const BuildOptions& options,
                                             double tunnel_height, bool compare_samples, const Context& context) {
     const Fingerprint there = fingerprint_of(contents);
     Fingerprint here = header_fingerprint(analysed(volume.info()), options, tunnel_height);
@@ -88,8 +88,8 @@ std::vector<std::string> differences_of_old(const store::Contents& contents, Vol
 
 Fingerprint header_fingerprint(const VolumeInfo& file, const BuildOptions& options, double tunnel_height) {
     Fingerprint fingerprint;
-    fingerprint.add("format", std::to_string(store::kStoreVersion));
-    fingerprint.add("algorithm", std::to_string(store::kAlgorithmVersion));
+    fingerprint.add("format", std::to_string(kStoreVersion));
+    fingerprint.add("algorithm", std::to_string(kAlgorithmVersion));
     fingerprint.add("size", size_text(file.extent));
     fingerprint.add("type", name_of(file.type));
     fingerprint.add("time step", options.time_step ? std::to_string(*options.time_step) : "");
@@ -106,12 +106,12 @@ Fingerprint header_fingerprint(const VolumeInfo& file, const BuildOptions& optio
 }
 
 void add_samples(Fingerprint& fingerprint, std::uint64_t samples, std::uint64_t analysed) {
-    fingerprint.add(kSamplesMember, store::checksum_text(samples));
-    fingerprint.add(kAnalysedMember, store::checksum_text(analysed));
+    fingerprint.add(kSamplesMember, checksum_text(samples));
+    fingerprint.add(kAnalysedMember, checksum_text(analysed));
 }
 
 struct SummingReader::Data {
-    store::Checksum sum;
+    Checksum sum;
     std::int64_t next = 0;  ///< slice
 };
 
@@ -132,7 +132,7 @@ std::uint64_t SummingReader::sum() const {
 
 std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& volume, const BuildOptions& options, bool compare_samples,
                                            const Context& context) {
-    const store::Contents& contents = AtlasAccess::store(atlas).contents();
+    const Contents& contents = AtlasAccess::store(atlas).contents();
     double tunnel_height = options.analysis.tunnel_height;
     if (options.tunnel_height_percent > 0) {
         const std::array<double, 2> range = atlas.range();  // that of the volume, if the store is of it
@@ -144,10 +144,10 @@ std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& vol
     there.remove(kSamplesMember), there.remove(kAnalysedMember);
     std::vector<std::string> found = differences(there, here);
     if (!found.empty() || !compare_samples) return found;
-    if (samples == nullptr || store::checksum_text(sum_of(volume, context)) != *samples) found.emplace_back("other samples there");
+    if (samples == nullptr || checksum_text(sum_of(volume, context)) != *samples) found.emplace_back("other samples there");
     return found;
 }
 
-std::string joined_differences(const std::vector<std::string>& differences) { return store::joined(differences); }
+std::string joined_differences(const std::vector<std::string>& differences) { return joined(differences); }
 
 }  // namespace isoatlas

@@ -13,10 +13,10 @@ inline constexpr const char* kSamplesMember = "checksum of the samples";
 inline constexpr const char* kAnalysedMember = "checksum of the samples that are analysed";
 
 /// file: as the reader tells it. tunnel_height: stored values, whatever the options say.
-[[nodiscard]] store::Fingerprint header_fingerprint(const VolumeInfo& file, const BuildOptions& options, double tunnel_height);
+[[nodiscard]] Fingerprint header_fingerprint(const VolumeInfo& file, const BuildOptions& options, double tunnel_height);
 
 /// samples: checksum of those in the file; analysed: of those after missing values, calibration and filter.
-void add_samples(store::Fingerprint& fingerprint, std::uint64_t samples, std::uint64_t analysed);
+void add_samples(Fingerprint& fingerprint, std::uint64_t samples, std::uint64_t analysed);
 
 /// A reader that sums up what it reads; slabs come in order.
 class SummingReader final : public VolumeReader {

@@ -56,12 +56,12 @@ void check_found(const std::string& path) {
 
 std::string text_of(File& lock, const std::string& path) {
     std::string text(kLockBytes, '\0');
-    text.resize(io::read_available(lock, path, 0, std::as_writable_bytes(std::span(text))));
+    text.resize(read_available(lock, path, 0, std::as_writable_bytes(std::span(text))));
     return text;
 }
 
 /// What is in the lock of somebody else; "" when that cannot be read.
-std::string text_of(const std::string& lock) try { return text_of(*io::open_file(lock), lock); } catch (const Error&) {
+std::string text_of(const std::string& lock) try { return text_of(*open_file(lock), lock); } catch (const Error&) {
     return "";
 }
 
@@ -113,13 +113,12 @@ BuildFolder::~BuildFolder() {
     if (lock_ && file_system().entries(path_, 2).size() == 1) (void)remove();  // the lock alone: nothing was finished
 }
 
-std::unique_ptr<store::Container> BuildFolder::finished(const std::string& phase, const store::Contents& wanted,
-                                                        std::string& why_not) const {
+std::unique_ptr<Container> BuildFolder::finished(const std::string& phase, const Contents& wanted, std::string& why_not) const {
     ISOATLAS_CHECK(is_phase(phase));
-    if (!io::file_exists(file(phase))) return nullptr;
+    if (!file_exists(file(phase))) return nullptr;
     try {
-        auto container = std::make_unique<store::Container>(file(phase));
-        why_not = store::joined(store::differences(container->contents().fingerprint, wanted.fingerprint));
+        auto container = std::make_unique<Container>(file(phase));
+        why_not = joined(differences(container->contents().fingerprint, wanted.fingerprint));
         if (why_not.empty()) {
             container->check_all();
             return container;

@@ -29,8 +29,7 @@ public:
     [[nodiscard]] std::string file(const std::string& phase) const { return path_ + "/" + phase; }
     /// A finished phase with the fingerprint of these contents; null: there is none. Others, and damaged ones, are removed; then why_not
     /// says what is wrong with it.
-    [[nodiscard]] std::unique_ptr<store::Container> finished(const std::string& phase, const store::Contents& wanted,
-                                                             std::string& why_not) const;
+    [[nodiscard]] std::unique_ptr<Container> finished(const std::string& phase, const Contents& wanted, std::string& why_not) const;
     /// Says where the build is, for other processes: about once a second, whenever it is called. A disk that refuses is no failure.
     void say(const BuildState& state);
     /// The store is there: removes what the build has made, and the folder when nothing else is in it. Returns whether it is gone.

@@ -16,15 +16,15 @@ void for_counts(Census& census, Visit&& visit) {
 
 }  // namespace
 
-std::vector<store::PackedArray> census_arrays(const LevelCensus& census) {
-    std::vector<store::PackedArray> arrays{store::packed<double>("census/value", "float64", census.value)};
+std::vector<PackedArray> census_arrays(const LevelCensus& census) {
+    std::vector<PackedArray> arrays{packed<double>("census/value", "float64", census.value)};
     for_counts(census, [&](const char* name, const std::vector<std::uint64_t>& counts) {
-        arrays.push_back(store::packed<std::uint64_t>(name, "uint64", counts));
+        arrays.push_back(packed<std::uint64_t>(name, "uint64", counts));
     });
     return arrays;
 }
 
-LevelCensus census_of(const store::Container& store) {
+LevelCensus census_of(const Container& store) {
     LevelCensus census;
     census.value = store.all<double>("census/value", "float64");
     bool is_sound = !census.value.empty() && std::is_sorted(census.value.begin(), census.value.end());

@@ -15,9 +15,9 @@
 namespace isoatlas {
 
 /// The census must live until the arrays are packed.
-[[nodiscard]] std::vector<store::PackedArray> census_arrays(const LevelCensus& census);
+[[nodiscard]] std::vector<PackedArray> census_arrays(const LevelCensus& census);
 
 /// Throws Error{input} when it contradicts itself.
-[[nodiscard]] LevelCensus census_of(const store::Container& store);
+[[nodiscard]] LevelCensus census_of(const Container& store);
 
 }  // namespace isoatlas

@@ -15,7 +15,7 @@
 namespace isoatlas {
 namespace {
 
-using store::StoredArray;
+using StoredArray;
 
 constexpr std::string_view kChecksums = "checksums/";
 
@@ -70,7 +70,7 @@ Named named(const std::string& part) {
 }  // namespace
 
 struct StoreDump::Data {
-    store::Container store;
+    Container store;
     explicit Data(const std::string& path) : store(path) {}
 
     [[noreturn]] void no_part(const std::string& part, const std::string& what, const std::string& expected) const {
@@ -111,7 +111,7 @@ struct StoreDump::Data {
         part.name = name;
         part.type = "json";
         part.offset = name == "header" ? 0 : store.header().contents_offset;
-        part.bytes = name == "header" ? store::kHeaderBytes : store.header().contents_bytes;
+        part.bytes = name == "header" ? kHeaderBytes : store.header().contents_bytes;
         return part;
     }
 
@@ -131,10 +131,10 @@ struct StoreDump::Data {
     }
 
     [[nodiscard]] StorePart brick_part(std::int64_t brick) const {
-        const store::BrickGrid grid(store.contents().volume.extent);
+        const BrickGrid grid(store.contents().volume.extent);
         const std::string name = "brick " + std::to_string(brick);
         if (brick < 0 || brick >= grid.count()) no_part(name, "there is no such brick", "0 to " + std::to_string(grid.count() - 1));
-        const store::Box box = grid.box(brick);
+        const Box box = grid.box(brick);
         StorePart part;
         part.kind = StorePart::Kind::brick;
         part.name = name;
@@ -160,7 +160,7 @@ struct StoreDump::Data {
 
     [[nodiscard]] StorePart part_of_voxel(const std::string& part, const std::vector<std::int64_t>& at) const {
         const Extent& extent = store.contents().volume.extent;
-        const store::BrickGrid grid(extent);
+        const BrickGrid grid(extent);
         std::array<std::int64_t, 3> place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::int64_t voxel = axis < at.size() ? at[axis] : 0;
@@ -169,7 +169,7 @@ struct StoreDump::Data {
                         "below " + std::to_string(extent.size[0]) + "," + std::to_string(extent.size[1]) + "," +
                             std::to_string(extent.size[2]));
             }
-            place[axis] = voxel / store::kBrickSize[axis];
+            place[axis] = voxel / kBrickSize[axis];
         }
         return brick_part(grid.brick(place));
     }
@@ -184,7 +184,7 @@ struct StoreDump::Data {
     [[nodiscard]] StoreNumbers read_brick(std::int64_t brick, std::int64_t first, std::int64_t end) const {
         return visit_type(store.contents().volume.type, [&]<class T>(T) {
             std::vector<T> samples;
-            store::BrickReader<T>(store).read(
+            BrickReader<T>(store).read(
                 {brick}, {}, [&](std::int64_t, std::span<const T> all) { samples.assign(all.begin() + first, all.begin() + end); });
             return widened(samples);
         });
@@ -224,7 +224,7 @@ StorePart StoreDump::find(const std::string& part) const {
 std::string StoreDump::text(const StorePart& part) const {
     if (part.name == "contents") return data_->store.contents_text();
     if (part.name != "header") throw Error(ErrorKind::usage, {.where = part.name, .what = "is no text", .next = "read its numbers"});
-    const store::Header& header = data_->store.header();
+    const Header& header = data_->store.header();
     return "{\n \"file_size\": " + std::to_string(header.file_size) + ",\n \"contents_offset\": " + std::to_string(header.contents_offset) +
            ",\n \"contents_bytes\": " + std::to_string(header.contents_bytes) +
            ",\n \"contents_checksum\": " + std::to_string(header.contents_checksum) + "\n}";

@@ -16,7 +16,7 @@
 #include "store/brick_reader.h"
 #include "store/typed_arrays.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr const char* kValue = "elements/value";
@@ -180,4 +180,4 @@ ISOATLAS_ELEMENTS(std::uint32_t)
 ISOATLAS_ELEMENTS(std::uint64_t)
 #undef ISOATLAS_ELEMENTS
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

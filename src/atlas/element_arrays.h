@@ -17,7 +17,7 @@
 #include "store/container.h"
 #include "store/pack.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// values, codes: of all elements, descending; they must live until the arrays are packed. Id: of places. Cost: of noise a sort, 16 bytes
 /// an element while it runs and 8 until they are packed.
@@ -31,4 +31,4 @@ template <class Id>
 void read_elements(const Container& store, const std::byte* samples, const Context& context, BigVector<std::uint64_t>& codes,
                    BigVector<double>& values);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

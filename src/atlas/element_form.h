@@ -9,7 +9,7 @@
 
 #include "field/order.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 struct ElementForm {
     std::int64_t place;
@@ -34,4 +34,4 @@ constexpr ElementCode code_of(ElementForm element) {
     return {(3 * place + (form >> 10)) << 10 | low};
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

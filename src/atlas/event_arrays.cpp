@@ -5,7 +5,7 @@
 
 #include "analysis/analysis_data.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMostElements = std::int64_t{1} << 22;
@@ -87,4 +87,4 @@ std::string first_wrong_event(const Container& store, const Analysis& analysis) 
     return wrong;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -16,7 +16,7 @@
 #include "store/container.h"
 #include "store/pack.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// Events are stored of volumes with at most 2^22 critical elements, and at most one for three voxels: so the tree of a CT scan takes its
 /// share of 2 bytes a voxel, and noise takes none. Neither depends on the memory a store is built in.
@@ -35,4 +35,4 @@ namespace isoatlas::store {
 /// Says which number of the stored events is not that of the analysis; "" when all are. Cost: reads them.
 [[nodiscard]] std::string first_wrong_event(const Container& store, const Analysis& analysis);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

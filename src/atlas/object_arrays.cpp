@@ -61,10 +61,10 @@ void for_isovalue_members(const std::string& group, Visit&& visit) {
 }
 
 template <class T>
-store::PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
+PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
     const auto held = std::make_shared<std::vector<T>>(std::move(numbers));
-    store::PackedArray array = store::packed<T>(name, type, *held);
-    array.feed = [held, feed = std::move(array.feed)](const store::Put& put) { feed(put); };
+    PackedArray array = packed<T>(name, type, *held);
+    array.feed = [held, feed = std::move(array.feed)](const Put& put) { feed(put); };
     return array;
 }
 
@@ -74,7 +74,7 @@ using Stored = std::conditional_t<std::is_same_v<Member, bool> || std::is_enum_v
 
 /// for_each: for_members, for_dark_members or for_isovalue_members.
 template <class Line>
-void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vector<store::PackedArray>& arrays) {
+void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vector<PackedArray>& arrays) {
     for_each([&]<class Member>(const char* name, const char* type, Member Line::* member) {
         std::vector<Stored<Member>> numbers;
         for (const Line& line : lines) numbers.push_back(static_cast<Stored<Member>>(line.*member));
@@ -82,7 +82,7 @@ void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vecto
     });
 }
 
-[[noreturn]] void contradiction(const store::Container& store) {
+[[noreturn]] void contradiction(const Container& store) {
     throw Error(ErrorKind::input, {.file = store.path(),
                                    .where = "objects",
                                    .what = "the table contradicts itself",
@@ -91,7 +91,7 @@ void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vecto
 
 /// The lines of the arrays that for_each visits.
 template <class Line>
-std::vector<Line> lines_of(const store::Container& store, const char* first, const char* type, const auto& for_each) {
+std::vector<Line> lines_of(const Container& store, const char* first, const char* type, const auto& for_each) {
     std::vector<Line> lines(static_cast<std::size_t>(store.contents().array(first, type).count()));
     for_each([&]<class Member>(const char* name, const char* type_of_member, Member Line::* member) {
         if constexpr (std::is_same_v<Member, std::int64_t>) {
@@ -109,7 +109,7 @@ std::vector<Line> lines_of(const store::Container& store, const char* first, con
 }
 
 /// Bright ones are not in the first stores of version 1, dark ones not in those of version 2.
-std::vector<RecommendedIsovalue> isovalues_of(const store::Container& store, const std::string& group) {
+std::vector<RecommendedIsovalue> isovalues_of(const Container& store, const std::string& group) {
     const std::string first = group + "/tau";
     if (!store.contents().has_array(first)) return {};
     return lines_of<RecommendedIsovalue>(store, first.c_str(), "float64", [&](const auto& visit) { for_isovalue_members(group, visit); });
@@ -120,12 +120,12 @@ std::array<double, 3> position_of(std::int64_t voxel, const Extent& extent) {
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
 }
 
-void check(const RecommendedIsovalue& isovalue, bool has_cavity, const store::Container& store) {
+void check(const RecommendedIsovalue& isovalue, bool has_cavity, const Container& store) {
     if (isovalue.reason > IsovalueReason::middle || has_cavity != (isovalue.cavity >= 0)) contradiction(store);
     if (isovalue.cavity >= store.contents().volume.extent.voxels()) contradiction(store);
 }
 
-void check(const ObjectTable& table, const store::Container& store) {
+void check(const ObjectTable& table, const Container& store) {
     const std::int64_t voxels = store.contents().volume.extent.voxels();
     for (const RecommendedIsovalue& isovalue : table.isovalues) check(isovalue, isovalue.reason == IsovalueReason::inner, store);
     for (const ObjectEntry& entry : table.entries) {
@@ -139,8 +139,8 @@ void check(const ObjectTable& table, const store::Container& store) {
 
 }  // namespace
 
-std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
-    std::vector<store::PackedArray> arrays;
+std::vector<PackedArray> object_arrays(const ObjectTable& table) {
+    std::vector<PackedArray> arrays;
     add_arrays([](const auto& visit) { for_members(visit); }, table.entries, arrays);
     add_arrays([](const auto& visit) { for_isovalue_members("isovalues", visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("objects/branches", "int64", {table.branches}));
@@ -148,9 +148,9 @@ std::vector<store::PackedArray> object_arrays(const ObjectTable& table) {
     return arrays;
 }
 
-bool has_objects(const store::Container& store) { return store.contents().has_array("objects/id"); }
+bool has_objects(const Container& store) { return store.contents().has_array("objects/id"); }
 
-ObjectTable objects_of(const store::Container& store) {
+ObjectTable objects_of(const Container& store) {
     ObjectTable table;
     table.entries = lines_of<ObjectEntry>(store, "objects/id", "int64", [](const auto& visit) { for_members(visit); });
     const auto branches = store.all<std::int64_t>("objects/branches", "int64");
@@ -168,8 +168,8 @@ bool knows_branches(const ObjectTable& table) {
     return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
 }
 
-std::vector<store::PackedArray> dark_arrays(const DarkTable& table) {
-    std::vector<store::PackedArray> arrays;
+std::vector<PackedArray> dark_arrays(const DarkTable& table) {
+    std::vector<PackedArray> arrays;
     add_arrays([](const auto& visit) { for_dark_members(visit); }, table.entries, arrays);
     add_arrays([](const auto& visit) { for_isovalue_members("dark_isovalues", visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("dark/branches", "int64", {table.branches}));
@@ -177,9 +177,9 @@ std::vector<store::PackedArray> dark_arrays(const DarkTable& table) {
     return arrays;
 }
 
-bool has_dark(const store::Container& store) { return store.contents().has_array("dark/id"); }
+bool has_dark(const Container& store) { return store.contents().has_array("dark/id"); }
 
-DarkTable dark_of(const store::Container& store) {
+DarkTable dark_of(const Container& store) {
     DarkTable table{lines_of<DarkEntry>(store, "dark/id", "int64", [](const auto& visit) { for_dark_members(visit); })};
     const auto branches = store.all<std::int64_t>("dark/branches", "int64");
     const auto noise = store.all<double>("dark/noise", "float64");

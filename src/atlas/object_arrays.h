@@ -27,20 +27,20 @@ inline constexpr std::int64_t kTableElements = std::int64_t{1} << 22;
 inline constexpr std::int64_t kStoredEntries = 1024;
 
 /// table: ranked with the gate and at most kStoredEntries entries. The arrays live on their own.
-[[nodiscard]] std::vector<store::PackedArray> object_arrays(const ObjectTable& table);
+[[nodiscard]] std::vector<PackedArray> object_arrays(const ObjectTable& table);
 
-[[nodiscard]] bool has_objects(const store::Container& store);
+[[nodiscard]] bool has_objects(const Container& store);
 /// Does a stored table (ObjectTable, DarkTable) list all that pass the gate?
 [[nodiscard]] bool is_whole(const auto& stored) { return std::ssize(stored.entries) < kStoredEntries; }
 /// Throws Error{input} when it contradicts itself.
-[[nodiscard]] ObjectTable objects_of(const store::Container& store);
+[[nodiscard]] ObjectTable objects_of(const Container& store);
 /// Does it say where the branches of its entries begin? Not in stores of before.
 [[nodiscard]] bool knows_branches(const ObjectTable& table);
 
 /// The table of dark objects, the same way: dark/id, ... as in DarkEntry, dark/branches, noise.
-[[nodiscard]] std::vector<store::PackedArray> dark_arrays(const DarkTable& table);
-[[nodiscard]] bool has_dark(const store::Container& store);
+[[nodiscard]] std::vector<PackedArray> dark_arrays(const DarkTable& table);
+[[nodiscard]] bool has_dark(const Container& store);
 /// Without notes. Throws Error{input} when it contradicts itself.
-[[nodiscard]] DarkTable dark_of(const store::Container& store);
+[[nodiscard]] DarkTable dark_of(const Container& store);
 
 }  // namespace isoatlas

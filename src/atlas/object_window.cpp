@@ -7,8 +7,8 @@
 namespace isoatlas {
 namespace {
 
-using store::Box;
-using store::BrickGrid;
+using Box;
+using BrickGrid;
 
 constexpr std::int64_t kMargin = 3;
 

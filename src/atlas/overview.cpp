@@ -10,7 +10,7 @@ namespace isoatlas {
 namespace {
 
 /// Are both tables stored, and whole?
-bool has_tables(const store::Container& store) {
+bool has_tables(const Container& store) {
     if (!has_objects(store) || !has_dark(store)) return false;
     const ObjectTable bright = objects_of(store);
     return is_whole(bright) && knows_branches(bright) && is_whole(dark_of(store));
@@ -22,7 +22,7 @@ Overview overview_of(const Atlas& atlas, const Context& context) {
     if (has_tables(AtlasAccess::store(atlas)))
         return {atlas.objects({.top = 0}, context), atlas.dark_objects({.top = 0}, context), atlas.hierarchy(context)};
     const Volume whole = atlas.volume(context);
-    Analysis zoned = store::zoned_analysis_of(AtlasAccess::store(atlas), whole, context);
+    Analysis zoned = zoned_analysis_of(AtlasAccess::store(atlas), whole, context);
     stop_if_cancelled(context);
     BothTables tables = rank_both(whole, zoned, {.top = 0}, context);
     stop_if_cancelled(context);

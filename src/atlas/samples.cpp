@@ -95,8 +95,8 @@ CoarseVolume Atlas::coarse(std::int64_t most, const Context& context) const {
 bool Atlas::is_of(VolumeReader& volume, const Context& context) const {
     const VolumeInfo &own = info(), &other = volume.info();
     if (own.extent != other.extent || own.type != other.type) return false;
-    store::Checksum sum;
-    io::for_each_slab(volume, context, {}, [&sum](std::int64_t, std::span<std::byte> samples) { sum.add(samples); });
+    Checksum sum;
+    for_each_slab(volume, context, {}, [&sum](std::int64_t, std::span<std::byte> samples) { sum.add(samples); });
     return sum.sum() == AtlasAccess::store(*this).contents().parameters.samples_checksum;
 }
 

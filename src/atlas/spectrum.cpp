@@ -138,7 +138,7 @@ Spectrum spectrum(const Atlas& atlas, const SpectrumOptions& options, const Cont
     ObjectTable table = atlas.objects(ranking(options), context);
     if (!knows_branches(table)) {
         const Volume volume = atlas.volume(context);
-        table = rank_objects(volume, store::zoned_analysis_of(AtlasAccess::store(atlas), volume, context), ranking(options), context);
+        table = rank_objects(volume, zoned_analysis_of(AtlasAccess::store(atlas), volume, context), ranking(options), context);
     }
     Spectrum spectrum = count(AtlasAccess::analysis(atlas), table);
     spectrum.selected = options.selection.has_value();

@@ -20,8 +20,8 @@ bool is_uniform(const Geometry& geometry) {
 
 /// Of every event; nothing when the store does not have it.
 std::optional<ZoneSums> stored_sums(const Atlas& atlas, const Analysis& analysis) {
-    const store::Container& store = AtlasAccess::store(atlas);
-    const std::vector<double> sums = store::event_sums_of(store, analysis.event_count());
+    const Container& store = AtlasAccess::store(atlas);
+    const std::vector<double> sums = event_sums_of(store, analysis.event_count());
     if (sums.empty() || !analysis.counts_voxels()) return std::nullopt;
     if (!std::ranges::all_of(sums, [](double sum) { return std::isfinite(sum); })) {
         throw Error(ErrorKind::input, {.file = store.path(),
@@ -37,19 +37,19 @@ std::optional<ZoneSums> stored_sums(const Atlas& atlas, const Analysis& analysis
 }  // namespace
 
 std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas, const Context& context) {
-    const store::Container& store = AtlasAccess::store(atlas);
+    const Container& store = AtlasAccess::store(atlas);
     if (!has_objects(store)) return std::nullopt;
     const ObjectTable table = objects_of(store);
     if (!is_whole(table) || !knows_branches(table)) return std::nullopt;  // essential ones may be missing
     std::vector<std::int64_t> tops;
     for (const ObjectEntry& entry : table.entries) tops.push_back(entry.branch_top);
     std::ranges::sort(tops);
-    if (is_uniform(atlas.info().geometry) && store::has_event_sums(store)) {
+    if (is_uniform(atlas.info().geometry) && has_event_sums(store)) {
         const Analysis& analysis = AtlasAccess::analysis(atlas);
         if (const std::optional<ZoneSums> zones = stored_sums(atlas, analysis)) return hierarchy_of(atlas.info(), analysis, *zones, tops);
     }
     const Volume whole = atlas.volume(context);
-    Analysis zoned = store::zoned_analysis_of(store, whole, context);
+    Analysis zoned = zoned_analysis_of(store, whole, context);
     BranchHierarchy hierarchy = hierarchy_of(atlas.info(), zoned, sum_zones(whole, zoned), tops);
     AtlasAccess::keep(atlas, std::move(zoned));
     return hierarchy;

@@ -9,7 +9,7 @@
 #include "atlas/element_arrays.h"
 #include "store/typed_arrays.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr const char* kTowardsOutside = "elements/towards_outside";
@@ -110,4 +110,4 @@ Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, con
     return analysis;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -15,7 +15,7 @@
 #include "store/container.h"
 #include "store/pack.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// Of find_arcs(), and of count_voxels() (analysis/analyse.h). The analysis must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads);
@@ -33,4 +33,4 @@ namespace isoatlas::store {
 /// The same with zones. volume: all samples of the store. Cost: and add_zones() (analysis/analyse.h).
 [[nodiscard]] Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, const Context& context);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

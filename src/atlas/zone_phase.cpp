@@ -15,13 +15,13 @@ void add_tables(const Analysis& analysis, const VolumeView& volume, const Contex
                 ZonePhase& phase) {
     const BothTables tables = rank_both(volume, analysis, {.top = kStoredEntries}, quiet);
     done(0.9);
-    const auto add = [&phase](std::vector<store::PackedArray> more) { std::ranges::move(more, std::back_inserter(phase.arrays)); };
+    const auto add = [&phase](std::vector<PackedArray> more) { std::ranges::move(more, std::back_inserter(phase.arrays)); };
     add(object_arrays(tables.bright));
     add(dark_arrays(tables.dark));
-    if (!store::stores_events(analysis)) return;
-    add(store::event_arrays(analysis));
+    if (!stores_events(analysis)) return;
+    add(event_arrays(analysis));
     phase.sums = sum_zones(volume, analysis);
-    phase.arrays.push_back(store::event_sum_array(phase.sums.height));
+    phase.arrays.push_back(event_sum_array(phase.sums.height));
 }
 
 Context silent(Context context) {
@@ -35,7 +35,7 @@ std::unique_ptr<ZonePhase> zone_phase(Analysis& analysis, const VolumeView& volu
                                       const std::function<void(double)>& done) {
     auto phase = std::make_unique<ZonePhase>();
     count_voxels(analysis, volume, counting);
-    phase->arrays = store::zone_arrays(analysis);
+    phase->arrays = zone_arrays(analysis);
     if (analysis.element_count() > kTableElements) return phase;
     done(0);
     complete(analysis, volume, silent(context));

@@ -13,7 +13,7 @@
 namespace isoatlas {
 
 struct ZonePhase {
-    std::vector<store::PackedArray> arrays;
+    std::vector<PackedArray> arrays;
     ZoneSums sums;  ///< which the arrays look at
 };
 

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kRow = store::kBrickRow, kSide = store::kBrickSize[1];
+constexpr std::int64_t kRow = kBrickRow, kSide = kBrickSize[1];
 
 #if defined(__SSE2__)
 /// Which of 16 samples are at least `least`, as bits.
@@ -56,7 +56,7 @@ BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& siz
     return bits;
 }
 
-void put_brick(const BrickBits& bits, const store::Box& box, HighBits& high) {
+void put_brick(const BrickBits& bits, const Box& box, HighBits& high) {
     const std::int64_t first = box.begin[0] + 1;  // position p is voxel p - 1
     const std::int64_t word = first / 64, shift = first % 64;
     const std::uint64_t columns = 0xffff >> (kRow - box.size(0));

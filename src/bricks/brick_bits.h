@@ -9,7 +9,7 @@
 
 namespace isoatlas {
 
-inline constexpr std::int64_t kBrickRows = store::kBrickSize[1] * store::kBrickSize[2];
+inline constexpr std::int64_t kBrickRows = kBrickSize[1] * kBrickSize[2];
 
 /// Bit x of row y + 8 z: is the sample High? Beyond the size of a smaller brick: zeros.
 using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)>;
@@ -20,7 +20,7 @@ template <class T>
 [[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T least);
 
 /// Writes them where the brick lies, over what is there.
-void put_brick(const BrickBits& bits, const store::Box& box, HighBits& high);
+void put_brick(const BrickBits& bits, const Box& box, HighBits& high);
 
 /// Layers of a brick along each axis that have Highs, that have Lows; what lies beyond a smaller brick is Low.
 struct BrickSides {

@@ -7,8 +7,8 @@
 
 namespace isoatlas {
 
-using store::Box;
-using store::BrickGrid;
+using Box;
+using BrickGrid;
 
 namespace {
 
@@ -41,7 +41,7 @@ bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::ar
 /// Layers of a brick, as bits, that lie at most `steps` from what lies in direction -d of it.
 std::uint16_t near_layers(std::size_t axis, std::int64_t d, int steps) {
     const int first = (1 << steps) - 1;
-    return static_cast<std::uint16_t>(d > 0 ? first : first << (store::kBrickSize[axis] - steps));
+    return static_cast<std::uint16_t>(d > 0 ? first : first << (kBrickSize[axis] - steps));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 }
 
 /// Which bricks are High or Low as a whole, and beside a brick of another class or, if High, at an end of the grid?
-[[nodiscard]] std::vector<std::uint8_t> touching_others(const store::BrickGrid& grid, const std::vector<BrickClass>& classes);
+[[nodiscard]] std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vector<BrickClass>& classes);
 
 /// Of a brick that touches others: is there something else among the samples around it that matter (bricks/brick_surroundings.h)? sides: of
 /// the divided bricks.
@@ -27,13 +27,12 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
                                                        const std::vector<BrickSides>& sides, int threads);
 
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
-[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const store::BrickGrid& grid, std::vector<std::uint8_t> flags,
-                                                        std::uint8_t outside = 0);
+[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside = 0);
 
 /// The numbers of the flagged bricks.
 [[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);
 
 /// Calls visit(brick) for all bricks, a layer at a time.
-void for_bricks(const store::BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit);
+void for_bricks(const BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit);
 
 }  // namespace isoatlas

@@ -41,8 +41,8 @@ private:
 }  // namespace
 
 template <class T>
-std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, std::span<const double> edges, const Context& context,
-                                          store::IoCounters& counters) {
+std::vector<std::int64_t> brick_histogram(const BrickReader<T>& bricks, std::span<const double> edges, const Context& context,
+                                          IoCounters& counters) {
     std::vector<std::int64_t> counts(edges.size() + 1), wanted;
     for (std::int64_t b = 0; b < bricks.grid().count(); ++b) {
         const std::size_t part = part_of(edges, static_cast<double>(bricks.low(b)));
@@ -62,9 +62,8 @@ std::vector<std::int64_t> brick_histogram(const store::BrickReader<T>& bricks, s
     return {counts.begin() + 1, counts.end() - 1};
 }
 
-#define ISOATLAS_INSTANTIATE(T)                                                                                                  \
-    template std::vector<std::int64_t> brick_histogram<T>(const store::BrickReader<T>&, std::span<const double>, const Context&, \
-                                                          store::IoCounters&);
+#define ISOATLAS_INSTANTIATE(T) \
+    template std::vector<std::int64_t> brick_histogram<T>(const BrickReader<T>&, std::span<const double>, const Context&, IoCounters&);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 

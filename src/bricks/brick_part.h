@@ -6,13 +6,13 @@
 namespace isoatlas {
 
 struct BrickPart {
-    const store::BrickGrid& whole;
+    const BrickGrid& whole;
     std::array<std::int64_t, 3> first;   ///< brick
     std::array<std::int64_t, 3> origin;  ///< voxel
-    store::BrickGrid grid;
+    BrickGrid grid;
 
-    explicit BrickPart(const store::BrickGrid& all) : BrickPart(all, {{0, 0, 0}, all.size}) {}
-    BrickPart(const store::BrickGrid& all, const store::Box& bricks)
+    explicit BrickPart(const BrickGrid& all) : BrickPart(all, {{0, 0, 0}, all.size}) {}
+    BrickPart(const BrickGrid& all, const Box& bricks)
         : whole(all), first(bricks.begin), origin(all.box(all.brick(bricks.begin)).begin), grid(extent_of(all, bricks)) {}
     /// The number in the whole grid.
     [[nodiscard]] std::int64_t number(std::int64_t brick) const {
@@ -27,9 +27,9 @@ struct BrickPart {
     }
 
 private:
-    static Extent extent_of(const store::BrickGrid& all, const store::Box& bricks) {
-        const store::Box low = all.box(all.brick(bricks.begin)),
-                         high = all.box(all.brick({bricks.end[0] - 1, bricks.end[1] - 1, bricks.end[2] - 1}));
+    static Extent extent_of(const BrickGrid& all, const Box& bricks) {
+        const Box low = all.box(all.brick(bricks.begin)),
+                  high = all.box(all.brick({bricks.end[0] - 1, bricks.end[1] - 1, bricks.end[2] - 1}));
         Extent extent = all.extent;
         for (int axis = 0; axis < 3; ++axis) extent.size[axis] = high.end[axis] - low.begin[axis];
         return extent;

@@ -9,9 +9,9 @@
 namespace isoatlas {
 namespace {
 
-using store::Box;
-using store::BrickGrid;
-using store::IoCounters;
+using Box;
+using BrickGrid;
+using IoCounters;
 
 /// The first step at or behind a sample, of those that start at `begin`.
 std::int64_t first_step(std::int64_t sample, std::int64_t begin, std::int64_t step) {
@@ -59,7 +59,7 @@ float mean_of(std::span<const T> samples, const std::array<std::int64_t, 3>& siz
 }  // namespace
 
 template <class T>
-void read_samples(const store::BrickReader<T>& bricks, const Box& box, std::int64_t step, const Context& context, std::span<T> out,
+void read_samples(const BrickReader<T>& bricks, const Box& box, std::int64_t step, const Context& context, std::span<T> out,
                   IoCounters& counters) {
     const BrickGrid& grid = bricks.grid();
     const std::int64_t columns = steps_along(box.size(0), step), rows = steps_along(box.size(1), step);
@@ -76,7 +76,7 @@ void read_samples(const store::BrickReader<T>& bricks, const Box& box, std::int6
 }
 
 template <class T>
-void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, const Context& context, std::span<float> out,
+void read_means(const BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, const Context& context, std::span<float> out,
                 IoCounters& counters) {
     ISOATLAS_CHECK(step == 1 || step == 2 || step == 4 || step == 8);
     const BrickGrid& grid = bricks.grid();
@@ -101,9 +101,9 @@ void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int
     });
 }
 
-#define ISOATLAS_INSTANTIATE(T)                                                                                                       \
-    template void read_samples<T>(const store::BrickReader<T>&, const Box&, std::int64_t, const Context&, std::span<T>, IoCounters&); \
-    template void read_means<T>(const store::BrickReader<T>&, std::int64_t, std::int64_t, const Context&, std::span<float>, IoCounters&);
+#define ISOATLAS_INSTANTIATE(T)                                                                                                \
+    template void read_samples<T>(const BrickReader<T>&, const Box&, std::int64_t, const Context&, std::span<T>, IoCounters&); \
+    template void read_means<T>(const BrickReader<T>&, std::int64_t, std::int64_t, const Context&, std::span<float>, IoCounters&);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 

@@ -10,15 +10,15 @@ namespace isoatlas {
 /// Every step-th sample of a box, from its first one on; out: as many, x fastest. box: not empty, inside the volume. step: 1 or more.
 /// Throws as BrickReader::read(). Cost: reads the bricks that hold one of them.
 template <class T>
-void read_samples(const store::BrickReader<T>& bricks, const store::Box& box, std::int64_t step, const Context& context, std::span<T> out,
-                  store::IoCounters& counters);
+void read_samples(const BrickReader<T>& bricks, const Box& box, std::int64_t step, const Context& context, std::span<T> out,
+                  IoCounters& counters);
 
 /// Means of cubes of step^3 samples; those at the far ends of the volume are of the samples that are left. out: one for each cube of
 /// the volume, x fastest; those of one layer of bricks are filled in. layer: place of bricks along z. step: 1, 2, 4 or 8, so that no cube
 /// lies in two bricks. Throws as BrickReader::read(). Cost: reads the bricks of the layer.
 template <class T>
-void read_means(const store::BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, const Context& context, std::span<float> out,
-                store::IoCounters& counters);
+void read_means(const BrickReader<T>& bricks, std::int64_t step, std::int64_t layer, const Context& context, std::span<float> out,
+                IoCounters& counters);
 
 /// How many steps there are along something of so many samples.
 [[nodiscard]] constexpr std::int64_t steps_along(std::int64_t samples, std::int64_t step) { return (samples + step - 1) / step; }

@@ -18,7 +18,7 @@ struct RowPart {
 };
 
 /// The part of row (y, z) that lies in a brick or matters to it.
-[[nodiscard]] inline RowPart surroundings(const store::Box& brick, std::int64_t y, std::int64_t z) {
+[[nodiscard]] inline RowPart surroundings(const Box& brick, std::int64_t y, std::int64_t z) {
     const auto steps = [&brick](int axis, std::int64_t at) {
         return std::max<std::int64_t>({0, brick.begin[axis] - at, at - brick.end[axis] + 1});
     };

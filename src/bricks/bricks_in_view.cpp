@@ -7,8 +7,8 @@
 namespace isoatlas {
 namespace {
 
-using store::BrickGrid;
-using store::kBrickSize;
+using BrickGrid;
+using kBrickSize;
 
 /// Between what the values in the cells of a brick lie: those at its end have corners in the next bricks.
 std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, const std::vector<std::array<double, 2>>& ranges) {

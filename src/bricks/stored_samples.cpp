@@ -18,16 +18,16 @@
 namespace isoatlas {
 namespace {
 
-using store::Box;
-using store::BrickGrid;
-using store::BrickReader;
-using store::IoCounters;
-using store::kBrickRow;
+using Box;
+using BrickGrid;
+using BrickReader;
+using IoCounters;
+using kBrickRow;
 
 template <class T>
 class Samples final : public StoredSamples {
 public:
-    Samples(const store::Container& store, std::int64_t cache_bytes)
+    Samples(const Container& store, std::int64_t cache_bytes)
         : info_(store.contents().volume),
           bricks_(store),
           grid_(bricks_.grid()),
@@ -368,7 +368,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<StoredSamples> stored_samples(const store::Container& store, std::int64_t cache_bytes) {
+std::unique_ptr<StoredSamples> stored_samples(const Container& store, std::int64_t cache_bytes) {
     return visit_type(store.contents().volume.type,
                       [&]<class T>(T) -> std::unique_ptr<StoredSamples> { return std::make_unique<Samples<T>>(store, cache_bytes); });
 }

@@ -43,7 +43,7 @@ struct KeptLevel {
 };
 
 /// A question while it is being answered: what it has cost, and the bricks that stay present for it.
-struct LevelQuery : store::IoCounters {
+struct LevelQuery : IoCounters {
     std::int64_t visited = 0;  ///< samples of the bricks that were looked at, present or not
     BrickLease held{};
 };
@@ -63,34 +63,32 @@ public:
     /// What names need (levelset/names.h) of the bricks of a level.
     virtual void add_extremes(LevelBricks& bricks, const Context& context) const = 0;
     /// classify() for the bricks of a box alone (bricks, not samples), with all that names need. Cost: proportional to the box.
-    [[nodiscard]] virtual StoredWindow classify_window(double tau, const store::Box& bricks, const Context& context, LevelQuery& query) = 0;
+    [[nodiscard]] virtual StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) = 0;
     /// What classify() would read of a store that was just opened: the divided bricks at least, at most also those beside bricks of
     /// another class. Reads nothing.
     struct Foreseen {
-        store::IoCounters least, most;
+        IoCounters least, most;
     };
     [[nodiscard]] virtual Foreseen foresee(double tau) const = 0;
     [[nodiscard]] virtual SampleView view() const = 0;
-    [[nodiscard]] virtual const store::BrickGrid& grid() const = 0;
+    [[nodiscard]] virtual const BrickGrid& grid() const = 0;
     /// Lowest and highest sample; reads nothing.
     [[nodiscard]] virtual std::array<double, 2> range() const = 0;
     /// The same of a brick.
     [[nodiscard]] virtual std::array<double, 2> range(std::int64_t brick) const = 0;
     /// Any sample; reads its brick when it is not present.
-    [[nodiscard]] virtual double sample(std::int64_t voxel, store::IoCounters& counters) = 0;
+    [[nodiscard]] virtual double sample(std::int64_t voxel, IoCounters& counters) = 0;
     /// All samples, x fastest.
-    virtual void read_all(std::span<std::byte> samples, const Context& context, store::IoCounters& counters) = 0;
+    virtual void read_all(std::span<std::byte> samples, const Context& context, IoCounters& counters) = 0;
     /// Those of the flagged bricks; all others are the lowest one of their brick.
     virtual void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
-                           store::IoCounters& counters) = 0;
+                           IoCounters& counters) = 0;
     /// bricks/brick_samples.h; out: samples of the type of the store.
-    virtual void read_box(const store::Box& box, std::int64_t step, std::span<std::byte> out, const Context& context,
-                          store::IoCounters& counters) = 0;
-    virtual void read_means(std::int64_t step, std::int64_t layer, std::span<float> out, const Context& context,
-                            store::IoCounters& counters) = 0;
+    virtual void read_box(const Box& box, std::int64_t step, std::span<std::byte> out, const Context& context, IoCounters& counters) = 0;
+    virtual void read_means(std::int64_t step, std::int64_t layer, std::span<float> out, const Context& context, IoCounters& counters) = 0;
     /// bricks/brick_histogram.h
     [[nodiscard]] virtual std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context,
-                                                              store::IoCounters& counters) = 0;
+                                                              IoCounters& counters) = 0;
     /// Reads all bricks; throws Error{input} where what is said about one is not so.
     virtual void check(const Context& context) const = 0;
     /// Forgets the samples that are present, but for those that queries hold.
@@ -100,6 +98,6 @@ public:
 };
 
 /// The store must outlive what is returned. cache_bytes: how much memory samples may take that no query holds, in pages; 0: any.
-[[nodiscard]] std::unique_ptr<StoredSamples> stored_samples(const store::Container& store, std::int64_t cache_bytes);
+[[nodiscard]] std::unique_ptr<StoredSamples> stored_samples(const Container& store, std::int64_t cache_bytes);
 
 }  // namespace isoatlas

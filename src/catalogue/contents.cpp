@@ -12,7 +12,7 @@
 #include "catalogue/thin_curve.h"
 #include "census/count_intervals.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kColumns = 480;       // of the spectrum
@@ -216,4 +216,4 @@ void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions
     }
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -14,7 +14,7 @@
 #include "isoatlas/page.h"
 #include "isoatlas/simplify.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 /// For isovalues in (closes, opens].
 struct PageTunnel {
@@ -75,4 +75,4 @@ struct PageContents {
 /// Cost: options.frames pictures for every entry.
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 
 #include "isoatlas/simplify.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 void widen(LevelCounts& least, LevelCounts& most, const LevelCounts& counts) {
@@ -71,4 +71,4 @@ std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::in
     return intervals;
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "isoatlas/analysis.h"
 #include "isoatlas/spectrum.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 /// For isovalues in (low, high] the counts take their values between least and most, both of them.
 struct CountColumn {
@@ -27,4 +27,4 @@ struct CountColumn {
 /// counts of one object in `all`. Cost: O(events of the branch).
 [[nodiscard]] std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::int64_t branch_top, double merges);
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

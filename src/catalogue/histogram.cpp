@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kBins = 160;
@@ -25,4 +25,4 @@ Histogram make_histogram(const Atlas& atlas, const AxisScale& scale, const Conte
     return histogram;
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "catalogue/page_axis.h"
 #include "isoatlas/atlas.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 struct Histogram {
     std::vector<double> edges;         ///< ascending
@@ -17,4 +17,4 @@ struct Histogram {
 /// Integers of a range of at most 256 have a bin for every value, else there are 160 bins, equally wide on the axis.
 [[nodiscard]] Histogram make_histogram(const Atlas& atlas, const AxisScale& scale, const Context& context = {});
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

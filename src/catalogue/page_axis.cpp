@@ -1,6 +1,6 @@
 #include "catalogue/page_axis.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 AxisScale page_axis(const Atlas& atlas, const Context& context) {
     const auto [low, high] = atlas.range();
@@ -8,4 +8,4 @@ AxisScale page_axis(const Atlas& atlas, const Context& context) {
     return axis_scale(low, high, edges.empty() ? std::vector<std::int64_t>() : atlas.histogram(edges, context));
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 SelectionCurve thin_curve(const SelectionCurve& curve, std::int64_t points) {
     if (static_cast<std::int64_t>(curve.kept.size()) <= points) return curve;
@@ -19,4 +19,4 @@ SelectionCurve thin_curve(const SelectionCurve& curve, std::int64_t points) {
     return thin;
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

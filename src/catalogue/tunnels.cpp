@@ -4,7 +4,7 @@
 
 #include "isoatlas/handles.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kMost = 12;  // of one object
@@ -40,4 +40,4 @@ void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& cont
     }
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

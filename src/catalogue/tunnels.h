@@ -3,9 +3,9 @@
 
 #include "catalogue/contents.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 /// Of a 3D volume, for the branches that have entries. Cost: find_handles() (isoatlas/handles.h).
 void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& context);
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

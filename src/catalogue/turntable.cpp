@@ -6,7 +6,7 @@
 
 #include "formats/common/base64.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 constexpr double kQuality = 80;
@@ -55,4 +55,4 @@ Turntable draw_still(const Volume& volume, double tau, const Colour& colour, con
     return {webp_uri(std::move(square)), 1, options.picture_size};
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "isoatlas/page.h"
 #include "isoatlas/render.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 struct Turntable {
     std::string image;  ///< a data: URI of a WebP picture, frames from left to right; empty: there is nothing to draw
@@ -20,4 +20,4 @@ struct Turntable {
 [[nodiscard]] Turntable draw_still(const Volume& volume, double tau, const Colour& colour, const PageOptions& options,
                                    const Context& context);
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -13,8 +13,8 @@
 namespace isoatlas {
 namespace {
 
-using store::Box;
-using store::BrickGrid;
+using Box;
+using BrickGrid;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

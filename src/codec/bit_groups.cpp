@@ -8,7 +8,7 @@
 
 #include "base/wide.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr int kWidest = 64;
@@ -210,4 +210,4 @@ ISOATLAS_INSTANTIATE(std::uint32_t);
 ISOATLAS_INSTANTIATE(std::uint64_t);
 #undef ISOATLAS_INSTANTIATE
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

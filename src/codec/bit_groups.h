@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 inline constexpr std::size_t kGroup = 8;
 
@@ -30,4 +30,4 @@ void pack_groups(std::span<const N> numbers, std::vector<std::byte>& out);
 template <class N>
 [[nodiscard]] bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

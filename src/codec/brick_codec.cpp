@@ -10,7 +10,7 @@
 #include "codec/float_units.h"
 #include "codec/sample_keys.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 enum class Kind : std::uint8_t { keys = 0, exact_units = 1, units_with_tails = 2 };
@@ -206,4 +206,4 @@ bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low,
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -20,7 +20,7 @@
 #include "codec/differences.h"
 #include "field/brick_grid.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// The lowest and the highest of some samples, -0.0 below 0.0. T: a sample type, here and below.
 template <class T>
@@ -45,4 +45,4 @@ void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::u
 template <class T>
 [[nodiscard]] bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low, std::span<T> samples);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 [[nodiscard]] inline std::uint64_t checksum(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
@@ -23,4 +23,4 @@ private:
     XXH3_state_t state_;
 };
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 struct FreeCompressor {
@@ -58,4 +58,4 @@ bool decode_chunk(std::span<const std::byte> packed, std::int64_t width, std::sp
     return true;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

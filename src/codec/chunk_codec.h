@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 inline constexpr std::int64_t kChunk = std::int64_t{1} << 16;  ///< numbers in a chunk
 inline constexpr int kDeflateLevel = 6;
@@ -22,4 +22,4 @@ inline constexpr int kDeflateLevel = 6;
 /// Fills raw. Returns false when the bytes are not the code of exactly that many.
 [[nodiscard]] bool decode_chunk(std::span<const std::byte> packed, std::int64_t width, std::span<std::byte> raw);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

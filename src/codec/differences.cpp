@@ -5,7 +5,7 @@
 
 #include "base/wide.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 /// A box as blocks of lines: differences of neighbouring lines are those along one axis.
@@ -143,4 +143,4 @@ ISOATLAS_INSTANTIATE(std::uint32_t);
 ISOATLAS_INSTANTIATE(std::uint64_t);
 #undef ISOATLAS_INSTANTIATE
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

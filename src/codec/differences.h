@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 using BoxSize = std::array<std::int64_t, 3>;  ///< numbers along x, y, z; x fastest
 using Orders = std::array<int, 3>;            ///< of the differences along x, y, z: 0, 1 or 2
@@ -32,4 +32,4 @@ void arrange(std::span<const N> differences, const BoxSize& size, const Orders& 
 template <class N>
 void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -12,7 +12,7 @@
 #include "base/wide.h"
 #include "field/brick_grid.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 template <class T>
@@ -248,4 +248,4 @@ ISOATLAS_INSTANTIATE(double);
 #undef ISOATLAS_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -14,7 +14,7 @@
 
 #include "codec/sample_keys.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 struct Units {
     int exponent = 0;    ///< the unit is 2^exponent
@@ -46,4 +46,4 @@ void append_tails(std::span<const T> samples, const Units& units, std::vector<st
 template <class T>
 [[nodiscard]] bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

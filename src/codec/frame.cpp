@@ -5,7 +5,7 @@
 
 #include "codec/checksum.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr char kName[16] = "isoatlas frame\n";  // and a zero byte
@@ -72,4 +72,4 @@ std::optional<Frame> frame_of_trailer(std::span<const std::byte> trailer, std::i
     return frame;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 struct ByteRange {
     std::uint64_t offset, bytes;
@@ -34,4 +34,4 @@ inline constexpr std::int64_t kTrailerEnd = 40;
 /// Of a whole trailer; nothing: it is damaged.
 [[nodiscard]] std::optional<Frame> frame_of_trailer(std::span<const std::byte> trailer, std::int64_t file_size);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

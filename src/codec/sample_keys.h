@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// The unsigned numbers as wide as T.
 template <class T>
@@ -33,4 +33,4 @@ template <class T>
     return std::bit_cast<T>(key & kSign ? static_cast<Key<T>>(key & ~kSign) : static_cast<Key<T>>(~key));
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// Places among the samples of a brick, x fastest. Ties as in the total order (field/order.h): of the highest the last, of the lowest the
 /// first one.
@@ -26,4 +26,4 @@ template <class T>
     return {static_cast<std::uint16_t>(highest), static_cast<std::uint16_t>(lowest)};
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

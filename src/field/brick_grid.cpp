@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 /// Is p before q on the curve that takes the bits of z, y, x in turns? The highest bit in which they differ decides (Chan 2002).
@@ -36,4 +36,4 @@ std::vector<std::int64_t> BrickGrid::file_order() const {
     return order;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 inline constexpr std::array<std::int64_t, 3> kBrickSize{16, 8, 8};  ///< samples along x, y, z
 inline constexpr std::int64_t kBrickRow = kBrickSize[0];
@@ -49,4 +49,4 @@ struct BrickGrid {
     [[nodiscard]] std::vector<std::int64_t> file_order() const;
 };
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

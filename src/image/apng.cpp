@@ -5,7 +5,6 @@
 #include "image/png.h"
 
 namespace isoatlas {
-namespace render {
 
 void check_animation(const Animation& animation, std::int64_t most) {
     const auto refuse = [](const std::string& what, const std::string& expected) {
@@ -42,25 +41,24 @@ std::vector<std::uint8_t> frame_control(std::uint32_t sequence, const Animation&
 }
 
 }  // namespace
-}  // namespace render
 
 std::vector<std::byte> encode_apng(const Animation& animation) {
-    render::check_animation(animation, render::kMostSide);
+    check_animation(animation, kMostSide);
     bool with_alpha = false;
-    for (const Image& frame : animation.frames) with_alpha = with_alpha || render::has_transparency(frame);
-    render::PngChunks chunks;
+    for (const Image& frame : animation.frames) with_alpha = with_alpha || has_transparency(frame);
+    PngChunks chunks;
     chunks.begin(animation.frames[0].width, animation.frames[0].height, with_alpha);
     std::vector<std::uint8_t> control;
-    render::put_number(control, static_cast<std::uint32_t>(animation.frames.size()));
-    render::put_number(control, 0);  // for ever
+    put_number(control, static_cast<std::uint32_t>(animation.frames.size()));
+    put_number(control, 0);  // for ever
     chunks.chunk("acTL", control);
     std::uint32_t sequence = 0;
     for (std::size_t i = 0; i < animation.frames.size(); ++i) {
-        chunks.chunk("fcTL", render::frame_control(sequence++, animation));
-        std::vector<std::uint8_t> pixels = render::deflated_pixels(animation.frames[i], with_alpha);
+        chunks.chunk("fcTL", frame_control(sequence++, animation));
+        std::vector<std::uint8_t> pixels = deflated_pixels(animation.frames[i], with_alpha);
         if (i > 0) {
             std::vector<std::uint8_t> numbered;
-            render::put_number(numbered, sequence++);
+            put_number(numbered, sequence++);
             numbered.insert(numbered.end(), pixels.begin(), pixels.end());
             pixels = std::move(numbered);
         }

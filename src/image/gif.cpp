@@ -6,7 +6,6 @@
 #include "image/quantise.h"
 
 namespace isoatlas {
-namespace render {
 namespace {
 
 constexpr std::int64_t kMostSide = 65535;
@@ -111,13 +110,12 @@ void put_frame(const Image& frame, int hundredths, const std::vector<std::uint8_
 }
 
 }  // namespace
-}  // namespace render
 
 std::vector<std::byte> encode_gif(const Animation& animation) {
-    render::check_animation(animation, render::kMostSide);
-    const render::Quantiser quantiser(animation.frames);
-    render::GifBytes out;
-    render::put_header(animation, quantiser, out);
+    check_animation(animation, kMostSide);
+    const Quantiser quantiser(animation.frames);
+    GifBytes out;
+    put_header(animation, quantiser, out);
     std::vector<std::uint8_t> shown, indices;
     for (std::size_t f = 0; f < animation.frames.size(); ++f) {
         const Image& frame = animation.frames[f];
@@ -127,11 +125,11 @@ std::vector<std::byte> encode_gif(const Animation& animation) {
         }
         std::vector<std::uint8_t> changed = indices;
         for (std::size_t i = 0; f > 0 && i < changed.size(); ++i) {
-            if (indices[i] == shown[i]) changed[i] = render::kSame;
+            if (indices[i] == shown[i]) changed[i] = kSame;
         }
         // Times are whole hundredths: rounded so that the frames so far take what they should.
         const auto due = [&](std::size_t frames) { return std::lround(100 * static_cast<double>(frames) / animation.frames_per_second); };
-        render::put_frame(frame, static_cast<int>(due(f + 1) - due(f)), changed, out);
+        put_frame(frame, static_cast<int>(due(f + 1) - due(f)), changed, out);
         shown = indices;
     }
     out.byte(0x3B);

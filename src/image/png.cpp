@@ -10,7 +10,6 @@
 #include "image/png.h"
 
 namespace isoatlas {
-namespace render {
 namespace {
 
 int paeth(int left, int up, int corner) {
@@ -112,13 +111,11 @@ std::vector<std::uint8_t> deflated_pixels(const Image& image, bool with_alpha) {
     return out;
 }
 
-}  // namespace render
-
 std::vector<std::byte> encode_png(const Image& image) {
-    const bool with_alpha = render::has_transparency(image);
-    render::PngChunks chunks;
+    const bool with_alpha = has_transparency(image);
+    PngChunks chunks;
     chunks.begin(image.width, image.height, with_alpha);
-    chunks.chunk("IDAT", render::deflated_pixels(image, with_alpha));
+    chunks.chunk("IDAT", deflated_pixels(image, with_alpha));
     chunks.chunk("IEND", {});
     return std::move(chunks.bytes);
 }

@@ -6,7 +6,7 @@
 
 #include "isoatlas/image.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 struct PngChunks {
     std::vector<std::byte> bytes;
@@ -25,4 +25,4 @@ void put_number(std::vector<std::uint8_t>& out, std::uint32_t value);
 /// The content of IDAT.
 [[nodiscard]] std::vector<std::uint8_t> deflated_pixels(const Image& image, bool with_alpha);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

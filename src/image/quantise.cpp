@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr int kBits = 5, kShift = 8 - kBits, kBins = 1 << (3 * kBits);
@@ -127,4 +127,4 @@ std::uint8_t Quantiser::index(const std::uint8_t* pixel, std::int64_t x, std::in
     return nearest_[bin_of(moved(0), moved(1), moved(2))];
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 
 #include "isoatlas/image.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 class Quantiser {
 public:
@@ -25,4 +25,4 @@ private:
     double spread_ = 0;                  ///< of the dithering
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

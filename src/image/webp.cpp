@@ -8,7 +8,6 @@
 #include "image/animation.h"
 
 namespace isoatlas {
-namespace render {
 namespace {
 
 constexpr std::int64_t kMostSide = 16383;
@@ -44,32 +43,31 @@ WebPConfig config_of(double quality) {
 }
 
 }  // namespace
-}  // namespace render
 
 std::vector<std::byte> encode_webp(const Animation& animation, double quality) {
-    render::check_animation(animation, render::kMostSide);
+    check_animation(animation, kMostSide);
     const Image& first = animation.frames[0];
     WebPAnimEncoderOptions options;
     WebPAnimEncoderOptionsInit(&options);
     const std::unique_ptr<WebPAnimEncoder, void (*)(WebPAnimEncoder*)> encoder(
         WebPAnimEncoderNew(static_cast<int>(first.width), static_cast<int>(first.height), &options), WebPAnimEncoderDelete);
-    if (!encoder) render::fail("not enough memory");
-    const WebPConfig config = render::config_of(quality);
+    if (!encoder) fail("not enough memory");
+    const WebPConfig config = config_of(quality);
     const auto time = [&](std::size_t frame) {
         return static_cast<int>(std::lround(1000 * static_cast<double>(frame) / animation.frames_per_second));
     };
     for (std::size_t i = 0; i < animation.frames.size(); ++i) {
-        render::PictureOwner owner;
+        PictureOwner owner;
         owner.picture.use_argb = 1;
         owner.picture.width = static_cast<int>(first.width), owner.picture.height = static_cast<int>(first.height);
         if (WebPPictureImportRGBA(&owner.picture, animation.frames[i].rgba.data(), static_cast<int>(4 * first.width)) == 0 ||
             WebPAnimEncoderAdd(encoder.get(), &owner.picture, time(i), &config) == 0)
-            render::fail(WebPAnimEncoderGetError(encoder.get()));
+            fail(WebPAnimEncoderGetError(encoder.get()));
     }
-    render::Data assembled;
+    Data assembled;
     if (WebPAnimEncoderAdd(encoder.get(), nullptr, time(animation.frames.size()), nullptr) == 0 ||
         WebPAnimEncoderAssemble(encoder.get(), &assembled.data) == 0)
-        render::fail(WebPAnimEncoderGetError(encoder.get()));
+        fail(WebPAnimEncoderGetError(encoder.get()));
     const auto* begin = reinterpret_cast<const std::byte*>(assembled.data.bytes);
     return {begin, begin + assembled.data.size};
 }

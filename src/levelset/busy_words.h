@@ -51,7 +51,7 @@ private:
     /// one.
     [[nodiscard]] std::int64_t group(int axis, std::int64_t row) const {
         if (row + 1 >= rows_[axis]) return groups_[axis] - 1;
-        const std::int64_t side = store::kBrickSize[axis + 1];
+        const std::int64_t side = kBrickSize[axis + 1];
         return 2 * ((row + 1) / side) + ((row + 1) % side != 0);
     }
 

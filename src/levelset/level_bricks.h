@@ -19,7 +19,7 @@ struct Extremum {
 };
 
 struct LevelBricks {
-    store::BrickGrid grid;                  ///< of the volume, or of the window that is asked
+    BrickGrid grid;                         ///< of the volume, or of the window that is asked
     std::vector<BrickClass> classes;        ///< per brick
     std::vector<Extremum> highest, lowest;  ///< per brick: of one that has a High, of one that has a Low; voxels are those of the grid.
                                             ///< Empty where nobody asks for names

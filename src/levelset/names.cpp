@@ -8,8 +8,8 @@
 namespace isoatlas {
 namespace {
 
-using store::kBrickRow;
-using store::kBrickSize;
+using kBrickRow;
+using kBrickSize;
 
 constexpr Extremum kNone{-1, 0};
 

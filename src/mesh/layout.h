@@ -84,7 +84,7 @@ struct RowHits {
 /// Rows in groups that lie beside each other: those of a brick. Which groups have hits or active cells?
 class RowGroups {
 public:
-    static constexpr std::int64_t kSide = store::kBrickSize[1];
+    static constexpr std::int64_t kSide = kBrickSize[1];
 
     explicit RowGroups(const MeshDomain& domain)
         : first_(group_of(domain.y_begin)),

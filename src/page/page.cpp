@@ -28,10 +28,10 @@ void check(const PageOptions& options) {
     if (options.top < 1 || options.top_dark < 0) refuse("the number of objects is out of range", "1 or more, of dark ones 0 or more");
 }
 
-PageReport report_of(const page::PageContents& contents) {
+PageReport report_of(const PageContents& contents) {
     PageReport report;
     std::set<std::int64_t> shown;
-    for (const page::PageEntry& entry : contents.entries) {
+    for (const PageEntry& entry : contents.entries) {
         shown.insert(entry.branch);
         report.dark += contents.branches[entry.branch].dark;
     }
@@ -44,17 +44,17 @@ PageReport report_of(const page::PageContents& contents) {
 
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options, const Context& context) {
     check(options);
-    if (page::page_template().empty()) {
+    if (page_template().empty()) {
         throw Error(ErrorKind::unsupported,
                     {.what = "this isoatlas was built without pages", .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
     }
-    page::PageContents contents = page::page_contents(atlas, overview_of(atlas, context), options, context);
-    page::add_tunnels(contents, atlas, context);
-    page::draw_pictures(contents, atlas, options, context);
+    PageContents contents = page_contents(atlas, overview_of(atlas, context), options, context);
+    add_tunnels(contents, atlas, context);
+    draw_pictures(contents, atlas, options, context);
     std::string json;
-    output::JsonStream stream([&json](std::string_view text) { json += text; });
+    JsonStream stream([&json](std::string_view text) { json += text; });
     write_page_json(stream, atlas, contents, options.source.empty() ? atlas.info().path : options.source);
-    const std::string_view page = page::page_template(), mark = R"(<script id="atlas-data" type="application/json">null</script>)";
+    const std::string_view page = page_template(), mark = R"(<script id="atlas-data" type="application/json">null</script>)";
     const std::size_t at = page.find(mark), data = at + mark.find("null");
     AtomicFile file(path);
     file.write(page.substr(0, data));

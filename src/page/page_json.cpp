@@ -7,10 +7,10 @@
 #include "isoatlas/shell_word.h"
 #include "page/web_colour.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
-using output::JsonStream;
+using JsonStream;
 
 void put_text(JsonStream& json, const std::string& text) {
     if (text.empty()) {
@@ -243,7 +243,7 @@ private:
 
     void write_commands(std::size_t i) {
         const PageEntry& entry = contents_.entries[i];
-        const std::string id = std::to_string(entry.id), tau = output::number_text(scale_.reported(entry.tau));
+        const std::string id = std::to_string(entry.id), tau = number_text(scale_.reported(entry.tau));
         const auto put = [&](const char* name, const std::string& verb, const std::string& options) {
             json_.begin_object().key("name").value(name).key("line").value("isoatlas " + verb + " " + source_ + options).end_object();
         };
@@ -272,4 +272,4 @@ void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& c
     Writer(json, atlas, contents, source).write();
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -6,9 +6,9 @@
 #include "catalogue/contents.h"
 #include "formats/common/json_stream.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 /// source: what commands name.
-void write_page_json(output::JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source);
+void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source);
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

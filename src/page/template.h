@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 /// What `isoatlas FILE` writes.
 [[nodiscard]] std::string_view page_template();
 /// What `isoatlas view` serves.
 [[nodiscard]] std::string_view viewer_template();
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 
 #include "isoatlas/render.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 /// "#rrggbb"
 [[nodiscard]] inline std::string web_colour(const Colour& colour) {
@@ -18,4 +18,4 @@ namespace isoatlas::page {
     return text;
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

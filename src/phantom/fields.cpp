@@ -8,7 +8,7 @@
 #include "phantom/fill.h"
 #include "phantom/makers.h"
 
-namespace isoatlas::phantom {
+namespace isoatlas {
 namespace {
 
 /// cos and sin of the phase a wave has gained along one axis, per sample.
@@ -105,4 +105,4 @@ Volume noise(const PhantomOptions& options) {
                        [&random](std::int64_t, std::int64_t, std::int64_t) { return static_cast<float>(random.bits() >> 40) * 0x1p-24f; });
 }
 
-}  // namespace isoatlas::phantom
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "phantom/fill.h"
 #include "phantom/makers.h"
 
-namespace isoatlas::phantom {
+namespace isoatlas {
 namespace {
 
 bool within(std::int64_t v, std::int64_t low, std::int64_t high) { return low <= v && v <= high; }
@@ -90,4 +90,4 @@ Volume figure_smooth() {
     });
 }
 
-}  // namespace isoatlas::phantom
+}  // namespace isoatlas

@@ -3,7 +3,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::phantom {
+namespace isoatlas {
 
 /// A volume whose sample at (x, y, z) is value(x, y, z) rounded to T.
 template <class T, class Function>
@@ -20,4 +20,4 @@ Volume fill(std::int64_t nx, std::int64_t ny, std::int64_t nz, Function&& value,
     return volume;
 }
 
-}  // namespace isoatlas::phantom
+}  // namespace isoatlas

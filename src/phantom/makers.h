@@ -3,7 +3,7 @@
 
 #include "isoatlas/phantom.h"
 
-namespace isoatlas::phantom {
+namespace isoatlas {
 
 /// The dissertation's figure 3.10/12.1 as 24^3 uint8 boxes. Answer: 14 events (docs/theory/3-trees.md#the-example): maxima 100 90 80 70,
 /// 60 merge, 58 and 56 genus, 50 merge, 48 and 46 genus, 40 merge, 38 genus, 30 complex (torus -> two spheres), 20 minimum.
@@ -46,4 +46,4 @@ Volume random_field(const PhantomOptions& options);
 /// Independent uniform values in [0, 1). float32. Answer: the same bytes for the same seed.
 Volume noise(const PhantomOptions& options);
 
-}  // namespace isoatlas::phantom
+}  // namespace isoatlas

@@ -19,8 +19,6 @@ struct Entry {
     Volume (*make)(const PhantomOptions&);
 };
 
-using namespace phantom;
-
 constexpr Entry kCatalogue[] = {
     {"demo", "two balls joined by a neck, a hollow shell hidden in one, a ring on a thin bridge", 96, 32, false, demo},
     {"figure-plateau", "the dissertation's figure 12.1 as boxes of grey values: exactly 14 events", 24, 24, true,

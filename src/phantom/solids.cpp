@@ -7,7 +7,7 @@
 #include "phantom/fill.h"
 #include "phantom/makers.h"
 
-namespace isoatlas::phantom {
+namespace isoatlas {
 namespace {
 
 struct Point {
@@ -90,4 +90,4 @@ Volume demo(const PhantomOptions& options) {
         geometry);
 }
 
-}  // namespace isoatlas::phantom
+}  // namespace isoatlas

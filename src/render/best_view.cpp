@@ -13,7 +13,6 @@
 #include "render/scene_box.h"
 
 namespace isoatlas {
-namespace render {
 namespace {
 
 constexpr std::int64_t kSide = 72;             // pixels of a picture that is tried
@@ -63,38 +62,37 @@ double entropy_of(const RaySurfaces& surfaces, const View& view) {
 }
 
 }  // namespace
-}  // namespace render
 
 View view_from(double around, double above, const Vec3& up) {
     const double a = around * std::numbers::pi / 180, b = above * std::numbers::pi / 180;
     const Vec3 toward{std::cos(b) * std::sin(a), -std::cos(b) * std::cos(a), std::sin(b)};
     const Vec3 above_it{-std::sin(b) * std::sin(a), std::sin(b) * std::cos(a), std::cos(b)};
-    const Vec3 z = render::unit(up);
+    const Vec3 z = unit(up);
     const auto turned = [&](const Vec3& v) -> Vec3 {
         if (z[2] <= -1 + 1e-12) return {-v[0], v[1], -v[2]};
         // v + axis x v + axis x (axis x v) / (1 + cos), axis = z x up (Rodrigues).
-        const Vec3 axis{-z[1], z[0], 0}, once = render::cross(axis, v);
-        return render::along(render::add(v, once), 1 / (1 + z[2]), render::cross(axis, once));
+        const Vec3 axis{-z[1], z[0], 0}, once = cross(axis, v);
+        return along(add(v, once), 1 / (1 + z[2]), cross(axis, once));
     };
     return {turned(toward), turned(above_it)};
 }
 
 View best_view(const Scene& scene, const Vec3& up, const Context& context) {
-    const render::SceneBox box = render::box_of(scene);
-    const render::Frame frame{box.centre(), box.radius()};
+    const SceneBox box = box_of(scene);
+    const Frame frame{box.centre(), box.radius()};
     const std::vector<HalfSpace> none;
     // What is hidden behind glass counts for less than the glass itself: where nothing is opaque, the glass is looked at.
     const auto which = std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& o) { return o.opacity >= 1; })
-                           ? render::RaySurfaces::Which::opaque
-                           : render::RaySurfaces::Which::transparent;
-    const render::RaySurfaces surfaces(scene, which, frame, none, context.threads);
-    const std::vector<View> views = render::candidates(up);
+                           ? RaySurfaces::Which::opaque
+                           : RaySurfaces::Which::transparent;
+    const RaySurfaces surfaces(scene, which, frame, none, context.threads);
+    const std::vector<View> views = candidates(up);
     std::vector<double> entropy(views.size());
     for_each_block(context.threads, static_cast<std::int64_t>(views.size()),
-                   [&](std::int64_t i) { entropy[i] = render::entropy_of(surfaces, views[i]); });
+                   [&](std::int64_t i) { entropy[i] = entropy_of(surfaces, views[i]); });
     const double best = *std::max_element(entropy.begin(), entropy.end());
     for (std::size_t i = 0; i < views.size(); ++i) {
-        if (entropy[i] >= render::kNearlyAsGood * best) return views[i];
+        if (entropy[i] >= kNearlyAsGood * best) return views[i];
     }
     return views[0];
 }

@@ -8,7 +8,6 @@
 #include "render/scene_box.h"
 
 namespace isoatlas {
-namespace render {
 
 namespace {
 constexpr double kMargin = 1.06;      // of the fitted picture, around the scene
@@ -45,72 +44,68 @@ struct Span {
 };
 
 }  // namespace
-}  // namespace render
 
 Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& options) {
-    const render::SceneBox box = render::box_of(scene);
+    const SceneBox box = box_of(scene);
     Camera camera{.projection = options.projection, .target = box.centre(), .view = view};
-    camera.distance = render::kEyeDistance * box.radius();
-    const std::vector<Vec3> shown = render::shown_corners_of(scene.volume);
-    render::Span across, upwards;
+    camera.distance = kEyeDistance * box.radius();
+    const std::vector<Vec3> shown = shown_corners_of(scene.volume);
+    Span across, upwards;
     const auto measure = [&] {
-        const render::CameraRays rays(camera, options.width, options.height);
+        const CameraRays rays(camera, options.width, options.height);
         across = {}, upwards = {};
         const auto take = [&](const Vec3& point) {
             const Vec3 p = rays.project(point);
             across.take(p[0]), upwards.take(p[1]);
         };
-        render::for_each_outline_point(scene, take);
+        for_each_outline_point(scene, take);
         for (const Vec3& corner : shown) take(corner);
         return rays;
     };
     // Centred on what is seen; a perspective picture shifts a little when its target moves, so twice.
     for (int round = 0; round < 2; ++round) {
-        const render::CameraRays rays = measure();
+        const CameraRays rays = measure();
         const double x = (across.low + across.high) / 2 - static_cast<double>(options.width) / 2;
         const double y = (upwards.low + upwards.high) / 2 - static_cast<double>(options.height) / 2;
-        camera.target = render::along(render::along(camera.target, x * rays.pixel_size(), rays.right), -y * rays.pixel_size(), rays.up);
+        camera.target = along(along(camera.target, x * rays.pixel_size(), rays.right), -y * rays.pixel_size(), rays.up);
     }
     measure();
     const double filled = std::max((across.high - across.low) / static_cast<double>(options.width),
                                    (upwards.high - upwards.low) / static_cast<double>(options.height));
-    camera.height *= std::max(filled * render::kMargin, 1e-12);
+    camera.height *= std::max(filled * kMargin, 1e-12);
     return camera;
 }
 
 Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const RenderOptions& options) {
-    const render::SceneBox box = render::box_of(scene);
-    const Vec3 axis = render::unit(up);
+    const SceneBox box = box_of(scene);
+    const Vec3 axis = unit(up);
     double around = 0, along = 0;
     const auto take = [&](const Vec3& point) {
-        const Vec3 from = render::subtract(point, box.centre());
-        const double height = render::dot(from, axis);
-        around = std::max(around, render::length(render::along(from, -height, axis)));
+        const Vec3 from = subtract(point, box.centre());
+        const double height = dot(from, axis);
+        around = std::max(around, length(along(from, -height, axis)));
         along = std::max(along, std::abs(height));
     };
-    render::for_each_outline_point(scene, take);
-    for (const Vec3& corner : render::shown_corners_of(scene.volume)) take(corner);
-    const double sine = std::abs(render::dot(axis, view.toward)), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
+    for_each_outline_point(scene, take);
+    for (const Vec3& corner : shown_corners_of(scene.volume)) take(corner);
+    const double sine = std::abs(dot(axis, view.toward)), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
     const double shape = static_cast<double>(options.height) / static_cast<double>(options.width);
     Camera camera{.projection = options.projection, .target = box.centre(), .view = view};
-    camera.distance = render::kEyeDistance * box.radius();
-    camera.height = 2 * render::kMargin * std::max({along * cosine + around * sine, around * shape, 1e-12});
+    camera.distance = kEyeDistance * box.radius();
+    camera.height = 2 * kMargin * std::max({along * cosine + around * sine, around * shape, 1e-12});
     if (camera.projection == Projection::perspective) camera.height *= camera.distance / (camera.distance - around);
     return camera;
 }
 
 View turned(const View& view, const Vec3& axis, double degrees) {
-    const Vec3 z = render::unit(axis);
+    const Vec3 z = unit(axis);
     const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
-    const auto turn = [&](const Vec3& v) {
-        return render::add(render::along(render::scale(v, cosine), sine, render::cross(z, v)),
-                           render::scale(z, render::dot(z, v) * (1 - cosine)));
-    };
+    const auto turn = [&](const Vec3& v) { return add(along(scale(v, cosine), sine, cross(z, v)), scale(z, dot(z, v) * (1 - cosine))); };
     return {turn(view.toward), turn(view.up)};
 }
 
 Vec3 project(const Camera& camera, const RenderOptions& options, const Vec3& point) {
-    return render::CameraRays(camera, options.width, options.height).project(point);
+    return CameraRays(camera, options.width, options.height).project(point);
 }
 
 }  // namespace isoatlas

@@ -4,7 +4,7 @@
 #include "isoatlas/render.h"
 #include "render/vectors.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// The point at t is origin + t * direction; direction has length 1.
 struct Ray {
@@ -29,4 +29,4 @@ private:
     double width_, height_, pixel_;
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -9,8 +9,6 @@ Colour palette(std::int64_t i) {
     return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
 }
 
-namespace render {
-
 Vec3 background_light(Background background, double down) {
     if (background == Background::transparent) return {0, 0, 0};
     const bool light = background == Background::light;
@@ -21,5 +19,4 @@ Vec3 background_light(Background background, double down) {
 
 Colour ink_of(Background background) { return background == Background::dark ? Colour{0.92, 0.92, 0.92} : Colour{0.12, 0.13, 0.15}; }
 
-}  // namespace render
 }  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "isoatlas/render.h"
 #include "render/vectors.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 inline double to_linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 inline double to_srgb(double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
@@ -22,4 +22,4 @@ Vec3 background_light(Background background, double down);
 /// Of text and bars on it.
 Colour ink_of(Background background);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

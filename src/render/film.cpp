@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "render/colours.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr int kSmooth = 3;  // pixels to each side
@@ -57,11 +57,11 @@ void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent,
 
 void FilmSum::add(const Seen& seen) {
     ++samples_;
-    glow_ = render::add(glow_, seen.glow), ambient_ = render::add(ambient_, seen.shade.ambient), key_ = render::add(key_, seen.shade.key);
+    glow_ = add(glow_, seen.glow), ambient_ = add(ambient_, seen.shade.ambient), key_ = add(key_, seen.shade.key);
     opacity_ += seen.opacity;
     if (seen.object < 0) return;
     ++hits_;
-    normal_ = render::add(normal_, seen.normal);
+    normal_ = add(normal_, seen.normal);
     sky_ += seen.open_sky, key_light_ += seen.open_key, depth_ += seen.depth;
 }
 
@@ -93,4 +93,4 @@ Image developed(const Film& film, Background background, int threads) {
     return image;
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

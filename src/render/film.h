@@ -6,7 +6,7 @@
 #include "isoatlas/render.h"
 #include "render/tracer.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 struct FilmPixel {
     std::array<float, 3> glow{}, ambient{}, key{};
@@ -40,4 +40,4 @@ void smooth_light(Film& film, double pixel, int threads);
 /// Adds up light and background, in sRGB.
 [[nodiscard]] Image developed(const Film& film, Background background, int threads);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 
 #include "render/colours.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr double kTouching = 1e-5;  // a slice so close to an opaque surface, such as a cut face, lies on it
@@ -51,4 +51,4 @@ void RaySlices::add(const Ray& ray, double most, std::vector<Layer>& layers) con
     }
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "isoatlas/render.h"
 #include "render/ray_surfaces.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 struct Layer {
     double t;
@@ -30,4 +30,4 @@ private:
     std::vector<Plane> planes_;
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

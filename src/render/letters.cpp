@@ -8,7 +8,7 @@
 
 #include "render/pen.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr const char* kUnknown = "0902 0949 4942 4202";
@@ -198,4 +198,4 @@ double text_width(const std::string& text, double size) {
     return text.empty() ? 0 : (width - kGap) * size / kCapital;
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

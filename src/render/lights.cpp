@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr double kKey = 0.78, kSky = 0.36, kGround = 0.20, kEye = 0.12, kHighlight = 0.10;
@@ -54,4 +54,4 @@ Vec3 to_sky(const Vec3& normal, Sample2 sample) {
 
 double sheet_opacity(double opacity, double cosine) { return 1 - std::pow(1 - opacity, 1 / std::max(0.08, std::abs(cosine))); }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "render/samples.h"
 #include "render/vectors.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// What a point sends to the eye, in parts, so that what is in the way of light can be known later and be smoothed first.
 struct Shade {
@@ -36,4 +36,4 @@ private:
 /// Opacity of a sheet seen under an angle whose cosine is given: the way through it is longer, so its rim is denser.
 [[nodiscard]] double sheet_opacity(double opacity, double cosine);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 /// Lowest and highest sample of a row of blocks, along the other two axes.
@@ -97,4 +97,4 @@ MatterBlocks::MatterBlocks(const BlockRanges& blocks, const Transfer& transfer, 
     sweep(distance_, count_, -1);
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

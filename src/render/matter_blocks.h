@@ -10,7 +10,7 @@
 #include "isoatlas/volume.h"
 #include "render/transfer.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// Lowest and highest sample of every block of kSide^3 cells, x fastest. Neighbours share the samples between them.
 struct BlockRanges {
@@ -83,4 +83,4 @@ private:
     std::vector<std::uint8_t> distance_;  ///< blocks to the nearest one with something visible, diagonals count as one; 0: it is one
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr double kEnough = 0.996;  // opacity behind which nothing is seen
@@ -152,4 +152,4 @@ ShadowGrid Medium::shadows(const RaySurfaces& solid, int threads) const {
             threads};
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -10,7 +10,7 @@
 #include "render/transfer.h"
 #include "render/trilinear.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// Light that has come together so far along a ray.
 struct Gathered {
@@ -51,4 +51,4 @@ private:
     ShadowGrid shadow_;
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

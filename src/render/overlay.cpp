@@ -21,7 +21,6 @@ ScaleBar scale_bar(double pixel_size, std::int64_t width, const std::string& uni
     return {best, best / pixel_size, text};
 }
 
-namespace render {
 namespace {
 
 struct Style {
@@ -81,5 +80,4 @@ void draw_overlay(const Scene& scene, const Camera& camera, const RenderOptions&
     draw_scale_bar(scale_bar(camera.height / static_cast<double>(options.height), options.width, unit), style, image);
 }
 
-}  // namespace render
 }  // namespace isoatlas

@@ -3,8 +3,8 @@
 
 #include "isoatlas/render.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 void draw_overlay(const Scene& scene, const Camera& camera, const RenderOptions& options, Image& image);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

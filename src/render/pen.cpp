@@ -5,7 +5,7 @@
 
 #include "render/colours.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 double distance_to(Point2 p, Point2 a, Point2 b) {
@@ -89,4 +89,4 @@ void draw_text(Image& image, const std::string& text, Point2 at, double size, co
     draw_lines(image, lines, width, ink);
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 
 #include "isoatlas/render.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 struct Point2 {
     double x = 0, y = 0;  ///< pixels from the upper left corner
@@ -24,4 +24,4 @@ void fill_box(Image& image, Point2 low, Point2 high, double rounding, const Colo
 /// Text with a rim of another colour, so that it is read on anything.
 void draw_text(Image& image, const std::string& text, Point2 at, double size, const Colour& ink, const Colour& rim);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

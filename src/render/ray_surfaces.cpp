@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
@@ -227,4 +227,4 @@ Gap gap_of(const std::vector<HalfSpace>& removed, const Ray& ray) {
     return gap;
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "render/camera_rays.h"
 #include "render/scene_box.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// From physical coordinates to ones in which the scene fills the unit ball: floats are exact enough there, wherever a volume lies.
 struct Frame {
@@ -62,4 +62,4 @@ private:
     std::unique_ptr<Data> data_;
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

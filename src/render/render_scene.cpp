@@ -9,7 +9,6 @@
 #include "render/scene_box.h"
 
 namespace isoatlas {
-namespace render {
 namespace {
 
 constexpr std::int64_t kTile = 16;
@@ -74,27 +73,26 @@ private:
 };
 
 }  // namespace
-}  // namespace render
 
 Image blank_picture(const RenderOptions& options) {
-    render::check_options({}, options);
-    Image image = render::developed(render::Film(options.width, options.height), options.background, 1);
+    check_options({}, options);
+    Image image = developed(Film(options.width, options.height), options.background, 1);
     RenderOptions words = options;
     words.scale_bar = false;
-    render::draw_overlay({}, {}, words, image);
+    draw_overlay({}, {}, words, image);
     return image;
 }
 
 Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options, const Context& context) {
-    render::check_options(scene, options);
-    const render::SceneBox box = render::box_of(scene);
-    const render::Frame frame{box.centre(), box.radius()};
-    const render::CameraRays rays(camera, options.width, options.height);
+    check_options(scene, options);
+    const SceneBox box = box_of(scene);
+    const Frame frame{box.centre(), box.radius()};
+    const CameraRays rays(camera, options.width, options.height);
     context.report("prepare surfaces", 0, 2, 0);
-    const render::Tracer tracer(scene, frame, rays, options.shading, context.threads);
-    render::Film film(options.width, options.height);
-    const render::Painter painter(tracer, camera, rays, frame, options);
-    const auto tiles_of = [](std::int64_t pixels) { return (pixels + render::kTile - 1) / render::kTile; };
+    const Tracer tracer(scene, frame, rays, options.shading, context.threads);
+    Film film(options.width, options.height);
+    const Painter painter(tracer, camera, rays, frame, options);
+    const auto tiles_of = [](std::int64_t pixels) { return (pixels + kTile - 1) / kTile; };
     const std::int64_t across = tiles_of(film.width), rows = tiles_of(film.height);
     constexpr std::int64_t kRowsAtOnce = 4;  // between two looks at the caller
     for (std::int64_t row = 0; row < rows; row += kRowsAtOnce) {
@@ -103,9 +101,9 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
         const std::int64_t count = std::min(kRowsAtOnce, rows - row) * across;
         for_each_block(context.threads, count, [&](std::int64_t tile) { painter.paint_tile(row * across + tile, film); });
     }
-    render::smooth_light(film, rays.pixel_size() / frame.radius, context.threads);
-    Image image = render::developed(film, options.background, context.threads);
-    render::draw_overlay(scene, camera, options, image);
+    smooth_light(film, rays.pixel_size() / frame.radius, context.threads);
+    Image image = developed(film, options.background, context.threads);
+    draw_overlay(scene, camera, options, image);
     return image;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// Mixes 32 bits (the finalizer of MurmurHash3).
 inline std::uint32_t hash(std::uint32_t x) {
@@ -25,4 +25,4 @@ inline Sample2 sample_2d(std::uint32_t seed, std::uint32_t i) {
     return {fraction_of(hash(seed) + i * kFirst), fraction_of(hash(seed ^ 0x68bc21ebU) + i * kSecond)};
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

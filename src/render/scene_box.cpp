@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 namespace {
 
@@ -72,4 +72,4 @@ SceneBox box_of(const Scene& scene) {
     return box;
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

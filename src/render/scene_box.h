@@ -8,7 +8,7 @@
 #include "isoatlas/render.h"
 #include "render/vectors.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 struct SceneBox {
     Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
@@ -45,4 +45,4 @@ void for_each_outline_point(const Scene& scene, const Function& function) {
 /// Throws Error{not_found} for an empty scene.
 SceneBox box_of(const Scene& scene);
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

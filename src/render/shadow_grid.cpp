@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kStep = 4;  // samples between two points of the grid
@@ -41,4 +41,4 @@ double ShadowGrid::light(const Vec3& voxel) const {
     return sum;
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 class ShadowGrid {
 public:
@@ -26,4 +26,4 @@ private:
     std::vector<float> light_;
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

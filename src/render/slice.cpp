@@ -8,7 +8,6 @@
 #include "render/vectors.h"
 
 namespace isoatlas {
-namespace render {
 namespace {
 
 /// Which axes run across and down, and whether down is against the axis.
@@ -116,35 +115,32 @@ void check_slice(const Volume& volume, const SliceOptions& options) {
 }
 
 }  // namespace
-}  // namespace render
 
 SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, const Context& context) {
-    render::check_slice(volume, options);
-    const render::Plane plane = render::plane_of(options.axis);
+    check_slice(volume, options);
+    const Plane plane = plane_of(options.axis);
     const Extent& extent = volume.info.extent;
     const Geometry& geometry = volume.info.geometry;
-    const auto length = [&](int axis) {
-        return std::max(render::place(geometry, axis, extent.size[axis] - 1) - render::place(geometry, axis, 0), 1e-300);
-    };
+    const auto length = [&](int axis) { return std::max(place(geometry, axis, extent.size[axis] - 1) - place(geometry, axis, 0), 1e-300); };
     const double across = length(plane.across), down = length(plane.down), longer = std::max(across, down);
     const auto pixels = [&](double size) {
         return std::max<std::int64_t>(1, std::llround(static_cast<double>(options.side) * size / longer));
     };
     SceneSlice slice{.picture = Image(pixels(across), pixels(down))};
-    const std::vector<double> columns = render::positions(geometry, plane.across, extent.size[plane.across], slice.picture.width, false);
-    const std::vector<double> rows = render::positions(geometry, plane.down, extent.size[plane.down], slice.picture.height, plane.flipped);
-    const Volume flat = render::slice_of(volume, options.axis, options.index);
-    const render::Window window = render::window_of(volume, options);
+    const std::vector<double> columns = positions(geometry, plane.across, extent.size[plane.across], slice.picture.width, false);
+    const std::vector<double> rows = positions(geometry, plane.down, extent.size[plane.down], slice.picture.height, plane.flipped);
+    const Volume flat = slice_of(volume, options.axis, options.index);
+    const Window window = window_of(volume, options);
     const double range = window.white == window.black ? 1 : window.white - window.black;
     for_each_block(context.threads, slice.picture.height, [&](std::int64_t y) {
         for (std::int64_t x = 0; x < slice.picture.width; ++x) {
-            const std::uint8_t grey = render::byte_of((render::between(flat, columns[x], rows[y]) - window.black) / range);
+            const std::uint8_t grey = byte_of((between(flat, columns[x], rows[y]) - window.black) / range);
             std::uint8_t* pixel = slice.picture.at(x, y);
             pixel[0] = pixel[1] = pixel[2] = grey, pixel[3] = 255;
         }
     });
     if (extent.size[plane.across] > 1 && extent.size[plane.down] > 1) {
-        for (const SliceContour& contour : options.contours) render::draw_contour(flat, contour, columns, rows, slice.picture, context);
+        for (const SliceContour& contour : options.contours) draw_contour(flat, contour, columns, rows, slice.picture, context);
     }
     Vec3 at{};
     at[options.axis] = static_cast<double>(options.index);
@@ -155,8 +151,8 @@ SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, cons
         return to_physical(geometry, p);
     };
     slice.corner = corner(false, false);
-    slice.across = render::subtract(corner(true, false), slice.corner);
-    slice.down = render::subtract(corner(false, true), slice.corner);
+    slice.across = subtract(corner(true, false), slice.corner);
+    slice.down = subtract(corner(false, true), slice.corner);
     return slice;
 }
 

@@ -4,7 +4,7 @@
 
 #include "render/colours.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 namespace {
 
 constexpr int kSkyRays = 2;     // per sample
@@ -176,4 +176,4 @@ void Tracer::look_around(const Ray& ray, const Crossing& crossing, std::uint32_t
     if (medium_) seen.open_key *= medium_->lit(along(point, 2 * lift_, crossing.normal));
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -10,7 +10,7 @@
 #include "render/medium.h"
 #include "render/ray_surfaces.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// Light along a ray, in parts (see Shade), and what was hit. Colours are premultiplied.
 struct Seen {
@@ -57,4 +57,4 @@ private:
     double lift_;               ///< rays to lights begin so far above a surface
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -7,7 +7,6 @@
 #include "render/colours.h"
 
 namespace isoatlas {
-namespace render {
 
 namespace {
 
@@ -76,12 +75,10 @@ Matter Transfer::mean_between(double low, double high) const {
     return {mean[0], {mean[1], mean[2], mean[3]}};
 }
 
-}  // namespace render
-
 std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
     std::vector<std::array<double, 2>> values;
     // What stands in one place of a table with something visible is visible.
-    const double place = volume.range ? ((*volume.range)[1] - (*volume.range)[0]) / render::Transfer::kPlaces : 0;
+    const double place = volume.range ? ((*volume.range)[1] - (*volume.range)[0]) / Transfer::kPlaces : 0;
     for (const TransferBump& bump : volume.bumps) values.push_back({bump.low, bump.high});
     for (const TransferCurve& curve : volume.curves) {
         for (std::size_t i = 1; i < curve.points.size(); ++i) {

@@ -9,7 +9,7 @@
 #include "isoatlas/render.h"
 #include "render/vectors.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// Extinction per unit of length, and the colour of what it swallows, weighted with it.
 struct Matter {
@@ -50,4 +50,4 @@ private:
     std::vector<Sums> sums_;            ///< integrals over the values from the lowest one to each of evenly spaced ones
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 /// Positions are in samples, inside of the volume (to rounding).
 template <class T>
@@ -85,4 +85,4 @@ private:
     std::int64_t step_[3];    ///< the same, 0 along an axis of one sample
 };
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::render {
+namespace isoatlas {
 
 inline Vec3 add(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Vec3 subtract(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -32,4 +32,4 @@ inline void basis_of(const Vec3& n, Vec3& u, Vec3& v) {
     v = {b, sign + n[1] * n[1] * a, -n[1]};
 }
 
-}  // namespace isoatlas::render
+}  // namespace isoatlas

@@ -9,10 +9,10 @@
 #include "page/web_colour.h"
 #include "server/document.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
-using output::JsonStream;
+using JsonStream;
 
 void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
     json.key(name).begin_array().value(bounds.least).value(bounds.most).end_array();
@@ -42,10 +42,10 @@ void put_build(JsonStream& json, const BuildState& build) {
 
 }  // namespace
 
-std::string atlas_json(const Atlas& atlas, const page::PageContents& contents) {
+std::string atlas_json(const Atlas& atlas, const PageContents& contents) {
     std::string text;
     JsonStream json([&text](std::string_view piece) { text += piece; });
-    page::write_page_json(json, atlas, contents, atlas.info().path);
+    write_page_json(json, atlas, contents, atlas.info().path);
     return text;
 }
 
@@ -116,7 +116,7 @@ std::string transfer_json(std::span<const TransferBump> bumps, const Calibration
             json.line().begin_object().key("tau").value(calibration.reported(bump.tau));
             json.key("low").value(calibration.reported(bump.low)).key("high").value(calibration.reported(bump.high));
             json.key("ramp").value(bump.ramp).key("density").value(bump.density);
-            json.key("colour").value(page::web_colour(bump.colour)).end_object();
+            json.key("colour").value(web_colour(bump.colour)).end_object();
         }
         json.end_array();
     });
@@ -146,4 +146,4 @@ std::string events_json(const Opening::State& state, const std::vector<Lines::Pe
     return text;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -14,10 +14,10 @@
 #include "server/lines.h"
 #include "server/opening.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// What `isoatlas FILE` puts into a page.
-[[nodiscard]] std::string atlas_json(const Atlas& atlas, const page::PageContents& contents);
+[[nodiscard]] std::string atlas_json(const Atlas& atlas, const PageContents& contents);
 /// An object that was asked for by its highest voxel, and what is there under this name.
 struct NamedObject {
     std::optional<std::int64_t> id{};  ///< nothing: none was asked for
@@ -46,4 +46,4 @@ struct AtVoxel {
 /// On one line. pending: of the client that listens.
 [[nodiscard]] std::string events_json(const Opening::State& state, const std::vector<Lines::Pending>& pending);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

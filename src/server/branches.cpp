@@ -9,10 +9,10 @@
 #include "isoatlas/shell_word.h"
 #include "server/document.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
-using output::JsonStream;
+using JsonStream;
 
 constexpr std::int64_t kDefaultListed = 1000, kMostListed = 20'000;
 /// An isovalue so little above that of the merge that the branch has nearly all its voxels, and so far that no rounding reaches it.
@@ -30,11 +30,11 @@ Selection selection_of(Words& words, const Calibration& scale) {
     return selection;
 }
 
-page::PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
+PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
     const Analysis& analysis = AtlasAccess::analysis(atlas);
     Event event = analysis.event(branch.top);
     const std::array<double, 3> top = event.position;  // in it wherever it is on its own
-    page::PageEntry entry;
+    PageEntry entry;
     entry.id = atlas.info().extent.index(std::llround(top[0]), std::llround(top[1]), std::llround(top[2]));
     entry.tau = branch.parent < 0 ? std::midpoint(atlas.range()[0], branch.appears)
                                   : branch.merges + (branch.appears - branch.merges) * kShareAboveMerge;
@@ -54,7 +54,7 @@ BranchesWanted branches_wanted(Words& words, const Calibration& calibration) {
     return wanted;
 }
 
-page::PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank) {
+PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank) {
     const std::span<const BranchInfo> all = hierarchy.branches();
     if (rank < 0 || rank >= std::ssize(all)) {
         throw Error(ErrorKind::not_found, {.where = "branch " + std::to_string(rank),
@@ -69,7 +69,7 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
     const std::span<const BranchInfo> all = hierarchy.branches();
     const std::vector<std::int64_t> kept = hierarchy.kept(wanted.selection);
     const std::span<const std::int64_t> listed = std::span(kept).first(std::min(kept.size(), static_cast<std::size_t>(wanted.top)));
-    std::vector<page::PageEntry> entries;
+    std::vector<PageEntry> entries;
     for (const std::int64_t rank : listed) {
         stop_if_cancelled(context);
         entries.push_back(entry_of(atlas, all[static_cast<std::size_t>(rank)]));
@@ -82,7 +82,7 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
             json.end_array();
         };
         using Branch = const BranchInfo&;
-        using Entry = const page::PageEntry&;
+        using Entry = const PageEntry&;
         put("rank", [&](Branch branch, Entry) { return &branch - all.data(); });
         put("id", [](Branch branch, Entry) { return branch.id; });
         put("voxel", [](Branch, Entry entry) { return entry.id; });
@@ -102,4 +102,4 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
     });
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

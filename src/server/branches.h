@@ -8,7 +8,7 @@
 #include "isoatlas/atlas.h"
 #include "server/words.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// What a question for branches asks for.
 struct BranchesWanted {
@@ -24,6 +24,6 @@ struct BranchesWanted {
 
 /// A branch as large as it gets on its own: just above the value at which it merges; the trunk in the middle of its isovalues.
 /// Throws Error{not_found}. Cost: O(events of the branch).
-[[nodiscard]] page::PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank);
+[[nodiscard]] PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

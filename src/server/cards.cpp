@@ -3,14 +3,14 @@
 #include "server/coarse_surface.h"
 #include "server/document.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kPixels = 160;
 constexpr std::size_t kMostTriangles = 60'000;  ///< two a pixel
 
-std::string card_json(const std::string& name, const page::Turntable& picture) {
-    return document("card", [&](output::JsonStream& json) {
+std::string card_json(const std::string& name, const Turntable& picture) {
+    return document("card", [&](JsonStream& json) {
         json.key("of").value(name).key("picture");
         if (picture.image.empty()) {
             json.null();
@@ -33,10 +33,10 @@ std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int
     own.threads = 1;  // surfaces that somebody waits for go first
     own.cancelled = [&turn] { return turn->is_over(); };
     const PageOptions options{.picture_size = kPixels, .frames = frames};
-    Surface surface = coarse_surface(page::surface_of(atlas, subject.dark, subject.entry, own), kMostTriangles);
-    std::string answer = card_json(subject.name, page::draw_turntable(std::move(surface), subject.entry.colour, options, own));
+    Surface surface = coarse_surface(surface_of(atlas, subject.dark, subject.entry, own), kMostTriangles);
+    std::string answer = card_json(subject.name, draw_turntable(std::move(surface), subject.entry.colour, options, own));
     answers_.keep(name, answer);
     return answer;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -10,13 +10,13 @@
 #include "server/question.h"
 #include "server/turns.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// What is drawn, and its name among all that may be: "entry 3".
 struct CardSubject {
     std::string name;
     bool dark = false;
-    page::PageEntry entry{};
+    PageEntry entry{};
 };
 
 class Cards {
@@ -32,4 +32,4 @@ private:
     TextCache answers_{kMostKept};
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

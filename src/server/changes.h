@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <mutex>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// From many threads.
 class Changes {
@@ -37,4 +37,4 @@ private:
     std::uint64_t count_ = 0;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

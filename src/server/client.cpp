@@ -56,7 +56,7 @@ bool is_plain(std::string_view text) {
 std::string token_of(const Place& place) {
     if (!place.token.empty()) return place.token;
     if (const char* told = std::getenv("ISOATLAS_TOKEN"); told != nullptr && *told != '\0') return told;
-    std::string kept = private_text(server::token_file(place.port));
+    std::string kept = private_text(token_file(place.port));
     while (!kept.empty() && kept.back() == '\n') kept.pop_back();
     if (!kept.empty()) return kept;
     throw Error(ErrorKind::input,
@@ -89,13 +89,13 @@ public:
     Socket& operator=(const Socket&) = delete;
     ~Socket() { (void)::close(socket_); }
 
-    [[nodiscard]] server::Peer peer() const { return server::Peer(socket_); }
+    [[nodiscard]] Peer peer() const { return Peer(socket_); }
 
 private:
     int socket_;
 };
 
-void get(const Place& place, const std::string& question, server::ResponseReader& answer) {
+void get(const Place& place, const std::string& question, ResponseReader& answer) {
     const std::string token = token_of(place);
     if (!is_plain(token)) throw Error(ErrorKind::usage, {.where = "the token", .what = "has a space or a letter that no token has"});
     const Socket socket(place.port);
@@ -142,7 +142,7 @@ ServerAnswer ask_server(const std::string& address, const std::string& question)
                                        .expected = "a path such as '/api/objects?tau=100'",
                                        .next = "docs/server.md lists the questions"});
     }
-    server::ResponseReader answer;
+    ResponseReader answer;
     get(*place, question, answer);
     if (answer.status() != 200) refuse(answer.status(), answer.body());
     return {answer.type(), std::move(answer.body())};

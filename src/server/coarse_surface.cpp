@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 std::vector<unsigned> fewer_triangles(std::span<const unsigned> corners, std::span<const float> positions, std::size_t most) {
     std::vector<unsigned> kept(corners.size());
@@ -32,4 +32,4 @@ Surface coarse_surface(Surface surface, std::size_t most) {
     return surface;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 
 #include "isoatlas/surface.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// Corners of at most so many triangles of those given, three each. positions: three numbers a point. Parts that are smaller than a
 /// cluster vanish. Cost: O(points + triangles).
@@ -17,4 +17,4 @@ namespace isoatlas::server {
 /// A surface of a 3D volume with at most so many triangles; as it is, where it has no more. Fewer than 2^32 points.
 [[nodiscard]] Surface coarse_surface(Surface surface, std::size_t most);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 
 #include "base/check.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr int kQuick = 1;  ///< level of both; the next ones save a hundredth of a mesh for twice the time
@@ -62,4 +62,4 @@ std::string coded(std::string_view bytes, std::string_view coding) {
     return result;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

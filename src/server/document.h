@@ -6,17 +6,17 @@
 
 #include "formats/common/json_stream.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// write(json): the members that follow.
 template <class Write>
 [[nodiscard]] std::string document(const char* kind, Write&& write) {
     std::string text;
-    output::JsonStream json([&text](std::string_view piece) { text += piece; });
+    JsonStream json([&text](std::string_view piece) { text += piece; });
     json.begin_object().key("schema").value("isoatlas/server/1").key("kind").value(kind);
     std::forward<Write>(write)(json);
     json.end_object().finish();
     return text;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "server/response.h"
 #include "server/secret.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::string_view kHtml = "text/html; charset=utf-8", kOnce = "/open?once=", kEnter = "/enter";
@@ -127,4 +127,4 @@ std::optional<std::string> Door::whole_answer(const RequestHead& head) {
     return refused_page();
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

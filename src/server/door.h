@@ -12,7 +12,7 @@
 
 #include "server/request_head.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 class Door {
 public:
@@ -52,4 +52,4 @@ private:
     std::deque<Code> codes_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -3,7 +3,7 @@
 #include "isoatlas/error.h"
 #include "server/answers.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 using std::chrono::milliseconds;
@@ -75,4 +75,4 @@ void EventStreams::end() {
     changes_.note();
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -12,7 +12,7 @@
 #include "server/lines.h"
 #include "server/opening.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 class EventStreams;
 
@@ -61,4 +61,4 @@ private:
     std::multiset<std::string> clients_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "base/check.h"
 #include "base/file_system.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 class MemoryFile final : public File {
@@ -91,4 +91,4 @@ std::string file_bytes(const std::string& extension, const std::function<void(co
     return std::move(files.content(path));
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -26,7 +26,7 @@ constexpr std::size_t kShortToken = 16, kLongToken = 256;  ///< letters
 std::string checked_token(const std::string& token) {
     const bool good = token.size() >= kShortToken && token.size() <= kLongToken &&
                       std::ranges::all_of(token, [](unsigned char letter) { return std::isalnum(letter) != 0; });
-    if (token.empty()) return server::random_secret();
+    if (token.empty()) return random_secret();
     if (!good) throw Error(ErrorKind::usage, {.where = "the token", .what = "cannot be used", .expected = "16 to 256 letters and digits"});
     return token;
 }
@@ -48,73 +48,72 @@ private:
 
 struct Server::Data {
     const std::string token;
-    server::Service service;
+    Service service;
     const std::int64_t most_on_its_way;
     std::atomic<std::int64_t> on_its_way = 0;
     std::optional<PrivateFile> kept{};
-    server::Network network;
-    server::Door door;
+    Network network;
+    Door door;
 
     Data(const ServerOptions& options, const Context& context)
         : token(checked_token(options.token)),
           service(token, context, options.memory),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
-          network(options.port,
-                  {.at_the_door = [this](const server::RequestHead& head) { return door.answer(head); },
-                   .refusal = server::Door::refusal,
-                   .answer = [this](const server::RequestHead& head, const server::Peer& peer) { return answer(head, peer); }}),
+          network(options.port, {.at_the_door = [this](const RequestHead& head) { return door.answer(head); },
+                                 .refusal = Door::refusal,
+                                 .answer = [this](const RequestHead& head, const Peer& peer) { return answer(head, peer); }}),
           door(network.port(), token) {}
 
     /// Of somebody who may ask. True: another question may follow.
-    bool answer(const server::RequestHead& head, const server::Peer& peer) {
-        server::Target target = server::target_of(head.target);
+    bool answer(const RequestHead& head, const Peer& peer) {
+        Target target = target_of(head.target);
         if (target.path == "/") target.words.clear();
-        const server::Question question{target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }};
+        const Question question{target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }};
         try {
-            server::Answer answer = on_its_way > most_on_its_way      ? too_much()
-                                    : question.path == "/api/address" ? new_address(question)
-                                                                      : service.answer(question);
+            Answer answer = on_its_way > most_on_its_way      ? too_much()
+                            : question.path == "/api/address" ? new_address(question)
+                                                              : service.answer(question);
             if (answer.events) return send_events(head, answer, peer);
             return send(head, std::move(answer), peer);
         } catch (const std::bad_alloc&) {  // nothing has been sent
-            (void)peer.send(server::Door::refusal(503));
+            (void)peer.send(Door::refusal(503));
             return false;
         }
     }
 
-    static server::Answer refused(int status, const Error& error) { return {status, "application/json", server::error_json(error)}; }
-    static server::Answer too_much() {
+    static Answer refused(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
+    static Answer too_much() {
         return refused(503, Error(ErrorKind::resource, {.what = "too much is on its way to clients", .next = "ask again later"}));
     }
 
-    server::Answer new_address(const server::Question& question) {
+    Answer new_address(const Question& question) {
         try {
-            server::Words(question.words).refuse_others();
-            return {200, "application/json", server::address_json(door.address_for_one_use())};
+            Words(question.words).refuse_others();
+            return {200, "application/json", address_json(door.address_for_one_use())};
         } catch (const Error& error) {
             return refused(error.kind() == ErrorKind::usage ? 400 : 503, error);
         }
     }
 
-    bool send(const server::RequestHead& head, server::Answer answer, const server::Peer& peer) {
-        const std::string_view coding = answer.bytes.size() < kWorthCoding ? std::string_view() : server::coding_for(head.accept_encoding);
-        if (!coding.empty()) answer.bytes = server::coded(answer.bytes, coding);
-        server::ResponseHead response{answer.status, answer.type, answer.bytes.size()};
+    bool send(const RequestHead& head, Answer answer, const Peer& peer) {
+        const std::string_view coding = answer.bytes.size() < kWorthCoding ? std::string_view() : coding_for(head.accept_encoding);
+        if (!coding.empty()) answer.bytes = coded(answer.bytes, coding);
+        ResponseHead response{answer.status, answer.type, answer.bytes.size()};
         response.fields = {{"Vary", "Accept-Encoding"}};
         if (!coding.empty()) response.fields.emplace_back("Content-Encoding", coding);
         response.fields.insert(response.fields.end(), answer.headers.begin(), answer.headers.end());
         response.keep_alive = head.keep_alive;
         const OnItsWay counted(on_its_way, answer.bytes.size());
         const bool is_whole = head.method != "HEAD";
-        return peer.send(server::text_of(response), is_whole) && (!is_whole || peer.send(answer.bytes)) && head.keep_alive;
+        return peer.send(text_of(response), is_whole) && (!is_whole || peer.send(answer.bytes)) && head.keep_alive;
     }
 
-    static bool send_events(const server::RequestHead& head, const server::Answer& answer, const server::Peer& peer) {
-        const server::ResponseHead response{.type = answer.type, .length = {}, .is_old = head.is_old};
-        if (!peer.send(server::text_of(response)) || head.method == "HEAD") return false;
+    static bool send_events(const RequestHead& head, const Answer& answer, const Peer& peer) {
+        const ResponseHead response{.type = answer.type, .length = {}, .is_old = head.is_old};
+        if (!peer.send(text_of(response)) || head.method == "HEAD") return false;
         while (true) {
             const std::string message = answer.events->next();
-            const std::string piece = head.is_old ? message : server::chunk(message);
+            const std::string piece = head.is_old ? message : chunk(message);
             if (!peer.send(piece) || message.empty()) return false;
         }
     }
@@ -128,7 +127,7 @@ int Server::port() const { return data_->network.port(); }
 std::string Server::address() const { return data_->door.address(); }
 const std::string& Server::token() const { return data_->token; }
 std::string Server::address_for_one_use() { return data_->door.address_for_one_use(); }
-void Server::keep_token() { data_->kept.emplace(server::token_file(port()), data_->token + "\n"); }
+void Server::keep_token() { data_->kept.emplace(token_file(port()), data_->token + "\n"); }
 
 void Server::run() { data_->network.run(); }
 

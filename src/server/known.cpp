@@ -4,14 +4,14 @@
 #include "isoatlas/render.h"
 #include "server/answers.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kTransferObjects = 5;  ///< as `isoatlas render --volume`
 
-std::vector<NamedEntry> named_entries(const page::PageContents& contents) {
+std::vector<NamedEntry> named_entries(const PageContents& contents) {
     std::vector<NamedEntry> entries;
-    for (const page::PageEntry& entry : contents.entries) {
+    for (const PageEntry& entry : contents.entries) {
         const bool is_dark = contents.branches[static_cast<std::size_t>(entry.branch)].dark;
         entries.push_back({entry.id, entry.tau, entry.voxels, is_dark});
     }
@@ -22,7 +22,7 @@ std::vector<NamedEntry> named_entries(const page::PageContents& contents) {
 
 Known know(const Atlas& atlas, const Context& context) {
     Overview found = overview_of(atlas, context);
-    page::PageContents contents = page::page_contents(atlas, found, {}, context);
+    PageContents contents = page_contents(atlas, found, {}, context);
     (void)atlas.active_index();  // what asks for objects at an isovalue should not wait for it
     const std::vector<TransferBump> bumps =
         propose_transfer(first_entries(std::move(found.bright), kTransferObjects), atlas.info(), atlas.range());
@@ -32,4 +32,4 @@ Known know(const Atlas& atlas, const Context& context) {
             transfer_json(bumps, atlas.info().calibration)};
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -8,10 +8,10 @@
 #include "isoatlas/atlas.h"
 #include "server/sample_answers.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 struct Known {
-    page::PageContents contents;
+    PageContents contents;
     BranchHierarchy hierarchy;
     std::vector<NamedEntry> entries;
     std::string atlas, transfer;  ///< the answers to these questions
@@ -21,4 +21,4 @@ struct Known {
 /// 256^3 samples. The trees are read.
 [[nodiscard]] Known know(const Atlas& atlas, const Context& context);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -1,6 +1,6 @@
 #include "server/lines.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr int kMostWaiting = 256, kMostCards = 16;
@@ -28,4 +28,4 @@ std::vector<Lines::Pending> Lines::pending(const std::string& name) const {
     return found;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 
 #include "server/turns.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 enum class Line : std::uint8_t {
     surfaces,  ///< surfaces, labels, measures
@@ -39,4 +39,4 @@ private:
     std::array<Turns, 5> lines_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

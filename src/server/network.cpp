@@ -15,7 +15,7 @@
 #include "base/workers.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 namespace asio = boost::asio;
@@ -253,4 +253,4 @@ int Network::port() const { return connections_->port(); }
 void Network::run() { connections_->run(); }
 void Network::stop() { connections_->stop(); }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

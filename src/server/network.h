@@ -16,7 +16,7 @@
 #include "server/peer.h"
 #include "server/request_head.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 constexpr int kMostAtOnce = 160, kMostStrangers = 256, kMostIdle = 160;
 constexpr std::chrono::seconds kHeadTime{5}, kIdleTime{30}, kLeavingTime{1};
@@ -49,4 +49,4 @@ private:
     std::unique_ptr<Connections> connections_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -1,6 +1,6 @@
 #include "server/opening.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 template <class Change>
 void Opening::change(const Change& apply) {
@@ -35,4 +35,4 @@ Opening::State Opening::state() const {
     return {atlas_ != nullptr, build_, failure_};
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "isoatlas/error.h"
 #include "server/changes.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 class Opening {
 public:
@@ -42,4 +42,4 @@ private:
     std::optional<Error> failure_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

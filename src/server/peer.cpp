@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr int kSlowClient = 10'000;  ///< milliseconds
@@ -43,4 +43,4 @@ bool Peer::is_gone() const {
     return ::poll(&asked, 1, 0) > 0 && asked.revents != 0;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

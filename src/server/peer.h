@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// Of a socket that another object owns, and that nobody else reads or writes meanwhile.
 class Peer {
@@ -22,4 +22,4 @@ private:
     int socket_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "server/event_stream.h"
 #include "server/turns.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 struct Question {
     std::string path;                               ///< as sent, without what follows '?'
@@ -27,4 +27,4 @@ struct Answer {
     std::shared_ptr<EventStream> events{};  ///< instead of bytes: what is still to come
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

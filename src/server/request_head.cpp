@@ -5,7 +5,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/basic_parser.hpp>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 namespace http = boost::beast::http;
 using boost::beast::string_view;
@@ -89,4 +89,4 @@ HeadReader::State HeadReader::read(std::string& bytes) {
 const RequestHead& HeadReader::head() const { return parser_->head; }
 int HeadReader::status() const { return status_; }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// Bytes of a request line and header fields in all, and the number of fields.
 constexpr std::size_t kLongestHead = 16384;
@@ -41,4 +41,4 @@ private:
     int status_ = 400;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

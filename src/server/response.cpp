@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::pair<const char*, const char*> kFields[] = {
@@ -64,4 +64,4 @@ std::string chunk(std::string_view bytes) {
     return std::string(digits.data(), static_cast<std::size_t>(end - digits.data())).append("\r\n").append(bytes).append("\r\n");
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

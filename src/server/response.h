@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 struct ResponseHead {
     int status = 200;
@@ -28,4 +28,4 @@ struct ResponseHead {
 /// A piece of what has no length; empty: the last one.
 [[nodiscard]] std::string chunk(std::string_view bytes);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

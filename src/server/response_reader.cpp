@@ -5,7 +5,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 namespace http = boost::beast::http;
 
@@ -40,4 +40,4 @@ std::string ResponseReader::type() const {
 }
 std::string& ResponseReader::body() { return parser_->parser.get().body(); }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 class ResponseReader {
 public:
@@ -26,4 +26,4 @@ private:
     std::string rest_;  ///< not yet understood
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

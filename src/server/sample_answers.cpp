@@ -9,7 +9,7 @@
 #include "server/wire_samples.h"
 #include "server/words.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kSliceSamples = 1 << 20, kMostSliceSamples = 1 << 22;
@@ -92,4 +92,4 @@ Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, con
     return {200, "application/json", at_json(found), {}};
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "isoatlas/atlas.h"
 #include "server/question.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// An entry of the atlas, as it stands in /api/atlas.
 struct NamedEntry {
@@ -23,4 +23,4 @@ struct NamedEntry {
 [[nodiscard]] Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question,
                                const Context& context);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

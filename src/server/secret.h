@@ -9,7 +9,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// 128 random bits as 32 hexadecimal digits. Throws Error{resource}.
 [[nodiscard]] inline std::string random_secret() {
@@ -31,4 +31,4 @@ namespace isoatlas::server {
     return different == 0;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

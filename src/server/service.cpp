@@ -18,7 +18,7 @@
 #include "server/secret.h"
 #include "server/wire_mesh.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
@@ -88,9 +88,9 @@ Answer Service::answer(const Question& question) {
 
 Answer Service::answer_known(const Question& question) {
     if (question.path == "/") {
-        if (page::viewer_template().empty())
+        if (viewer_template().empty())
             throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "ask /api/atlas"});
-        return {200, "text/html; charset=utf-8", std::string(page::viewer_template())};
+        return {200, "text/html; charset=utf-8", std::string(viewer_template())};
     }
     if (!is_secret(question.token, token_)) {
         return refusal(
@@ -130,7 +130,7 @@ Answer Service::samples_answer(const Question& question, Answer (*make)(const At
 Answer Service::at_answer(const Question& question) {
     const Known& known = this->known(question);
     const std::unique_ptr<Turns::Turn> turn = turn_in(Line::samples, question);
-    return server::at_answer(atlas(), known.entries, question, context_of(*turn));
+    return at_answer(atlas(), known.entries, question, context_of(*turn));
 }
 
 std::unique_ptr<Turns::Turn> Service::turn_in(Line line, const Question& question) {
@@ -230,17 +230,17 @@ CardSubject Service::card_subject(Words& words, const Known& known) const {
         throw Error(ErrorKind::usage,
                     {.where = "entry", .what = "which object is meant is not said once", .next = "add entry=N or branch=RANK"});
     if (branch) {
-        page::PageEntry drawn = branch_entry(atlas(), known.hierarchy, *branch);
+        PageEntry drawn = branch_entry(atlas(), known.hierarchy, *branch);
         drawn.colour = palette(*branch);
         return {"branch " + std::to_string(*branch), false, std::move(drawn)};
     }
-    const std::vector<page::PageEntry>& entries = known.contents.entries;
+    const std::vector<PageEntry>& entries = known.contents.entries;
     if (*entry >= std::ssize(entries)) {
         throw Error(ErrorKind::not_found, {.where = "entry " + std::to_string(*entry),
                                            .what = "the atlas has no such entry",
                                            .expected = "less than " + std::to_string(entries.size())});
     }
-    const page::PageEntry& drawn = entries[static_cast<std::size_t>(*entry)];
+    const PageEntry& drawn = entries[static_cast<std::size_t>(*entry)];
     return {"entry " + std::to_string(*entry), known.contents.branches[static_cast<std::size_t>(drawn.branch)].dark, drawn};
 }
 
@@ -331,4 +331,4 @@ WireMesh Service::wire(const Surface& surface, std::int64_t most, const Context&
     return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .most_triangles = most}, context);
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -35,7 +35,7 @@
 #include "server/wire_mesh.h"
 #include "server/words.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 class Service {
 public:
@@ -97,4 +97,4 @@ private:
     std::atomic<bool> ended_ = false;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

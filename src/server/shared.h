@@ -11,7 +11,7 @@
 
 #include "base/cancel.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// From many threads.
 template <class T>
@@ -90,4 +90,4 @@ private:
     bool is_being_made_ = false;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 std::string decoded(std::string_view text, bool plus_is_space) {
@@ -40,4 +40,4 @@ Target target_of(std::string_view text) {
     return target;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

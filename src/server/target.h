@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 struct Target {
     std::string path;
@@ -15,4 +15,4 @@ struct Target {
 /// "%41" is 'A' everywhere, '+' a space behind the '?'; what is no such code stays as it is. O(length).
 [[nodiscard]] Target target_of(std::string_view text);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

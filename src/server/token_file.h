@@ -3,8 +3,8 @@
 
 #include <string>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 [[nodiscard]] inline std::string token_file(int port) { return "viewer-" + std::to_string(port); }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{100};  ///< how often one that waits asks whether somebody is still there
@@ -121,4 +121,4 @@ std::vector<Turns::Pending> Turns::pending(const std::string& name) const {
     return found;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -13,7 +13,7 @@
 
 #include "server/changes.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// Is nobody there any more to hear the answer? Asked now and then, from the thread that waits or works. Empty: somebody is.
 using Left = std::function<bool()>;
@@ -85,4 +85,4 @@ private:
     bool ended_ = false;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -13,7 +13,7 @@
 #include "isoatlas/error.h"
 #include "server/coarse_surface.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::uint32_t kHeaderBytes = 56;
@@ -180,4 +180,4 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Con
     return mesh;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

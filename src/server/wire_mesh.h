@@ -17,7 +17,7 @@
 #include "isoatlas/context.h"
 #include "isoatlas/surface.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 struct WireOptions {
     double step = 0;                  ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
@@ -34,4 +34,4 @@ struct WireMesh {
 /// Cost: about 300 ns a triangle, 60 bytes of memory.
 [[nodiscard]] WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context = {});
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 struct SliceHeader {
@@ -58,4 +58,4 @@ std::string wire_volume(const CoarseVolume& volume, std::array<double, 2> range,
     return bytes;
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

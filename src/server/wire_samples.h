@@ -16,11 +16,11 @@
 
 #include "isoatlas/atlas.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// slice: a volume one sample thick along an axis, of every step-th sample. Columns run along the lower one of the other axes.
 [[nodiscard]] std::string wire_slice(const Volume& slice, int axis, std::int64_t step);
 /// range: the stored values of bytes 0 and 255; values beyond are at the ends.
 [[nodiscard]] std::string wire_volume(const CoarseVolume& volume, std::array<double, 2> range, const Calibration& calibration);
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "formats/common/byte_writer.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kLongestShown = 60;
@@ -54,7 +54,7 @@ std::optional<double> Words::number(std::string_view name) {
 
 std::optional<double> Words::number(std::string_view name, double least) {
     const std::optional<double> any = number(name);
-    if (any && *any < least) refuse(name, words_.find(std::string(name))->second, "a number from " + output::number_text(least) + " on");
+    if (any && *any < least) refuse(name, words_.find(std::string(name))->second, "a number from " + number_text(least) + " on");
     return any;
 }
 
@@ -116,4 +116,4 @@ void Words::refuse_others() const {
     }
 }
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

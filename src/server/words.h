@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 /// "NUMBER@VALUE", as `isoatlas render --object ID@TAU`.
 struct NumberAt {
@@ -41,4 +41,4 @@ private:
     std::vector<std::string_view> known_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -14,7 +14,7 @@
 #include "field/brick_extremes.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kGap = 1 << 10;        ///< bytes between two bricks that are cheaper to read than to skip
@@ -225,4 +225,4 @@ void BrickReader<T>::check(const Context& context) const {
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "field/brick_grid.h"
 #include "store/container.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// What reading has cost.
 struct IoCounters {
@@ -81,4 +81,4 @@ private:
     std::vector<std::uint16_t> lowest_, highest_;
 };
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -12,7 +12,7 @@
 #include "field/brick_extremes.h"
 #include "field/brick_grid.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 /// Copies the samples of a box, x fastest.
@@ -117,4 +117,4 @@ std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& c
     return arrays;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

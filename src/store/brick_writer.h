@@ -15,10 +15,10 @@
 #include "isoatlas/context.h"
 #include "store/pack.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// The arrays of a volume, to be packed in this order. Samples and info must live until then; their numbers live as long as the arrays.
 /// Cost: two passes over the samples, 30 bytes a brick and a few bricks for each thread.
 [[nodiscard]] std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

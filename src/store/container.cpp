@@ -8,7 +8,7 @@
 #include "codec/chunk_codec.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMostContents = std::int64_t{1} << 28;  // a header that claims more is damaged
@@ -64,7 +64,7 @@ bool begins_like_a_store(std::span<const std::byte> first) {
     return same >= kEnough;
 }
 
-Container::Container(const std::string& path) : path_(path), file_(io::open_file(path)), file_size_(file_->size()) { read_header(); }
+Container::Container(const std::string& path) : path_(path), file_(open_file(path)), file_size_(file_->size()) { read_header(); }
 
 void Container::damaged(const std::string& where, const std::string& what) const {
     throw Error(ErrorKind::input,
@@ -73,7 +73,7 @@ void Container::damaged(const std::string& where, const std::string& what) const
 
 void Container::read_header() {
     std::array<std::byte, kBeginning> beginning{};
-    const std::size_t got = io::read_available(*file_, path_, 0, beginning);
+    const std::size_t got = read_available(*file_, path_, 0, beginning);
     const std::span<const std::byte> bytes = std::span(beginning).first(kHeaderBytes);
     if (!begins_like_a_store(std::span(beginning).first(got))) {
         throw Error(ErrorKind::input, {.file = path_,
@@ -103,18 +103,18 @@ void Container::read_header() {
 
 bool Container::check_frame() {
     std::vector<std::byte> bytes(static_cast<std::size_t>(kTrailerEnd));
-    io::read_fully(*file_, path_, file_size_ - kTrailerEnd, bytes);
+    read_fully(*file_, path_, file_size_ - kTrailerEnd, bytes);
     const std::optional<std::int64_t> size = trailer_bytes(bytes, file_size_);
     if (!size) return false;
     bytes.resize(static_cast<std::size_t>(*size));
-    io::read_fully(*file_, path_, file_size_ - *size, bytes);
+    read_fully(*file_, path_, file_size_ - *size, bytes);
     std::optional<Frame> frame = frame_of_trailer(bytes, file_size_);
     if (!frame) damaged("trailer", "its checksum is wrong");
     Checksum sum;
     for (const ByteRange& range : frame->ranges) {
         for (std::uint64_t done = 0; done < range.bytes; done += bytes.size()) {
             bytes.resize(static_cast<std::size_t>(std::min(range.bytes - done, kReadAtOnce)));
-            io::read_fully(*file_, path_, static_cast<std::int64_t>(range.offset + done), bytes);
+            read_fully(*file_, path_, static_cast<std::int64_t>(range.offset + done), bytes);
             sum.add(bytes);
         }
     }
@@ -138,13 +138,13 @@ void Container::check_nothing_is_left_out() const {
 
 std::vector<std::uint64_t> Container::checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
     std::vector<std::uint64_t> sums(static_cast<std::size_t>(last - first));
-    io::read_fully(*file_, path_, array.checksums + 8 * first, std::as_writable_bytes(std::span(sums)));
+    read_fully(*file_, path_, array.checksums + 8 * first, std::as_writable_bytes(std::span(sums)));
     return sums;
 }
 
 std::string Container::contents_text() const {
     std::string text(static_cast<std::size_t>(header_.contents_bytes), '\0');
-    io::read_fully(*file_, path_, header_.contents_offset, std::as_writable_bytes(std::span<char>(text)));
+    read_fully(*file_, path_, header_.contents_offset, std::as_writable_bytes(std::span<char>(text)));
     if (checksum(std::as_bytes(std::span<const char>(text))) != header_.contents_checksum) damaged("contents", "their checksum is wrong");
     return text;
 }
@@ -152,7 +152,7 @@ std::string Container::contents_text() const {
 std::vector<std::uint64_t> Container::index_of(const StoredArray& array) const {
     std::vector<std::uint64_t> index(static_cast<std::size_t>(array.index_bytes() / 8));
     const std::span<std::byte> bytes = std::as_writable_bytes(std::span(index));
-    io::read_fully(*file_, path_, array.checksums, bytes);
+    read_fully(*file_, path_, array.checksums, bytes);
     if (checksum(bytes) != array.sum) damaged(array.name, "the checksum of its checksums is wrong");
     return index;
 }
@@ -171,7 +171,7 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
         const std::span<std::byte> wanted = out.subspan(static_cast<std::size_t>(from - first), static_cast<std::size_t>(to - from));
         const bool is_whole = to - from == bytes;
         const std::span<std::byte> whole = is_whole ? wanted : std::span(edge).first(static_cast<std::size_t>(bytes));
-        io::read_fully(*file_, path_, array.offset + start, whole);
+        read_fully(*file_, path_, array.offset + start, whole);
         if (checksum(whole) != sums[static_cast<std::size_t>(block - begin)])
             damaged(array.name + ", block " + std::to_string(block), "its checksum is wrong");
         if (!is_whole) std::memcpy(wanted.data(), whole.data() + (from - start), wanted.size());
@@ -180,7 +180,7 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
 
 std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
     std::vector<StoredChunk> chunks(static_cast<std::size_t>(last - first));
-    io::read_fully(*file_, path_, array.checksums + 24 * first, std::as_writable_bytes(std::span(chunks)));
+    read_fully(*file_, path_, array.checksums + 24 * first, std::as_writable_bytes(std::span(chunks)));
     const auto size = static_cast<std::uint64_t>(file_size_);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         if (chunks[i].offset > size || chunks[i].bytes > size - chunks[i].offset)
@@ -191,7 +191,7 @@ std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int
 
 std::vector<std::byte> Container::read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const {
     std::vector<std::byte> packed(static_cast<std::size_t>(chunk.bytes));
-    io::read_fully(*file_, path_, static_cast<std::int64_t>(chunk.offset), packed);
+    read_fully(*file_, path_, static_cast<std::int64_t>(chunk.offset), packed);
     if (checksum(packed) != chunk.checksum) damaged(array.name + ", chunk " + std::to_string(number), "its checksum is wrong");
     return packed;
 }
@@ -224,12 +224,12 @@ void Container::check_inside(const StoredArray& array, std::int64_t first, std::
 
 void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
     check_inside(array, first, out.size());
-    io::read_fully(*file_, path_, array.offset + first, out);
+    read_fully(*file_, path_, array.offset + first, out);
 }
 
 bool Container::read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
     check_inside(array, first, out.size());
-    return io::read_if_present(*file_, path_, array.offset + first, out);
+    return read_if_present(*file_, path_, array.offset + first, out);
 }
 
 void Container::check_all() const {
@@ -243,4 +243,4 @@ void Container::check_all() const {
     if (contents_.version >= 3) check_nothing_is_left_out();  // by what is right as far as it is checked
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

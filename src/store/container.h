@@ -15,7 +15,7 @@
 #include "formats/common/file_access.h"
 #include "store/contents.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 inline constexpr std::int64_t kHeaderBytes = 512;
 inline constexpr char kMagic[16] = "isoatlas store\n";  // and a zero byte
@@ -96,4 +96,4 @@ private:
     Contents contents_;
 };
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

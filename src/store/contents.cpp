@@ -8,7 +8,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/text.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -229,4 +229,4 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     damaged(path, "contents", std::string("they cannot be read: ") + error.what());
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

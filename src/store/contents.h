@@ -13,7 +13,7 @@
 #include "isoatlas/volume.h"
 #include "store/fingerprint.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 inline constexpr int kStoreVersion = 3;
 inline constexpr int kFirstExactVersion = 3;  // from here on values of saddles are rounded once (critical/element_values.h)
@@ -74,4 +74,4 @@ struct Contents {
 /// inside the file.
 [[nodiscard]] Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

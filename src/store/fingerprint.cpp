@@ -6,7 +6,7 @@
 
 #include "codec/checksum.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kLongest = 60;  ///< characters of a text in a message
@@ -81,4 +81,4 @@ std::string checksum_text(std::uint64_t checksum) {
     return {digits, 16};
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

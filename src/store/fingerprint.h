@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// What a change of the code makes of the same samples and options. To be counted up whenever any array of a store would get other numbers,
 /// be it in the last place: finished phases and tables of before are then not used, nor compared, any more.
@@ -43,4 +43,4 @@ struct Fingerprint {
 [[nodiscard]] std::string exact_text(const std::array<double, 3>& numbers, std::string_view between);
 [[nodiscard]] std::string checksum_text(std::uint64_t checksum);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

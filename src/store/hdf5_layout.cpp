@@ -16,7 +16,7 @@
 #include "isoatlas/error.h"
 #include "store/container.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 using Piece = Hdf5Layout::Piece;
@@ -270,4 +270,4 @@ const std::vector<Hdf5Layout::Piece>& Hdf5Layout::finish() {
     return data_->memory.pieces;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// Contiguous arrays with their room taken, behind a user block of kHeaderBytes; no times, so that the same arrays give the same bytes.
 /// Memory: what HDF5 keeps of every array, not the arrays. Throws Error{resource} when HDF5 has no memory for that.
@@ -40,4 +40,4 @@ private:
     std::unique_ptr<Data> data_;
 };
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

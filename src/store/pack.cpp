@@ -14,7 +14,7 @@
 #include "store/container.h"
 #include "store/hdf5_layout.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "stores are written as the memory is");
@@ -192,4 +192,4 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
     return header.file_size;
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -10,7 +10,7 @@
 #include "codec/chunk_codec.h"
 #include "store/contents.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 /// Takes the next bytes of an array.
 using Put = std::function<void(std::span<const std::byte>)>;
@@ -61,4 +61,4 @@ template <class T>
 /// nothing is left behind then.
 std::int64_t pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays);
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "isoatlas/error.h"
 #include "store/container.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 
 template <class N>
 constexpr const char* type_name() {
@@ -31,4 +31,4 @@ void read_array(const Container& store, const char* name, const char* type, BigV
     store.read(array, 0, std::as_writable_bytes(std::span<N>(numbers)));
 }
 
-}  // namespace isoatlas::store
+}  // namespace isoatlas

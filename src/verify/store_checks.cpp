@@ -18,7 +18,7 @@ double number_of(const StoreNumbers& numbers, std::size_t i) {
     return std::visit([i](const auto& list) { return static_cast<double>(list[i]); }, numbers);
 }
 
-std::array<double, 2> range_of(const Volume& volume, const store::Box& box) {
+std::array<double, 2> range_of(const Volume& volume, const Box& box) {
     const Extent& extent = volume.info.extent;
     return visit_samples(volume, [&](auto samples) {
         auto low = samples[static_cast<std::size_t>(extent.index(box.begin[0], box.begin[1], box.begin[2]))], high = low;
@@ -53,7 +53,7 @@ void compare(const char* name, const Numbers& stored, const Numbers& expected, C
 
 CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples) {
     Check check("bricks_hold_active_cells");
-    const store::BrickGrid grid(atlas.info().extent);
+    const BrickGrid grid(atlas.info().extent);
     const StoreDump store(atlas.info().path);
     const StoreNumbers low = store.read(store.find("volume/low"), 0, grid.count()),
                        high = store.read(store.find("volume/high"), 0, grid.count());
@@ -68,7 +68,7 @@ CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples) 
 }
 
 double saddle_tolerance(const Atlas& atlas) {
-    if (store::Container(atlas.info().path).contents().version >= store::kFirstExactVersion) return 0;
+    if (Container(atlas.info().path).contents().version >= kFirstExactVersion) return 0;
     return 0x1p-40 * std::max(std::abs(atlas.range()[0]), std::abs(atlas.range()[1]));
 }
 
@@ -93,8 +93,8 @@ CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& 
 
 CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored) {
     Check check("stored_events_follow_from_elements");
-    if (!store::stores_events(stored)) return check.result("no events are stored of so many elements");
-    if (const std::string wrong = store::first_wrong_event(store::Container(atlas.info().path), stored); !wrong.empty()) check.fail(wrong);
+    if (!stores_events(stored)) return check.result("no events are stored of so many elements");
+    if (const std::string wrong = first_wrong_event(Container(atlas.info().path), stored); !wrong.empty()) check.fail(wrong);
     return check.result(std::to_string(stored.event_count()) + " events");
 }
 

@@ -13,8 +13,8 @@
 namespace isoatlas {
 namespace {
 
-using store::PackedArray;
-using store::StoredArray;
+using PackedArray;
+using StoredArray;
 
 /// A number of an array as text.
 std::string number_text(std::span<const std::byte> bytes, const std::string& type) {
@@ -26,7 +26,7 @@ std::string number_text(std::span<const std::byte> bytes, const std::string& typ
     if (type == "int64") return std::to_string(read(std::int64_t{}));
     for (int i = 0; i < 8; ++i) {
         if (type != name_of(static_cast<ValueType>(i))) continue;
-        return visit_type(static_cast<ValueType>(i), [&](auto zero) { return store::exact_text(static_cast<double>(read(zero))); });
+        return visit_type(static_cast<ValueType>(i), [&](auto zero) { return exact_text(static_cast<double>(read(zero))); });
     }
     return "?";
 }
@@ -35,7 +35,7 @@ class Comparison {
 public:
     explicit Comparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.contents().has_present_values()) {}
 
-    [[nodiscard]] const store::Container& store() const { return store_; }
+    [[nodiscard]] const Container& store() const { return store_; }
     [[nodiscard]] bool is_present() const { return is_present_; }
 
     void compare(const std::vector<PackedArray>& arrays) {
@@ -81,13 +81,13 @@ private:
     void look(const PackedArray& array, std::int64_t first, std::span<const std::byte> stored, std::span<const std::byte> made) {
         const auto [own, other] = std::ranges::mismatch(stored, made);
         if (own == stored.end()) return;
-        const std::int64_t size = store::size_of_type(array.type), number = (first + (own - stored.begin())) / size;
+        const std::int64_t size = size_of_type(array.type), number = (first + (own - stored.begin())) / size;
         const auto at = static_cast<std::size_t>(number * size - first), width = static_cast<std::size_t>(size);
         check_.fail(array.name + "[" + std::to_string(number) + "] is " + number_text(stored.subspan(at, width), array.type) +
                     ", recomputed " + number_text(made.subspan(at, width), array.type));
     }
 
-    store::Container store_;
+    Container store_;
     bool is_present_;
     Check check_{"stored_tables_are_recomputed"};
     std::set<std::string> seen_;
@@ -101,7 +101,7 @@ CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& sampl
     const VolumeView volume(samples);
     Context silent = context;
     silent.progress = nullptr;
-    const std::vector<PackedArray> bricks = store::brick_arrays(volume, silent);
+    const std::vector<PackedArray> bricks = brick_arrays(volume, silent);
     const LevelCensus census = take_census(volume, silent);
     comparison.compare(census_arrays(census));
     if (!comparison.is_present()) {
@@ -111,13 +111,13 @@ CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& sampl
     comparison.compare(bricks);
     const AnalysisOptions options{.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()};
     if (!anew) {
-        const Analysis stored = store::zoned_analysis_of(comparison.store(), volume, silent);
+        const Analysis stored = zoned_analysis_of(comparison.store(), volume, silent);
         const std::unique_ptr<ZonePhase> tables = zone_tables(stored, volume, silent);
         comparison.compare(tables->arrays);
         return comparison.result();
     }
     Analysis analysis = find_arcs(volume, options, silent);
-    comparison.compare(store::tree_arrays(analysis, samples.info, context.threads));
+    comparison.compare(tree_arrays(analysis, samples.info, context.threads));
     const std::unique_ptr<ZonePhase> zones = zone_phase(analysis, volume, silent, silent, [](double) {});
     comparison.compare(zones->arrays);
     comparison.expect_nothing_else();

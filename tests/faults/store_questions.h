@@ -86,7 +86,7 @@ inline std::vector<Question> questions(double tau, std::int64_t voxel) {
     one.objects = {voxel};
     return {{"what is in it",
              [](const Atlas& atlas) {
-                 store::Contents contents;
+                 Contents contents;
                  contents.volume = atlas.info();
                  return to_json(contents) + Answer().add_numbers(atlas.range(), atlas.file_bytes(), atlas.tunnel_height()).text();
              }},

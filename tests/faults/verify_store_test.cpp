@@ -20,12 +20,12 @@ namespace isoatlas {
 namespace {
 
 namespace fs = std::filesystem;
-using store::Container;
-using store::StoredArray;
+using Container;
+using StoredArray;
 
 /// Arrays of a store by name, free to be changed.
 struct Opened {
-    store::Contents contents;
+    Contents contents;
     std::vector<std::vector<std::byte>> bytes;
 
     explicit Opened(const std::string& path) {
@@ -47,13 +47,12 @@ struct Opened {
     }
     /// With right checksums.
     void write(const std::string& path) const {
-        std::vector<store::PackedArray> arrays;
+        std::vector<PackedArray> arrays;
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             const StoredArray& array = contents.arrays[i];
-            arrays.push_back(
-                {array.name, array.type, array.shape, array.block, [this, i](const store::Put& put) { put(bytes[i]); }, array.chunk});
+            arrays.push_back({array.name, array.type, array.shape, array.block, [this, i](const Put& put) { put(bytes[i]); }, array.chunk});
         }
-        store::pack_store(path, contents, arrays);
+        pack_store(path, contents, arrays);
     }
 };
 
@@ -93,21 +92,21 @@ protected:
         const std::size_t size = opened.numbers<std::uint16_t>("volume/bytes")[0];
         const auto begin = static_cast<std::size_t>(opened.numbers<std::uint64_t>("volume/offset")[0]);
         const std::span<std::byte> brick = opened.numbers<std::byte>("volume/data").subspan(begin, size);
-        const store::BoxSize box = store::BrickGrid({3, {24, 24, 24}}).box(0).size();
+        const BoxSize box = BrickGrid({3, {24, 24, 24}}).box(0).size();
         const std::uint8_t low = opened.numbers<std::uint8_t>("volume/low")[0], high = opened.numbers<std::uint8_t>("volume/high")[0];
         std::vector<std::uint8_t> samples(static_cast<std::size_t>(box[0] * box[1] * box[2]));
-        ASSERT_TRUE(store::decode_brick<std::uint8_t>(brick, box, low, samples));
+        ASSERT_TRUE(decode_brick<std::uint8_t>(brick, box, low, samples));
         std::vector<std::byte> packed;
         for (std::size_t i = 0; packed.size() != size; ++i) {
             const std::uint8_t a = samples.at(i), b = samples.at(i + 1);
             if (a == b || std::min(a, b) == low || std::max(a, b) == high) continue;
             std::swap(samples[i], samples[i + 1]);
             packed.clear();
-            store::encode_brick<std::uint8_t>(samples, box, low, static_cast<std::uint8_t>(brick.front()), packed);
+            encode_brick<std::uint8_t>(samples, box, low, static_cast<std::uint8_t>(brick.front()), packed);
             if (packed.size() != size) std::swap(samples[i], samples[i + 1]);
         }
         std::ranges::copy(packed, brick.begin());
-        opened.numbers<std::uint64_t>("volume/checksum")[0] = store::checksum(brick);
+        opened.numbers<std::uint64_t>("volume/checksum")[0] = checksum(brick);
     }
 
     fs::path folder_;

@@ -3,5 +3,5 @@
 #include "fuzz/volume_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return fuzz::open_and_read(isoatlas::io::open_nifti, data, size);
+    return fuzz::open_and_read(isoatlas::open_nifti, data, size);
 }

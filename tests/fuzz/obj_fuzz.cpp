@@ -2,5 +2,5 @@
 #include "fuzz/mesh_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return fuzz::parse_mesh(isoatlas::output::parse_obj, data, size);
+    return fuzz::parse_mesh(isoatlas::parse_obj, data, size);
 }

@@ -31,8 +31,8 @@ const Atlas& small_atlas() {
     return atlas;
 }
 
-server::Question question_of(std::string_view text) {
-    server::Question question;
+Question question_of(std::string_view text) {
+    Question question;
     question.token = "right";
     question.client = "fuzz";
     if (text.starts_with('^')) question.token = "wrong", text.remove_prefix(1);
@@ -58,13 +58,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size > 8192) return 0;  // what HTTP lets through
     Context context;
     context.threads = 1;
-    static server::Service knowing("right", context);
-    const server::Question question = question_of({reinterpret_cast<const char*>(data), size});
-    std::optional<server::Service> fresh;  // what is given up may be what is found first
+    static Service knowing("right", context);
+    const Question question = question_of({reinterpret_cast<const char*>(data), size});
+    std::optional<Service> fresh;  // what is given up may be what is found first
     if (question.left) fresh.emplace("right", context);
-    server::Service& service = fresh ? *fresh : knowing;
+    Service& service = fresh ? *fresh : knowing;
     service.opening().open(small_atlas());
-    const server::Answer answer = service.answer(question);
+    const Answer answer = service.answer(question);
     const bool given_up = answer.status == 409 && question.left;
     ISOATLAS_CHECK(given_up || answer.status == 200 || answer.status == 400 || answer.status == 403 || answer.status == 404);
     ISOATLAS_CHECK(answer.status == 403 || question.token == "right" || question.path == "/");

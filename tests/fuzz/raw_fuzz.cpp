@@ -7,8 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string name(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 200));
     for (const bool sidecar : {true, false}) {
         try {
-            const isoatlas::io::RawDescription found =
-                sidecar ? isoatlas::io::read_sidecar("fuzz.json") : isoatlas::io::description_from_name(name);
+            const isoatlas::RawDescription found = sidecar ? isoatlas::read_sidecar("fuzz.json") : isoatlas::description_from_name(name);
             if (found.dims) {
                 fuzz::require_volume(found.dims->size() == 2 || found.dims->size() == 3);
                 for (const std::int64_t extent : *found.dims) fuzz::require_volume(extent >= 1);

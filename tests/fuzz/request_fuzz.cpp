@@ -11,8 +11,6 @@
 
 namespace {
 
-using namespace isoatlas::server;
-
 struct Reading {
     HeadReader reader;
     HeadReader::State state = HeadReader::State::more;

@@ -13,8 +13,8 @@
 
 namespace {
 
-using isoatlas::store::Contents;
-using isoatlas::store::StoredArray;
+using isoatlas::Contents;
+using isoatlas::StoredArray;
 using Bytes = std::vector<std::byte>;
 
 std::uint64_t number_at(const Bytes& bytes, std::int64_t offset) {
@@ -37,7 +37,7 @@ std::span<const std::byte> part(const Bytes& bytes, std::int64_t offset, std::in
 }
 
 void mend_bricks(Bytes& bytes, const Contents& contents) {
-    const isoatlas::store::BrickGrid grid(contents.volume.extent);
+    const isoatlas::BrickGrid grid(contents.volume.extent);
     const StoredArray *data = find(contents, "volume/data"), *offset = find(contents, "volume/offset"),
                       *sizes = find(contents, "volume/bytes"), *sums = find(contents, "volume/checksum");
     if (!data || !offset || !sizes || !sums || data->type != "uint8" || sizes->type != "uint16") return;
@@ -47,34 +47,32 @@ void mend_bricks(Bytes& bytes, const Contents& contents) {
         std::uint16_t size;
         std::memcpy(&size, bytes.data() + sizes->offset + 2 * b, sizeof size);
         if (at < 0 || at > data->bytes() || size > data->bytes() - at) continue;
-        put_number(bytes, sums->offset + 8 * b, isoatlas::store::checksum(part(bytes, data->offset + at, size)));
+        put_number(bytes, sums->offset + 8 * b, isoatlas::checksum(part(bytes, data->offset + at, size)));
     }
 }
 
 /// The same file with right checksums, as far as it has places for them.
 Bytes mended(Bytes bytes) {
     const auto size = static_cast<std::int64_t>(bytes.size());
-    if (size < isoatlas::store::kHeaderBytes) return bytes;
-    isoatlas::store::Header header{size, static_cast<std::int64_t>(number_at(bytes, 24)), static_cast<std::int64_t>(number_at(bytes, 32)),
-                                   0};
+    if (size < isoatlas::kHeaderBytes) return bytes;
+    isoatlas::Header header{size, static_cast<std::int64_t>(number_at(bytes, 24)), static_cast<std::int64_t>(number_at(bytes, 32)), 0};
     if (header.contents_offset < 0 || header.contents_bytes < 0 || header.contents_offset > size ||
         header.contents_bytes > size - header.contents_offset)
         return bytes;
     const std::span<const std::byte> text = part(bytes, header.contents_offset, header.contents_bytes);
     try {
-        const Contents contents =
-            isoatlas::store::contents_of_json({reinterpret_cast<const char*>(text.data()), text.size()}, "fuzz", size);
+        const Contents contents = isoatlas::contents_of_json({reinterpret_cast<const char*>(text.data()), text.size()}, "fuzz", size);
         mend_bricks(bytes, contents);
         for (const StoredArray& array : contents.arrays) {
             for (std::int64_t block = 0; block < array.blocks(); ++block) {
                 const std::int64_t first = block * array.block, count = std::min(array.block, array.bytes() - first);
-                put_number(bytes, array.checksums + 8 * block, isoatlas::store::checksum(part(bytes, array.offset + first, count)));
+                put_number(bytes, array.checksums + 8 * block, isoatlas::checksum(part(bytes, array.offset + first, count)));
             }
         }
     } catch (const isoatlas::Error&) {
     }
-    header.contents_checksum = isoatlas::store::checksum(part(bytes, header.contents_offset, header.contents_bytes));
-    const auto head = isoatlas::store::bytes_of_header(header);
+    header.contents_checksum = isoatlas::checksum(part(bytes, header.contents_offset, header.contents_bytes));
+    const auto head = isoatlas::bytes_of_header(header);
     std::memcpy(bytes.data(), head.data(), head.size());
     return bytes;
 }

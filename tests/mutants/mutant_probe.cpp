@@ -137,14 +137,14 @@ void check_outputs() {
 
 /// What a stranger may send is bounded, and says one thing.
 void check_requests() {
-    using isoatlas::server::HeadReader;
+    using isoatlas::HeadReader;
     const auto is_let_in = [](const std::string& fields) {
         HeadReader reader;
         std::string bytes = "GET / HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n";
         return reader.read(bytes) == HeadReader::State::whole;
     };
     std::string many;
-    for (int i = 0; i < 2 * isoatlas::server::kMostFields; ++i) many += "X: y\r\n";
+    for (int i = 0; i < 2 * isoatlas::kMostFields; ++i) many += "X: y\r\n";
     if (is_let_in("X: y\r\n") && !is_let_in(many) && !is_let_in("Host: b\r\n")) return;
     std::puts("requests are not bounded, or not refused when they say two things");
     std::exit(1);

@@ -205,13 +205,13 @@ RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
 
 /// A store of the same volume without its tables, as one of noise with too many critical elements is.
 void leave_tables_out(const std::string& from, const Volume& volume, const std::string& to) {
-    const isoatlas::store::Container store(from);
-    std::vector<isoatlas::store::PackedArray> arrays = isoatlas::store::brick_arrays(volume, {});
-    for (isoatlas::store::PackedArray& array : isoatlas::store::copied_arrays(store)) {
+    const isoatlas::Container store(from);
+    std::vector<isoatlas::PackedArray> arrays = isoatlas::brick_arrays(volume, {});
+    for (isoatlas::PackedArray& array : isoatlas::copied_arrays(store)) {
         const auto lies_in = [&array](const char* folder) { return array.name.starts_with(folder); };
         if (std::ranges::any_of(std::array{"elements/", "census/"}, lies_in)) arrays.push_back(std::move(array));
     }
-    isoatlas::store::pack_store(to, store.contents(), arrays);
+    isoatlas::pack_store(to, store.contents(), arrays);
 }
 
 RC_GTEST_FIXTURE_PROP(Stores, TellTogetherWhatTheyTellApart, ()) {

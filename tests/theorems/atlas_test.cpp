@@ -69,9 +69,9 @@ TEST_F(Stores, NeedNoTreesForCutsAndSurfaces) {
         {"nested-shells", {.size = 110}}};
     for (const auto& [name, options] : examples) {
         const Volume volume = isoatlas::make_phantom(name, options);
-        isoatlas::store::Contents contents;
+        isoatlas::Contents contents;
         contents.volume = volume.info;
-        isoatlas::store::pack_store(path_, contents, isoatlas::store::brick_arrays(volume, {}));
+        isoatlas::pack_store(path_, contents, isoatlas::brick_arrays(volume, {}));
         const Atlas atlas(path_);
         const std::array<double, 2> range = atlas.range();
         for (const double part : {0.0, 0.2, 0.5, 0.7, 1.0}) {
@@ -177,14 +177,14 @@ TEST_F(Stores, ReadOnlyTheBricksOfTheSurface) {
 /// The bricks that a surface may need, each a flag: those that tau divides, and those with a sample of the other class in a cell with one
 /// of theirs, or two steps away (the end of an edge, and the neighbour that its normal looks at). Outside of the volume everything is Low.
 std::vector<bool> bricks_near_surface(const Grid& grid, double tau) {
-    const isoatlas::store::BrickGrid bricks({grid.rank, grid.size});
+    const isoatlas::BrickGrid bricks({grid.rank, grid.size});
     const auto is_high = [&](Index x, Index y, Index z) {
         return grid.contains({x, y, z}) && grid.value[static_cast<std::size_t>(grid.index(x, y, z))] >= tau;
     };
     const Index flat = grid.rank == 2 ? 0 : 2;
     std::vector<bool> near(static_cast<std::size_t>(bricks.count()));
     for (Index b = 0; b < bricks.count(); ++b) {
-        const isoatlas::store::Box box = bricks.box(b);
+        const isoatlas::Box box = bricks.box(b);
         const bool first = is_high(box.begin[0], box.begin[1], box.begin[2]);
         for (Index z = box.begin[2] - flat; z < box.end[2] + flat; ++z) {
             for (Index y = box.begin[1] - 2; y < box.end[1] + 2; ++y) {
@@ -206,9 +206,9 @@ std::vector<bool> bricks_near_surface(const Grid& grid, double tau) {
 RC_GTEST_FIXTURE_PROP(Stores, ReadTheBricksNearTheSurfaceOnce, ()) {
     const Grid grid = arbitrary_volume();
     const Volume volume = to_volume(grid, isoatlas::ValueType::f64);
-    isoatlas::store::Contents contents;
+    isoatlas::Contents contents;
     contents.volume = volume.info;
-    isoatlas::store::pack_store(path_, contents, isoatlas::store::brick_arrays(volume, {}));
+    isoatlas::pack_store(path_, contents, isoatlas::brick_arrays(volume, {}));
     const Atlas atlas(path_);
     std::vector<bool> near;
     for (int query = 0; query < 4; ++query) {

@@ -25,9 +25,9 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
     isoatlas::find_element_values(codes, volume, isoatlas::tunnel_height_of(interpolant, tunnel_height), 1, values);
     for (std::size_t i = 0; i < codes.size(); ++i) {
         RC_ASSERT(std::bit_cast<std::uint64_t>(values[i]) == std::bit_cast<std::uint64_t>(arrays.value[i]));
-        const isoatlas::store::ElementForm form = isoatlas::store::form_of(isoatlas::ElementCode{codes[i]});
+        const isoatlas::ElementForm form = isoatlas::form_of(isoatlas::ElementCode{codes[i]});
         RC_ASSERT(form.place >= 0 && form.place < volume.info.extent.voxels());
-        RC_ASSERT(isoatlas::store::code_of(form).bits == codes[i]);
+        RC_ASSERT(isoatlas::code_of(form).bits == codes[i]);
     }
     isoatlas::BigVector<std::uint64_t> shuffled(codes.begin(), codes.end());
     isoatlas::BigVector<double> found;
@@ -54,7 +54,7 @@ RC_GTEST_PROP(ElementCodes, OfNoElementHaveNoValue, ()) {
     const isoatlas::Volume volume = to_volume(*arbitrary_grid(4, 60));
     const auto place = *rc::gen::inRange<std::int64_t>(0, volume.info.extent.voxels());
     const auto form = *rc::gen::arbitrary<std::uint16_t>();
-    const isoatlas::ElementCode code = isoatlas::store::code_of({place, form});
+    const isoatlas::ElementCode code = isoatlas::code_of({place, form});
     double value = 0;
     isoatlas::find_element_values(std::span(&code.bits, 1), volume, 0, 1, std::span(&value, 1));
     const auto [low, high] = std::ranges::minmax(volume.samples<double>());

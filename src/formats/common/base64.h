@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace isoatlas::page {
+namespace isoatlas {
 
 [[nodiscard]] inline std::string base64(std::span<const std::byte> bytes) {
     constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -21,4 +21,4 @@ namespace isoatlas::page {
     return text;
 }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas

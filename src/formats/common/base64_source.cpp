@@ -10,7 +10,7 @@
 #include "formats/common/text.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::unique_ptr<ByteSource> open_base64_source(const std::string& path, std::int
     return std::make_unique<Base64Source>(path, begin, end);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
@@ -73,4 +73,4 @@ int BlockInflater::inflate_some(ByteSource& source, std::span<std::byte> out, st
                                                                                    : status;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

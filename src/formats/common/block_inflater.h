@@ -11,7 +11,7 @@
 
 #include "formats/common/byte_source.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 class BlockInflater {
 public:
@@ -38,4 +38,4 @@ private:
     std::int64_t bytes_ = 0, position_ = 0;
 };
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -14,7 +14,7 @@
 #include "formats/common/text.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 inline constexpr const char* kDamagedFile = "the file is damaged or cut off: copy or export it again";
 
@@ -94,4 +94,4 @@ template <class T>
     return word;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "formats/common/file_access.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 /// The part of a file that a source reads; length -1 means to the end.
@@ -158,4 +158,4 @@ bool starts_like_gzip(std::span<const std::byte> bytes) {
     return bytes.size() >= 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

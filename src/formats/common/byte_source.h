@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 class ByteSource {
 public:
@@ -78,4 +78,4 @@ struct PartsPlan {
 /// Whether the bytes start like a gzip file.
 [[nodiscard]] bool starts_like_gzip(std::span<const std::byte> bytes);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

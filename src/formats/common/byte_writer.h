@@ -15,7 +15,7 @@
 #include "base/atomic_file.h"
 #include "isoatlas/text.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 static_assert(std::endian::native == std::endian::little, "the writers copy numbers as they lie in memory");
 
@@ -90,4 +90,4 @@ template <class T>
     return text;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -4,8 +4,6 @@
 
 namespace isoatlas {
 
-namespace output {
-
 KeyValues key_values(const Connectivity& connectivity) {
     KeyValues pairs{{"interpolant", connectivity.name()}};
     if (connectivity.has_tunnels()) pairs.emplace_back("tunnel_height", number_text(connectivity.tunnel_height));
@@ -29,11 +27,9 @@ std::string short_text(double value) {
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 7).ptr};
 }
 
-}  // namespace output
-
 std::string describe(Interpolant interpolant, double tunnel_height) {
     const bool leaves_out = interpolant == Interpolant::trilinear && tunnel_height > 0;
-    return name_of(interpolant) + (leaves_out ? ", tunnel height " + output::short_text(tunnel_height) : "");
+    return name_of(interpolant) + (leaves_out ? ", tunnel height " + short_text(tunnel_height) : "");
 }
 
 }  // namespace isoatlas

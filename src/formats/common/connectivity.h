@@ -8,7 +8,7 @@
 #include "formats/common/vtk_writer.h"
 #include "isoatlas/surface.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 struct Connectivity {
     Interpolant interpolant;
@@ -28,4 +28,4 @@ void put_members(JsonStream& json, const Connectivity& connectivity);
 /// Seven digits: where a header has no room for all.
 [[nodiscard]] std::string short_text(double value);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "formats/common/byte_writer.h"
 #include "formats/common/connectivity.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// One row of cells, ended by last_cells. No cell needs quotes: all are numbers, names of ours or lists of numbers.
 class CsvRow {
@@ -58,4 +58,4 @@ private:
     std::string last_cells_;
 };
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

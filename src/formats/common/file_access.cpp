@@ -5,7 +5,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 [[noreturn]] void cannot_open(const std::string& path, int error) {
@@ -72,4 +72,4 @@ void read_fully(File& file, const std::string& path, std::int64_t offset, std::s
                                    .next = "the file is truncated: get it again"});
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -11,7 +11,7 @@
 
 #include "base/file_system.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Opens a regular file. Throws Error{input}: missing, a directory, not a regular file, no permission.
 [[nodiscard]] std::unique_ptr<File> open_file(const std::string& path);
@@ -29,4 +29,4 @@ void read_fully(File& file, const std::string& path, std::int64_t offset, std::s
 /// Fills all of out if that need not wait for a disk; false: it would, out holds anything. Throws Error{input} when the disk fails.
 [[nodiscard]] bool read_if_present(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -6,9 +6,9 @@
 #include "formats/common/text.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
-std::string lower_extension(const std::string& path) { return io::lower(std::filesystem::path(path).extension().string()); }
+std::string lower_extension(const std::string& path) { return lower(std::filesystem::path(path).extension().string()); }
 
 void refuse_extension(const std::string& path, const FormatWords& words) {
     const std::string extension = lower_extension(path);
@@ -26,4 +26,4 @@ std::string known_extension(const std::string& path, std::initializer_list<const
     return extension;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

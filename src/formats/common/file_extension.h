@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// What a message says of the formats: "the format of the tree", "format of a tree", ".csv or .json".
 struct FormatWords {
@@ -20,4 +20,4 @@ struct FormatWords {
 /// The extension in small letters. Throws Error{usage} when it is not among `known`.
 [[nodiscard]] std::string known_extension(const std::string& path, std::initializer_list<const char*> known, const FormatWords& words);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "base/check.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -59,4 +59,4 @@ void GzipStream::run(int flush) {
     } while (flush == Z_FINISH && result != Z_STREAM_END);
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

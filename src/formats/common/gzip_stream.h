@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 class GzipStream {
 public:
@@ -26,4 +26,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

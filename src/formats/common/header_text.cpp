@@ -3,7 +3,7 @@
 #include "formats/common/byte_source.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kFirstPiece = 64 * 1024;
@@ -35,4 +35,4 @@ std::string_view take_line(std::string_view text, std::size_t& begin) {
     return line;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

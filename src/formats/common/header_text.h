@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct HeaderText {
     std::string text;         ///< everything before `end`, or the whole file
@@ -23,4 +23,4 @@ struct HeaderText {
 /// The line of text that starts at `begin`, without its line end; `begin` moves behind that.
 [[nodiscard]] std::string_view take_line(std::string_view text, std::size_t& begin);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

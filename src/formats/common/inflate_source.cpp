@@ -9,7 +9,7 @@
 #include "formats/common/file_access.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMaximalRatio = 1032;  // zlib's documentation: the limit of the deflate format
@@ -197,4 +197,4 @@ std::vector<std::byte> read_inflated_bytes(const std::string& path, std::int64_t
     return bytes;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

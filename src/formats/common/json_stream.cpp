@@ -5,7 +5,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/text.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 void JsonStream::quote(std::string_view text) {
     constexpr std::string_view kHex = "0123456789abcdef";
@@ -36,4 +36,4 @@ JsonStream::Sink stream_sink(std::ostream& out, const char* what) {
     };
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

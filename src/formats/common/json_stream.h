@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 class JsonStream {
 public:
@@ -119,4 +119,4 @@ private:
 /// Writes to a stream. `what`: "the tree"; for the message of the Error{resource} that is thrown when the stream takes no more.
 [[nodiscard]] JsonStream::Sink stream_sink(std::ostream& out, const char* what);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

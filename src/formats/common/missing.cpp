@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr const char* kBothOptions =
@@ -173,4 +173,4 @@ void MissingScan::report(std::int64_t index, double value, bool is_no_data) cons
                                    .next = kBothOptions});
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

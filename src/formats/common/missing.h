@@ -7,7 +7,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Usage: look() at every slab in any order, then replace() once.
 /// MissingPolicy::value and no_data are stored values (before the calibration), as info and the file show them.
@@ -50,4 +50,4 @@ private:
     double smallest_ = std::numeric_limits<double>::infinity();  // exact: every sample type fits in double
 };
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

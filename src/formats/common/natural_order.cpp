@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -37,4 +37,4 @@ bool natural_less(std::string_view a, std::string_view b) {
     return a < b;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// A strict weak order; names that differ only in leading zeros are ordered by their bytes.
 [[nodiscard]] bool natural_less(std::string_view a, std::string_view b);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "base/file_system.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ void require_inside(const std::string& folder, const std::string& file) {
     if (!is_below(file_system().resolved(folder), file_system().resolved(file))) refuse(folder, "a slice is a link to a file", file);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

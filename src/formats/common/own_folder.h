@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Throws Error{input} when `file`, with all links followed, does not lie in the folder of `header` or below it. Its own folder is the one
 /// that the path of the header names, and the one where the header lies when that path is a link. Nothing is opened, and the message does
@@ -12,4 +12,4 @@ void require_own_folder(const std::string& header, const std::string& file);
 /// The same for a file that was found in a folder of slices.
 void require_inside(const std::string& folder, const std::string& file);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

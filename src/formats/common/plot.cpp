@@ -8,7 +8,7 @@
 #include "formats/common/connectivity.h"
 #include "isoatlas/text.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 constexpr double kWidth = 960, kHeight = 300, kLeft = 84, kRight = 180, kTop = 34, kBottom = 48;
@@ -164,4 +164,4 @@ std::string svg_of(const std::vector<Plot>& plots) {
     return text + "</svg>\n";
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// Text as it may stand between tags and in attributes.
 [[nodiscard]] std::string svg_text(const std::string& text);
@@ -35,4 +35,4 @@ struct Plot {
 /// Plots below each other. At most a few thousand points a curve are drawn, with every peak.
 [[nodiscard]] std::string svg_of(const std::vector<Plot>& plots);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -72,4 +72,4 @@ Real position_precision(const Surface& surface) {
     return points_merged_by_float32(surface.points) > 0 ? Real::f64 : Real::f32;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

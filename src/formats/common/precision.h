@@ -7,7 +7,7 @@
 
 #include "isoatlas/surface.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 enum class Real : std::uint8_t { f32, f64 };
 
@@ -24,4 +24,4 @@ enum class Real : std::uint8_t { f32, f64 };
     return {static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2])};
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

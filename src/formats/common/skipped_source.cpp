@@ -4,7 +4,7 @@
 
 #include "formats/common/byte_source.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 class SkippedSource final : public ByteSource {
@@ -31,4 +31,4 @@ std::unique_ptr<ByteSource> skip_bytes(std::unique_ptr<ByteSource> source, std::
     return std::make_unique<SkippedSource>(std::move(source), offset);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

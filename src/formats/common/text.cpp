@@ -8,7 +8,7 @@
 
 #include "isoatlas/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
@@ -79,4 +79,4 @@ std::string beside(const std::string& path, std::string_view name) {
     return (std::filesystem::path(path).parent_path() / std::filesystem::path(name)).string();
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

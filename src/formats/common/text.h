@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 [[nodiscard]] std::string_view trim(std::string_view text);                      ///< without blanks, tabs and line ends around it
 [[nodiscard]] std::string lower(std::string_view text);                          ///< ASCII only
@@ -24,4 +24,4 @@ namespace isoatlas::io {
 /// `name` beside `path`: names are relative to the folder of the header that contains them.
 [[nodiscard]] std::string beside(const std::string& path, std::string_view name);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 
 #include "formats/common/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kChunkBytes = 64 * 1024;
@@ -142,4 +142,4 @@ std::unique_ptr<ByteSource> open_text_source(std::unique_ptr<ByteSource> text, V
     return std::make_unique<TextSource>(std::move(text), type, end);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

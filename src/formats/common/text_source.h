@@ -7,7 +7,7 @@
 #include "formats/common/byte_source.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Reads numbers separated by white space or commas from `text` (exact size known: random_access()), one per sample of `type`.
 /// Floating samples are the nearest of their type. read throws Error{input} for a word that is no number of the type.
@@ -17,4 +17,4 @@ enum class TextEnd : std::uint8_t { separator, anything };
 [[nodiscard]] std::unique_ptr<ByteSource> open_text_source(std::unique_ptr<ByteSource> text, ValueType type,
                                                            TextEnd end = TextEnd::separator);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

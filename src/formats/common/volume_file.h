@@ -10,7 +10,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 using Put = std::function<void(std::span<const std::byte>)>;
 /// Calls put with all samples, in file order and in the byte order of this machine, in pieces of any size.
@@ -44,4 +44,4 @@ void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed
 /// "LPS", "RAS" or "LAS": the axes have a meaning in the body.
 [[nodiscard]] bool is_anatomical(const Geometry& geometry);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

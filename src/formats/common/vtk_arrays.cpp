@@ -8,7 +8,7 @@
 
 #include "formats/common/byte_cursor.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -32,7 +32,7 @@ VtkType type_named(const std::string& name, const std::string& array, const VtkE
     if (found != kTypeNames.end()) return static_cast<VtkType>(found - kTypeNames.begin());
     throw Error(ErrorKind::unsupported, {.file = encoding.file,
                                          .where = "DataArray \"" + array + "\"",
-                                         .what = "type " + io::quoted(name) + " is not one of numbers",
+                                         .what = "type " + quoted(name) + " is not one of numbers",
                                          .next = "write the file again with VTK or ParaView"});
 }
 
@@ -176,18 +176,18 @@ void parse_ascii(std::string_view text, std::vector<T>& out, const std::string& 
     ByteCursor in(text, encoding.file);
     for (std::string_view word = in.word(); !word.empty(); word = in.word()) {
         T value;
-        if (!parse_number(word, value)) fail(encoding, array, io::quoted(word) + " is not a number of this array's type");
+        if (!parse_number(word, value)) fail(encoding, array, quoted(word) + " is not a number of this array's type");
         out.push_back(value);
     }
 }
 
 std::string decode_binary(const pugi::xml_node& element, std::string_view format, const std::string& array, const VtkEncoding& encoding) {
     if (format == "binary") return decode_base64_array(element.text().get(), array, encoding);
-    if (format != "appended") fail(encoding, array, "unknown format " + io::quoted(format), "ascii, binary or appended");
+    if (format != "appended") fail(encoding, array, "unknown format " + quoted(format), "ascii, binary or appended");
     std::uint64_t offset = 0;
     const std::string_view text = element.attribute("offset").value();
     if (!parse_number(text, offset) || offset > encoding.appended.size())
-        fail(encoding, array, "the offset " + io::quoted(text) + " is not in the file");
+        fail(encoding, array, "the offset " + quoted(text) + " is not in the file");
     const std::string_view data = encoding.appended.substr(offset);
     return encoding.appended_base64 ? decode_base64_array(data, array, encoding) : decode_raw_array(data, array, encoding);
 }
@@ -220,4 +220,4 @@ VtkValues read_vtk_array(const pugi::xml_node& element, VtkEncoding& encoding) {
     return values;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

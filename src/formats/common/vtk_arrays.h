@@ -12,7 +12,7 @@ namespace pugi {
 class xml_node;
 }
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// What the VTKFile element and the AppendedData element say about all arrays.
 struct VtkEncoding {
@@ -36,4 +36,4 @@ struct VtkValues {
 /// Decodes a DataArray element. Throws Error: input (cut off, corrupt, contradictory), unsupported (type, compressor).
 [[nodiscard]] VtkValues read_vtk_array(const pugi::xml_node& element, VtkEncoding& encoding);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

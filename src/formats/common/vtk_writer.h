@@ -12,7 +12,7 @@
 #include "formats/common/byte_writer.h"
 #include "formats/common/generator.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 template <class T>
 inline constexpr const char* vtk_type = nullptr;
@@ -73,4 +73,4 @@ private:
     return element + "0</DataArray>\n";
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "formats/common/file_access.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -147,4 +147,4 @@ private:
 
 XmlSkeleton read_xml_skeleton(const std::string& path) { return Scanner(path).scan(); }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

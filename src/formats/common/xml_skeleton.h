@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Names of attributes that the skeleton adds to each DataArray with content: where its text lies in the file.
 inline constexpr const char* kContentBegin = "content-begin";
@@ -19,4 +19,4 @@ struct XmlSkeleton {
 /// Throws Error{input}: a tag is not closed, tags beyond that limit, an AppendedData section without '_'.
 [[nodiscard]] XmlSkeleton read_xml_skeleton(const std::string& path);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

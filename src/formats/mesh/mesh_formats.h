@@ -10,7 +10,7 @@
 #include "base/atomic_file.h"
 #include "isoatlas/surface.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 using Warnings = std::vector<std::string>;
 
@@ -56,4 +56,4 @@ struct ObjectGroups {
 /// Whether some object has more than one contour, so that object ids alone do not say which contour a point lies on.
 [[nodiscard]] bool has_inner_contours(const Surface& surface);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 
 #include "isoatlas/array.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 class PointTable {
 public:
@@ -50,4 +50,4 @@ private:
     std::vector<std::int64_t> slots_;  ///< open addressing; -1: free; a power of two, at most half full
 };
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "formats/common/byte_cursor.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -115,7 +115,7 @@ public:
     Mesh parse() {
         document_ = Json::parse(chunks_.json);
         if (const auto needed = document_.find("extensionsRequired"); needed != document_.end() && !needed->empty()) {
-            fail_unsupported(file_, "needs the extension " + io::quoted((*needed)[0].get<std::string>()));
+            fail_unsupported(file_, "needs the extension " + quoted((*needed)[0].get<std::string>()));
         }
         visit_scene();
         if (!every_node_has_id_) mesh_.object.clear();
@@ -300,4 +300,4 @@ Mesh parse_glb(std::string_view bytes, const std::string& file) {
     }
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

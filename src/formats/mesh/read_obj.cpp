@@ -7,7 +7,7 @@
 #include "formats/common/byte_cursor.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -55,7 +55,7 @@ private:
         } else if (keyword == "o") {
             parse_object(take_word(line));
         } else if (std::none_of(kSkipped.begin(), kSkipped.end(), [&](const char* known) { return keyword == known; })) {
-            in_.fail_at_line(io::quoted(keyword) + " is not a statement of OBJ");
+            in_.fail_at_line(quoted(keyword) + " is not a statement of OBJ");
         }
     }
     void parse_point(std::string_view line) {
@@ -63,17 +63,16 @@ private:
         for (double& x : point) {
             const std::string_view word = take_word(line);
             if (!parse_number(word, x))
-                in_.fail_at_line(word.empty() ? "a point with less than 3 coordinates" : io::quoted(word) + " is not a number");
+                in_.fail_at_line(word.empty() ? "a point with less than 3 coordinates" : quoted(word) + " is not a number");
         }
         mesh_.points.push_back(point);
     }
     /// Indices: 7, 7/1, 7/1/3, 7//3; negative ones count back from the last point.
     std::int64_t parse_corner(std::string_view word) {
         std::int64_t index = 0;
-        if (!parse_number(word.substr(0, word.find('/')), index) || index == 0)
-            in_.fail_at_line(io::quoted(word) + " is not a point number");
+        if (!parse_number(word.substr(0, word.find('/')), index) || index == 0) in_.fail_at_line(quoted(word) + " is not a point number");
         const auto points = static_cast<std::int64_t>(mesh_.points.size());
-        if (index < -points) in_.fail_at_line(io::quoted(word) + " counts back beyond the first point");
+        if (index < -points) in_.fail_at_line(quoted(word) + " counts back beyond the first point");
         return index > 0 ? index - 1 : points + index;
     }
     void parse_cell(std::string_view line, std::size_t least) {
@@ -118,4 +117,4 @@ private:
 
 Mesh parse_obj(std::string_view bytes, const std::string& file) { return ObjParser(bytes, file).parse(); }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "formats/common/byte_cursor.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -48,14 +48,14 @@ Scalar scalar_named(std::string_view name, const ByteCursor& in) {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         if (name == kNames[i][0] || name == kNames[i][1]) return static_cast<Scalar>(i);
     }
-    in.fail_at_line("unknown PLY type " + io::quoted(name), "char, uchar, short, ushort, int, uint, float or double");
+    in.fail_at_line("unknown PLY type " + quoted(name), "char, uchar, short, ushort, int, uint, float or double");
 }
 
 Encoding encoding_named(std::string_view name, const ByteCursor& in) {
     if (name == "ascii") return Encoding::ascii;
     if (name == "binary_little_endian") return Encoding::little;
     if (name == "binary_big_endian") return Encoding::big;
-    in.fail_at_line("unknown PLY format " + io::quoted(name), "ascii, binary_little_endian or binary_big_endian");
+    in.fail_at_line("unknown PLY format " + quoted(name), "ascii, binary_little_endian or binary_big_endian");
 }
 
 Property parse_property(std::string_view line, const ByteCursor& in) {
@@ -88,12 +88,12 @@ Header parse_header(ByteCursor& in) {
         } else if (keyword == "element") {
             Element element{take_word(line), 0, {}};
             const std::string_view count = take_word(line);
-            if (!parse_number(count, element.count)) in.fail_at_line("the element count " + io::quoted(count) + " is not a number");
+            if (!parse_number(count, element.count)) in.fail_at_line("the element count " + quoted(count) + " is not a number");
             header.elements.push_back(std::move(element));
         } else if (keyword == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(parse_property(line, in));
         } else {
-            in.fail_at_line("unexpected " + io::quoted(keyword) + " in the PLY header");
+            in.fail_at_line("unexpected " + quoted(keyword) + " in the PLY header");
         }
     }
     if (!has_format) in.fail_at_line("the PLY header has no format line");
@@ -105,7 +105,7 @@ void check_count(const Element& element, Encoding encoding, const ByteCursor& in
     std::uint64_t row = 0;
     for (const Property& p : element.properties) row += encoding == Encoding::ascii ? 1 : bytes_of_scalar(p.count_type.value_or(p.type));
     if (row > 0 && element.count > in.left() / row) {
-        in.fail_at_offset("the header promises " + std::to_string(element.count) + " of element " + io::quoted(element.name) + ", but " +
+        in.fail_at_offset("the header promises " + std::to_string(element.count) + " of element " + quoted(element.name) + ", but " +
                               std::to_string(in.left()) + " bytes are left",
                           "at least " + std::to_string(row) + " bytes each");
     }
@@ -115,7 +115,7 @@ double read_ascii(ByteCursor& in) {
     double value;
     const std::string_view word = in.word();
     if (word.empty()) in.fail_at_line("the file ends before its last element");
-    if (!parse_number(word, value)) in.fail_at_line(io::quoted(word) + " is not a number");
+    if (!parse_number(word, value)) in.fail_at_line(quoted(word) + " is not a number");
     return value;
 }
 
@@ -262,4 +262,4 @@ Mesh parse_ply(std::string_view bytes, const std::string& file) {
     return mesh;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

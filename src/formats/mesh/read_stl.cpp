@@ -6,7 +6,7 @@
 #include "formats/mesh/mesh_formats.h"
 #include "formats/mesh/point_table.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -62,15 +62,14 @@ Mesh parse_binary(std::string_view bytes, const std::string& file) {
 void expect(ByteCursor& in, std::string_view keyword) {
     const std::string_view word = in.word();
     if (word != keyword) {
-        in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + io::quoted(word),
-                        "\"" + std::string(keyword) + "\"");
+        in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + quoted(word), "\"" + std::string(keyword) + "\"");
     }
 }
 
 double coordinate(ByteCursor& in) {
     double value;
     const std::string_view word = in.word();
-    if (!parse_number(word, value)) in.fail_at_line(io::quoted(word) + " is not a number");
+    if (!parse_number(word, value)) in.fail_at_line(quoted(word) + " is not a number");
     return value;
 }
 
@@ -95,11 +94,11 @@ Mesh parse_text(std::string_view bytes, const std::string& file) {
     Mesh mesh;
     PointTable table;
     for (std::string_view word = in.word(); !word.empty(); word = in.word()) {  // a file may hold several solids
-        if (word != "solid") in.fail_at_line("unexpected " + io::quoted(word), "\"solid\"");
+        if (word != "solid") in.fail_at_line("unexpected " + quoted(word), "\"solid\"");
         (void)in.line();  // its name
         for (word = in.word(); word == "facet"; word = in.word()) parse_facet(in, mesh, table);
         if (word != "endsolid") {
-            in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + io::quoted(word), "\"facet\" or \"endsolid\"");
+            in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + quoted(word), "\"facet\" or \"endsolid\"");
         }
         (void)in.line();
     }
@@ -115,4 +114,4 @@ Mesh parse_stl(std::string_view bytes, const std::string& file) {
     return mesh;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include "formats/common/vtk_arrays.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -35,7 +35,7 @@ void read_encoding(const pugi::xml_node& root, VtkEncoding& encoding) {
     encoding.zlib = compressor == "vtkZLibDataCompressor";
     if (!compressor.empty() && !encoding.zlib) {
         throw Error(ErrorKind::unsupported, {.file = encoding.file,
-                                             .what = "compressed with " + io::quoted(compressor),
+                                             .what = "compressed with " + quoted(compressor),
                                              .expected = "vtkZLibDataCompressor or none",
                                              .next = "write the file again with zlib or without compression"});
     }
@@ -63,7 +63,7 @@ std::size_t read_points(const pugi::xml_node& piece, VtkEncoding& encoding, Mesh
     std::uint64_t promised = 0;
     if (!parse_number(std::string_view(piece.attribute("NumberOfPoints").as_string()), promised) || promised != count ||
         values.size() % 3 != 0) {
-        fail(encoding.file, "a piece promises " + io::quoted(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
+        fail(encoding.file, "a piece promises " + quoted(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
                                 std::to_string(values.size()) + " coordinates");
     }
     const auto coordinate = [&](std::size_t i) { return values.is_real ? values.reals[i] : static_cast<double>(values.integers[i]); };
@@ -138,4 +138,4 @@ Mesh parse_vtp(std::string_view bytes, const std::string& file) {
     return mesh;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "formats/common/connectivity.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -123,4 +123,4 @@ bool has_inner_contours(const Surface& surface) {
     return false;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

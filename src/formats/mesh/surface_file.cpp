@@ -9,7 +9,7 @@ namespace isoatlas {
 
 namespace {
 
-using output::Warnings;
+using Warnings;
 
 struct MeshFormat {
     const char* extension;
@@ -18,18 +18,18 @@ struct MeshFormat {
     bool curves;  ///< holds segments too
 };
 
-constexpr MeshFormat kFormats[] = {{".ply", output::write_ply, output::parse_ply, true},
-                                   {".stl", output::write_stl, output::parse_stl, false},
-                                   {".obj", output::write_obj, output::parse_obj, true},
-                                   {".vtp", output::write_vtp, output::parse_vtp, true},
-                                   {".glb", output::write_glb, output::parse_glb, false}};
+constexpr MeshFormat kFormats[] = {{".ply", write_ply, parse_ply, true},
+                                   {".stl", write_stl, parse_stl, false},
+                                   {".obj", write_obj, parse_obj, true},
+                                   {".vtp", write_vtp, parse_vtp, true},
+                                   {".glb", write_glb, parse_glb, false}};
 
 const MeshFormat& format_of(const std::string& path) {
-    const std::string extension = output::lower_extension(path);
+    const std::string extension = lower_extension(path);
     for (const MeshFormat& format : kFormats) {
         if (extension == format.extension) return format;
     }
-    output::refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
+    refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
                      .what = std::string(format.extension) + " holds triangles only, and the contours of a 2D image are curves",
                      .next = "write .ply, .obj or .vtp"});
     }
-    output::check_surface(surface, path);
+    check_surface(surface, path);
     Warnings warnings;
     AtomicFile file(path);
     format.write(file, surface, warnings);
@@ -53,9 +53,9 @@ Mesh read_mesh(const std::string& path) {
     const MeshFormat& format = format_of(path);
     std::string bytes;
     {
-        const std::unique_ptr<File> file = io::open_file(path);
+        const std::unique_ptr<File> file = open_file(path);
         bytes.resize(static_cast<std::size_t>(file->size()));
-        io::read_fully(*file, path, 0, std::as_writable_bytes(std::span(bytes.data(), bytes.size())));
+        read_fully(*file, path, 0, std::as_writable_bytes(std::span(bytes.data(), bytes.size())));
     }
     return format.parse(bytes, path);
 }

@@ -11,7 +11,7 @@
 #include "formats/common/precision.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -248,4 +248,4 @@ void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings) {
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

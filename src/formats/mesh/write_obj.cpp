@@ -3,7 +3,7 @@
 #include "formats/common/precision.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -64,4 +64,4 @@ void write_obj(AtomicFile& file, const Surface& surface, Warnings& warnings) {
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

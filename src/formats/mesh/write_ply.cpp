@@ -6,7 +6,7 @@
 #include "formats/common/precision.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -86,4 +86,4 @@ void write_ply(AtomicFile& file, const Surface& surface, Warnings&) {
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

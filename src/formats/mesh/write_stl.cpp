@@ -8,7 +8,7 @@
 #include "formats/common/precision.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -65,4 +65,4 @@ void write_stl(AtomicFile& file, const Surface& surface, Warnings& warnings) {
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

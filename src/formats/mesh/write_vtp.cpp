@@ -4,7 +4,7 @@
 #include "formats/common/vtk_writer.h"
 #include "formats/mesh/mesh_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -83,4 +83,4 @@ void write_vtp(AtomicFile& file, const Surface& surface, Warnings&) {
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

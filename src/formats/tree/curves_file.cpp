@@ -12,7 +12,7 @@
 #include "formats/volume/volume_json.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 /// Decades from the smallest positive threshold; what is 0 is drawn at the left end.
@@ -91,17 +91,17 @@ void write_curves_svg(AtomicFile& file, const VolumeInfo& info, const std::vecto
     file.commit();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas
 
 namespace isoatlas {
 
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
     const std::string extension =
-        output::known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
+        known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
     AtomicFile file(path);
-    if (extension == ".json") return output::write_curves_json(file, info, curves);
-    if (extension == ".csv") return output::write_curves_csv(file, info, curves);
-    output::write_curves_svg(file, info, curves);
+    if (extension == ".json") return write_curves_json(file, info, curves);
+    if (extension == ".csv") return write_curves_csv(file, info, curves);
+    write_curves_svg(file, info, curves);
 }
 
 }  // namespace isoatlas

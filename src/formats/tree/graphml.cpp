@@ -2,7 +2,7 @@
 
 #include "formats/common/generator.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 constexpr std::array kGraphKeys{GraphmlKey{"schema", "string", "graph"}, GraphmlKey{"generator", "string", "graph"},
@@ -75,4 +75,4 @@ void begin_edge(ByteWriter& out, std::int64_t from, std::int64_t to) {
     out.text("\">");
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "formats/common/byte_writer.h"
 #include "formats/common/connectivity.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 struct GraphmlKey {
     const char* name;
@@ -36,4 +36,4 @@ void begin_node(ByteWriter& out, std::int64_t id);
 /// Opens the edge between two nodes; the caller closes it.
 void begin_edge(ByteWriter& out, std::int64_t from, std::int64_t to);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include "isoatlas/simplify.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 // Each writes the whole file and commits.
 void write_curves_json(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves);
@@ -15,4 +15,4 @@ void write_curves_svg(AtomicFile& file, const VolumeInfo& info, const std::vecto
 /// Thresholds of hypervolume and persistence in reported values.
 [[nodiscard]] double reported_threshold(const VolumeInfo& info, const SelectionCurve& curve, double threshold);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -11,8 +11,6 @@
 
 namespace isoatlas {
 
-namespace output {
-
 namespace {
 
 constexpr std::array kNodeKeys{GraphmlKey{"event", "long", "node"},     GraphmlKey{"object", "long", "node"},
@@ -126,24 +124,22 @@ void write_vtu(AtomicFile& file, const SimplifiedTree& tree) {
 
 }  // namespace
 
-}  // namespace output
-
 void write_simplified_tree(const std::string& path, const SimplifiedTree& tree) {
-    const std::string extension = output::known_extension(path, {".json", ".graphml", ".csv", ".vtu"},
-                                                          {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
+    const std::string extension = known_extension(path, {".json", ".graphml", ".csv", ".vtu"},
+                                                  {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
     AtomicFile file(path);
-    if (extension == ".vtu") return output::write_vtu(file, tree);
+    if (extension == ".vtu") return write_vtu(file, tree);
     if (extension == ".json") {
-        output::write_json(tree, [&](std::string_view text) { file.write(text); });
+        write_json(tree, [&](std::string_view text) { file.write(text); });
         file.commit();
         return;
     }
-    output::ByteWriter out(file);
-    extension == ".csv" ? output::write_csv(out, tree) : output::write_graphml(out, tree);
+    ByteWriter out(file);
+    extension == ".csv" ? write_csv(out, tree) : write_graphml(out, tree);
 }
 
 void write_simplified_tree_json(std::ostream& out, const SimplifiedTree& tree) {
-    output::write_json(tree, output::stream_sink(out, "the simplified tree"));
+    write_json(tree, stream_sink(out, "the simplified tree"));
 }
 
 }  // namespace isoatlas

@@ -4,7 +4,7 @@
 #include "formats/common/byte_writer.h"
 #include "formats/tree/spectrum_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 void put_real(ByteWriter& out, double value) {
@@ -60,4 +60,4 @@ void write_spectrum_csv(AtomicFile& file, const VolumeInfo& info, const Spectrum
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include "formats/volume/volume_json.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 void put_counts(JsonStream& json, const char* key, const LevelCounts& counts) {
@@ -64,26 +64,26 @@ void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const 
     json.line().end_object().finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas
 
 namespace isoatlas {
 
 void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum) {
-    const std::string extension = output::known_extension(path, {".json", ".csv", ".svg"},
-                                                          {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
+    const std::string extension =
+        known_extension(path, {".json", ".csv", ".svg"}, {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
     AtomicFile file(path);
     if (extension == ".csv") {
-        output::write_spectrum_csv(file, info, spectrum);
+        write_spectrum_csv(file, info, spectrum);
     } else if (extension == ".svg") {
-        output::write_spectrum_svg(file, info, spectrum);
+        write_spectrum_svg(file, info, spectrum);
     } else {
-        output::write_spectrum([&](std::string_view text) { file.write(text); }, info, spectrum);
+        write_spectrum([&](std::string_view text) { file.write(text); }, info, spectrum);
         file.commit();
     }
 }
 
 void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum) {
-    output::write_spectrum(output::stream_sink(out, "the spectrum"), info, spectrum);
+    write_spectrum(stream_sink(out, "the spectrum"), info, spectrum);
 }
 
 }  // namespace isoatlas

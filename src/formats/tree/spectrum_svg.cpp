@@ -7,7 +7,7 @@
 #include "formats/common/plot.h"
 #include "formats/tree/spectrum_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kMarks = 12;
@@ -121,4 +121,4 @@ void write_spectrum_svg(AtomicFile& file, const VolumeInfo& info, const Spectrum
     file.commit();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

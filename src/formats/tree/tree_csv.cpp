@@ -2,7 +2,7 @@
 #include "formats/common/csv_table.h"
 #include "formats/tree/tree_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -59,4 +59,4 @@ void write_tree_csv(AtomicFile& file, const TreeView& tree) {
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

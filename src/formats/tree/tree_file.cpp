@@ -5,8 +5,6 @@
 
 namespace isoatlas {
 
-namespace output {
-
 namespace {
 
 /// Graphs need ends, and points need places.
@@ -63,32 +61,30 @@ std::string list_text(std::span<const std::int64_t> numbers) {
     return text;
 }
 
-}  // namespace output
-
 void write_tree(const std::string& path, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
-    const std::string extension = output::lower_extension(path);
-    const output::TreeView tree(volume, analysis, options);
-    output::check_detail(path, extension, options.detail);
+    const std::string extension = lower_extension(path);
+    const TreeView tree(volume, analysis, options);
+    check_detail(path, extension, options.detail);
     if (extension == ".json") {
         AtomicFile file(path);
-        output::write_json(tree, [&](std::string_view text) { file.write(text); });
+        write_json(tree, [&](std::string_view text) { file.write(text); });
         file.commit();
     } else if (extension == ".csv") {
         AtomicFile file(path);
-        output::write_tree_csv(file, tree);
+        write_tree_csv(file, tree);
     } else if (extension == ".graphml") {
         AtomicFile file(path);
-        output::write_tree_graphml(file, tree);
+        write_tree_graphml(file, tree);
     } else if (extension == ".vtu") {
         AtomicFile file(path);
-        output::write_tree_vtu(file, tree);
+        write_tree_vtu(file, tree);
     } else {
-        output::refuse_extension(path, {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
+        refuse_extension(path, {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
     }
 }
 
 void write_tree_json(std::ostream& out, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
-    output::write_json({volume, analysis, options}, output::stream_sink(out, "the tree"));
+    write_json({volume, analysis, options}, stream_sink(out, "the tree"));
 }
 
 }  // namespace isoatlas

@@ -13,7 +13,7 @@
 #include "formats/common/json_stream.h"
 #include "isoatlas/output.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// The tree as the user sees it: values are reported (calibrated) values.
 struct TreeView {
@@ -48,4 +48,4 @@ void write_tree_vtu(AtomicFile& file, const TreeView& tree);
 /// Numbers between spaces.
 [[nodiscard]] std::string list_text(std::span<const std::int64_t> numbers);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

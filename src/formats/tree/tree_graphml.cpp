@@ -4,7 +4,7 @@
 #include "formats/tree/graphml.h"
 #include "formats/tree/tree_formats.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -86,4 +86,4 @@ void write_tree_graphml(AtomicFile& file, const TreeView& tree) {
     end_graphml(out);
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

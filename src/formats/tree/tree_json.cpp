@@ -5,7 +5,7 @@
 #include "formats/tree/tree_formats.h"
 #include "formats/volume/volume_json.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -117,4 +117,4 @@ void write_json(const TreeView& tree, const JsonStream::Sink& sink) {
     json.line().end_array().line().end_object().finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

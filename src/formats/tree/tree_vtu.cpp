@@ -2,7 +2,7 @@
 #include "formats/tree/tree_formats.h"
 #include "formats/tree/vtu_graph.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -85,4 +85,4 @@ void write_tree_vtu(AtomicFile& file, const TreeView& tree) {
     graph.write(file, tree.volume.info, tree.connectivity());
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -90,4 +90,4 @@ void VtuGraph::write(AtomicFile& file, const VolumeInfo& info, const Connectivit
     out.finish();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

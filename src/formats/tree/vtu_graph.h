@@ -12,7 +12,7 @@
 #include "formats/common/vtk_writer.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// TTK's CriticalType: the numbers are its codes.
 enum class TtkType : std::int32_t { minimum = 0, saddle1 = 1, saddle2 = 2, maximum = 3, degenerate = 4, regular = 5 };
@@ -80,4 +80,4 @@ private:
     std::vector<LineArray> line_arrays_;
 };
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 bool usable(double length) { return std::isfinite(length) && length > 0; }
@@ -65,4 +65,4 @@ void set_calibration(VolumeInfo& info, double slope, double intercept) {
     info.notes.push_back("the calibration of the file (slope or intercept) is unusable and was ignored");
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

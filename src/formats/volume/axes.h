@@ -6,7 +6,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Gives an axis a step vector: spacing = its length, direction column = its unit vector (also for negative lengths: the column flips).
 /// A vector that is zero or not finite keeps spacing 1 and the unit vector, and adds a note.
@@ -20,4 +20,4 @@ void complete_normal(Geometry& geometry);
 /// Uses a calibration read from a file; a slope of 0 or a non-finite number means none (with a note).
 void set_calibration(VolumeInfo& info, double slope, double intercept);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

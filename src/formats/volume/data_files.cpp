@@ -9,7 +9,7 @@
 #include "formats/common/text_source.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
@@ -173,4 +173,4 @@ std::int64_t bytes_on_disk(const PayloadPlan& plan) {
     return bytes;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

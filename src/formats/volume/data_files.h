@@ -10,7 +10,7 @@
 #include "formats/common/byte_source.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Names of data files, as the header has them. A numbered series is kept as its rule, so a hostile count costs nothing.
 struct DataFiles {
@@ -52,4 +52,4 @@ struct PayloadPlan {
 /// Sum of the sizes of the header and its data files (overflow is impossible: they exist).
 [[nodiscard]] std::int64_t bytes_on_disk(const PayloadPlan& plan);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

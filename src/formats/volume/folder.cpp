@@ -12,7 +12,7 @@
 #include "formats/volume/sample_reader.h"
 #include "formats/volume/tiff_stack.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -187,4 +187,4 @@ std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOpt
     return std::make_unique<FolderReader>(std::move(info), listing.slices, std::move(first_page), options.skip_rest);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

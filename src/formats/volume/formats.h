@@ -12,7 +12,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 using FirstBytes = std::span<const std::byte>;
 
@@ -40,4 +40,4 @@ using FirstBytes = std::span<const std::byte>;
 /// Any file: nothing in it says what it is, so options, a sidecar or its name must.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOptions& options);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Gives room for so many bytes; may throw std::bad_alloc.
 using Allocate = std::function<std::span<std::byte>(std::size_t bytes)>;
@@ -16,4 +16,4 @@ using Allocate = std::function<std::span<std::byte>(std::size_t bytes)>;
 /// Throws as load_volume(). Cost: reads the file once; one slab of memory beside the samples at most.
 [[nodiscard]] VolumeInfo load_samples(VolumeReader& reader, const MissingPolicy& missing, const Allocate& allocate, const Context& context);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

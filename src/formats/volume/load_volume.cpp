@@ -9,7 +9,6 @@
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
-namespace io {
 namespace {
 
 [[noreturn]] void not_enough_memory(const VolumeInfo& info, std::size_t bytes) {
@@ -67,15 +66,13 @@ VolumeInfo load_samples(VolumeReader& reader, const MissingPolicy& missing, cons
     return calibrate ? load_calibrated(reader, scan, allocate, context) : load_stored(reader, scan, allocate, context);
 }
 
-}  // namespace io
-
 Volume load_volume(VolumeReader& reader, const MissingPolicy& missing, const Context& context) {
     Volume volume;
-    const io::Allocate allocate = [&volume](std::size_t bytes) {
+    const Allocate allocate = [&volume](std::size_t bytes) {
         volume.bytes.resize(bytes);
         return std::span<std::byte>(volume.bytes);
     };
-    volume.info = io::load_samples(reader, missing, allocate, context);
+    volume.info = load_samples(reader, missing, allocate, context);
     return volume;
 }
 

@@ -17,7 +17,7 @@
 #include "formats/volume/metaimage_header.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 ValueType sample_type(const MetaHeader& header) {
@@ -221,4 +221,4 @@ std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const Open
     return make_sample_reader(std::move(info), std::move(source), options, step);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

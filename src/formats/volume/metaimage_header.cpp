@@ -5,7 +5,7 @@
 #include "formats/common/header_text.h"
 #include "formats/common/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::string_view kLastField = "elementdatafile";
@@ -166,4 +166,4 @@ MetaHeader read_metaimage_header(const std::string& path) {
     return header;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

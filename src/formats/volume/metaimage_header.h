@@ -9,7 +9,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct MetaHeader {
     std::string path;
@@ -35,4 +35,4 @@ struct MetaHeader {
 /// Throws Error{input} for lines that are no "Name = value", fields given twice, a missing ElementDataFile.
 [[nodiscard]] MetaHeader read_metaimage_header(const std::string& path);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

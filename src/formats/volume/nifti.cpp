@@ -13,7 +13,7 @@
 #include "formats/volume/nifti_geometry.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     return make_sample_reader(std::move(info), open_samples(data_path, offset), options, step);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -119,4 +119,4 @@ Geometry nifti_geometry(const NiftiHeader& header, int rank, std::vector<std::st
     return geometry;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "formats/common/text.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -114,4 +114,4 @@ NiftiHeader decode_nifti(std::span<const std::byte> bytes, NiftiKind kind) {
     return header;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 inline constexpr std::int64_t kNifti1HeaderBytes = 348, kNifti2HeaderBytes = 540;
 
@@ -35,4 +35,4 @@ enum class NiftiKind : std::uint8_t { no, nifti1, nifti2, analyze };
 /// Decodes a header of kind nifti1 (348 bytes) or nifti2 (540 bytes). No field is checked.
 [[nodiscard]] NiftiHeader decode_nifti(std::span<const std::byte> bytes, NiftiKind kind);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

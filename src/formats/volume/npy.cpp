@@ -12,7 +12,7 @@
 #include "formats/volume/formats.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
@@ -172,4 +172,4 @@ std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOption
     return make_sample_reader(std::move(info), std::move(source), options, step);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

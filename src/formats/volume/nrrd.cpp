@@ -14,7 +14,7 @@
 #include "formats/volume/nrrd_header.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 ValueType sample_type(const NrrdHeader& header) {
@@ -179,4 +179,4 @@ std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptio
     return make_sample_reader(std::move(info), std::move(source), options, step);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "formats/common/text.h"
 #include "formats/volume/axes.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kMostAxes = 16;  // NRRD_DIM_MAX of the format
@@ -189,4 +189,4 @@ void read_nrrd_geometry(const NrrdHeader& header, const NrrdAxes& axes, VolumeIn
     }
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "formats/volume/nrrd_header.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// The axes of the file that become x, y (and z), and the number of volumes along the time axis.
 struct NrrdAxes {
@@ -23,4 +23,4 @@ struct NrrdAxes {
 /// Fills in info.geometry from spacings / axis mins / space directions / space origin / units. Throws Error{input} on contradictions.
 void read_nrrd_geometry(const NrrdHeader& header, const NrrdAxes& axes, VolumeInfo& info);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include "formats/common/header_text.h"
 #include "formats/common/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::array<std::string_view, 30> kFields = {"content",
@@ -221,4 +221,4 @@ NrrdHeader read_nrrd_header(const std::string& path) {
     return header;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct NrrdHeader {
     std::string path;
@@ -38,4 +38,4 @@ struct NrrdHeader {
 /// versions.
 [[nodiscard]] NrrdHeader read_nrrd_header(const std::string& path);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

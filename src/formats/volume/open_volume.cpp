@@ -14,7 +14,6 @@
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
-namespace io {
 namespace {
 
 constexpr std::int64_t kFirstBytes = 4096;
@@ -204,13 +203,12 @@ void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
 }
 
 }  // namespace
-}  // namespace io
 
 std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options) {
-    const bool folder = io::is_directory(path);
-    if (!folder && !io::anything_at(path)) io::missing_file(path);
-    std::unique_ptr<VolumeReader> reader = folder ? io::open_folder(path, options) : io::open_file_volume(path, options);
-    io::check_agreement(reader->info(), options);
+    const bool folder = is_directory(path);
+    if (!folder && !anything_at(path)) missing_file(path);
+    std::unique_ptr<VolumeReader> reader = folder ? open_folder(path, options) : open_file_volume(path, options);
+    check_agreement(reader->info(), options);
     return reader;
 }
 

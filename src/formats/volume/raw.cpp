@@ -13,7 +13,7 @@
 #include "formats/volume/raw_description.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 template <class T>
@@ -166,4 +166,4 @@ std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOption
     return make_sample_reader(std::move(info), open_file_source(path, skip), options, step);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

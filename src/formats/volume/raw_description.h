@@ -19,7 +19,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct RawDescription {
     std::optional<std::vector<std::int64_t>> dims;
@@ -43,4 +43,4 @@ struct RawDescription {
 /// Reads a sidecar. Throws Error{input} when it is no JSON object or a key has the wrong kind of value; unknown keys become notes.
 [[nodiscard]] RawDescription read_sidecar(const std::string& sidecar_path);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 #include "formats/common/text.h"
 #include "formats/volume/raw_description.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 /// The sizes of a word like 512x512x128; nothing when it is none.
@@ -56,4 +56,4 @@ RawDescription description_from_name(const std::string& path) {
     return description;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "formats/volume/raw_description.h"
 #include "isoatlas/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 using Json = nlohmann::json;
@@ -96,7 +96,7 @@ void read_key(const std::string& path, const std::string& key, const Json& value
     } else if (key == "space") {
         description.space = read_text(path, key, value);
     } else {
-        description.notes.push_back("unknown key " + io::quoted(key) + " of the sidecar ignored");
+        description.notes.push_back("unknown key " + quoted(key) + " of the sidecar ignored");
     }
 }
 
@@ -123,4 +123,4 @@ RawDescription read_sidecar(const std::string& sidecar_path) {
     return description;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -10,7 +10,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 inline constexpr std::int64_t kSlabBytes = 16 * 1024 * 1024;  // enough for full disk speed, little enough to cancel at once
 
@@ -40,4 +40,4 @@ void for_each_slab(VolumeReader& reader, const Context& context, std::span<std::
     context.report("read", 0, 1, 1);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -7,7 +7,7 @@
 #include "base/check.h"
 #include "isoatlas/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 std::string shape_text(const Extent& extent) {
@@ -136,4 +136,4 @@ void swap_bytes(std::span<std::byte> samples, std::size_t bytes_per_sample) {
 
 bool needs_swap(bool big_endian) { return big_endian != (std::endian::native == std::endian::big); }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "formats/common/byte_source.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Bytes of a volume of this shape and type, or of `volumes` of them in a row.
 /// Throws Error{input} naming `path` for sizes below 1 and for products beyond 63 bits.
@@ -38,4 +38,4 @@ void swap_bytes(std::span<std::byte> samples, std::size_t bytes_per_sample);
 /// Whether samples of this byte order must be swapped on this machine.
 [[nodiscard]] bool needs_swap(bool big_endian);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

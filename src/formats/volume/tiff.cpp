@@ -6,7 +6,7 @@
 #include "formats/volume/sample_reader.h"
 #include "formats/volume/tiff_stack.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -156,4 +156,4 @@ void add_tiff_notes(const TiffFile& file, std::vector<std::string>& notes) {
     if (file.previews() > 0) notes.push_back(std::to_string(file.previews()) + " reduced pages (previews, masks) were left out");
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

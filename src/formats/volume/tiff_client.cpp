@@ -8,7 +8,7 @@
 #include "formats/common/file_access.h"
 #include "isoatlas/error.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::size_t kLongestMessage = 400;
@@ -71,4 +71,4 @@ TIFF* open_tiff_client(TiffClient& client) {
     return tiff;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 
 #include "base/file_system.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// What libtiff reads from and talks to. No exception may pass through its frames.
 struct TiffClient {
@@ -25,4 +25,4 @@ struct TiffClient {
 /// Throws Error{resource} without memory.
 [[nodiscard]] TIFF* open_tiff_client(TiffClient& client);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

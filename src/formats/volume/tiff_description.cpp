@@ -5,7 +5,7 @@
 
 #include "formats/common/text.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -111,4 +111,4 @@ TiffDescription parse_tiff_description(std::string_view text) {
     return {};
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

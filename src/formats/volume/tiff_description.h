@@ -7,7 +7,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct TiffDescription {
     enum class Kind : std::uint8_t { none, imagej, ome } kind = Kind::none;
@@ -23,4 +23,4 @@ struct TiffDescription {
 /// Anything else than ImageJ or OME gives kind none. Never throws; nonsense values count as not said.
 [[nodiscard]] TiffDescription parse_tiff_description(std::string_view text);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 
 #include "formats/common/file_access.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 namespace {
 
 constexpr std::uint16_t kShort = 3, kStripOffsets = 273, kTileOffsets = 324;
@@ -77,4 +77,4 @@ std::uint64_t pieces_listed(const std::vector<TiffEntry>& entries) {
     return 0;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

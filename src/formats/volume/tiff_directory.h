@@ -9,7 +9,7 @@
 
 #include "base/file_system.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct TiffEntry {
     std::uint16_t tag = 0, type = 0;
@@ -28,4 +28,4 @@ struct TiffEntry {
 /// How many offsets of strips or tiles the directory lists; 0: none.
 [[nodiscard]] std::uint64_t pieces_listed(const std::vector<TiffEntry>& entries);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -15,7 +15,7 @@
 #include "formats/volume/tiff_directory.h"
 #include "formats/volume/tiff_lengths.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -354,4 +354,4 @@ void TiffFile::read(std::int64_t page, std::span<std::byte> out) {
 
 void TiffFile::read_raw(std::int64_t offset, std::span<std::byte> out) { read_fully(*handle_->client.file, path(), offset, out); }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

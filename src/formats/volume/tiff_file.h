@@ -10,7 +10,7 @@
 
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 struct TiffPage {
     std::int64_t width = 0, height = 0;
@@ -68,4 +68,4 @@ private:
     std::unique_ptr<Handle> handle_;
 };
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

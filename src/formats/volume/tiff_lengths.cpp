@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 std::int64_t packbits_bytes(std::span<const std::byte> strip) {
     std::int64_t bytes = 0;
@@ -54,4 +54,4 @@ std::optional<std::int64_t> lzw_bytes(std::span<const std::byte> strip) {
     return bytes;
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// PackBits: the bytes that all runs stand for; a last run that is cut counts with what is there.
 [[nodiscard]] std::int64_t packbits_bytes(std::span<const std::byte> strip);
@@ -15,4 +15,4 @@ namespace isoatlas::io {
 /// for the older form (low bits first).
 [[nodiscard]] std::optional<std::int64_t> lzw_bytes(std::span<const std::byte> strip);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

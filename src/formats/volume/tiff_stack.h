@@ -7,7 +7,7 @@
 #include "formats/volume/tiff_description.h"
 #include "formats/volume/tiff_file.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Voxel size from the description, else from the resolution tags, else 1. What had to be guessed becomes a note.
 [[nodiscard]] Geometry tiff_geometry(const TiffTags& tags, const TiffDescription& description, std::int64_t slices,
@@ -15,4 +15,4 @@ namespace isoatlas::io {
 /// Says what the reader ignored: colour tables, previews.
 void add_tiff_notes(const TiffFile& file, std::vector<std::string>& notes);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -3,7 +3,7 @@
 
 #include "formats/common/volume_file.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 bool is_rectilinear(const Geometry& geometry) {
     return std::any_of(geometry.coordinates.begin(), geometry.coordinates.end(), [](const auto& axis) { return !axis.empty(); });
@@ -34,4 +34,4 @@ Geometry turned_to(Geometry geometry, const std::string& space) {
     return geometry;
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

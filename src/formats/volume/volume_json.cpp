@@ -1,6 +1,6 @@
 #include "formats/volume/volume_json.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 namespace {
 
 void put_text_or_null(JsonStream& json, const char* key, const std::string& text) {
@@ -37,4 +37,4 @@ void put_volume(JsonStream& json, const VolumeInfo& info) {
     json.key("intercept").value(info.calibration.intercept).end_object().end_object();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

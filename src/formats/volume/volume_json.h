@@ -4,9 +4,9 @@
 #include "formats/common/json_stream.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 /// Member "volume" of the object that is open: path, extent, type, geometry, units, calibration.
 void put_volume(JsonStream& json, const VolumeInfo& info);
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

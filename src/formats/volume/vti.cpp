@@ -11,7 +11,7 @@
 #include "formats/volume/vtk_array.h"
 #include "formats/volume/vtk_geometry.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -224,4 +224,4 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     return make_sample_reader(std::move(info), std::move(source), options);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -14,7 +14,7 @@
 #include "formats/common/text_source.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -244,4 +244,4 @@ std::string vtk_encoding(const VtkFile& file, const VtkArray& array) {
     return std::string(raw ? "raw" : "base64") + (file.compressed ? " zlib" : "");
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -9,7 +9,7 @@
 #include "formats/common/byte_source.h"
 #include "isoatlas/volume.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 enum class VtkFormat : std::uint8_t { ascii, binary, appended };
 
@@ -40,4 +40,4 @@ struct VtkArray {
 /// "ascii", "base64", "raw", "raw zlib", ...: for the user.
 [[nodiscard]] std::string vtk_encoding(const VtkFile& file, const VtkArray& array);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "formats/volume/axes.h"
 #include "formats/volume/sample_reader.h"
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, std
     return convert<double>(bytes);
 }
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -14,7 +14,7 @@ namespace pugi {
 class xml_node;
 }
 
-namespace isoatlas::io {
+namespace isoatlas {
 
 /// Points of a grid: low[a] to low[a] + size[a] - 1 along axis a.
 struct VtkExtent {
@@ -38,4 +38,4 @@ using CoordinateReader = std::function<std::vector<double>(const pugi::xml_node&
 /// All numbers of a data array.
 [[nodiscard]] std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, std::int64_t count);
 
-}  // namespace isoatlas::io
+}  // namespace isoatlas

@@ -12,11 +12,11 @@ namespace isoatlas {
 
 namespace {
 
-using output::Connectivity;
-using output::KeyValues;
-using output::Packing;
-using output::Put;
-using output::SampleFeed;
+using Connectivity;
+using KeyValues;
+using Packing;
+using Put;
+using SampleFeed;
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
@@ -57,10 +57,9 @@ Meaning meaning_of(const VolumeInfo& info, const LabelOrigin& origin) {
     if (origin.tau) {
         const double tau = info.calibration.reported(*origin.tau);
         const std::string what = origin.cavities ? "cavities" : "objects";
-        meaning = {"isoatlas " + what + " at tau " + output::short_text(tau) + end,
-                   {{"labels_are", what}, {"tau", output::number_text(tau)}}};
+        meaning = {"isoatlas " + what + " at tau " + short_text(tau) + end, {{"labels_are", what}, {"tau", number_text(tau)}}};
     }
-    for (const auto& pair : output::key_values(connectivity)) meaning.pairs.push_back(pair);
+    for (const auto& pair : key_values(connectivity)) meaning.pairs.push_back(pair);
     return meaning;
 }
 
@@ -76,11 +75,11 @@ void write(const std::string& path, const VolumeInfo& info, std::span<const std:
     header.description = meaning.sentence;
     header.type = label_type(labels);
     const SampleFeed feed = feed_of(labels, header.type);
-    const auto ends = [&](const char* end) { return io::ends_with_ignoring_case(path, end); };
-    if (ends(".nrrd")) return output::write_nrrd(path, header, feed, Packing::gzip, meaning.pairs);
-    if (ends(".nii")) return output::write_nifti(path, header, feed, Packing::raw);
-    if (ends(".nii.gz")) return output::write_nifti(path, header, feed, Packing::gzip);
-    if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, header, feed, meaning.pairs);
+    const auto ends = [&](const char* end) { return ends_with_ignoring_case(path, end); };
+    if (ends(".nrrd")) return write_nrrd(path, header, feed, Packing::gzip, meaning.pairs);
+    if (ends(".nii")) return write_nifti(path, header, feed, Packing::raw);
+    if (ends(".nii.gz")) return write_nifti(path, header, feed, Packing::gzip);
+    if (ends(".tif") || ends(".tiff")) return write_tiff(path, header, feed, meaning.pairs);
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write labels",
                                    .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",

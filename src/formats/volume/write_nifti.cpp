@@ -11,7 +11,7 @@
 #include "formats/common/gzip_stream.h"
 #include "formats/common/volume_file.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -177,4 +177,4 @@ void write_nifti(const std::string& path, const VolumeInfo& info, const SampleFe
     file.commit();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

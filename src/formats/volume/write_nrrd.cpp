@@ -7,7 +7,7 @@
 #include "formats/common/gzip_stream.h"
 #include "formats/common/volume_file.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -86,4 +86,4 @@ void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFee
     file.commit();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

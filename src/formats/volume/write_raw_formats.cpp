@@ -8,7 +8,7 @@
 #include "formats/common/volume_file.h"
 #include "formats/volume/raw_description.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -81,7 +81,7 @@ std::string npy_header(const VolumeInfo& info) {
 
 /// Whether the name says what the file is. Throws Error{usage} when it says something else.
 bool name_is_enough(const std::string& path, const VolumeInfo& info) {
-    const io::RawDescription name = io::description_from_name(path);
+    const RawDescription name = description_from_name(path);
     const std::vector<std::int64_t> dims(info.extent.size.begin(), info.extent.size.begin() + info.extent.rank);
     if ((name.dims && *name.dims != dims) || (name.type && *name.type != info.type) ||
         (name.big_endian && *name.big_endian != kBigEndian)) {
@@ -129,4 +129,4 @@ void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed
     if (is_needed || is_replaced) write_sidecar(sidecar, info);
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

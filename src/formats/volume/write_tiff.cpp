@@ -13,7 +13,7 @@
 #include "formats/common/byte_writer.h"
 #include "formats/common/volume_file.h"
 
-namespace isoatlas::output {
+namespace isoatlas {
 
 namespace {
 
@@ -254,4 +254,4 @@ void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFee
     writer.commit();
 }
 
-}  // namespace isoatlas::output
+}  // namespace isoatlas

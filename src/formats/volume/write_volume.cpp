@@ -12,15 +12,15 @@ void write_volume(const std::string& path, const Volume& volume) {
                                        .what = "the number of samples does not match the extent",
                                        .expected = std::to_string(info.extent.voxels()) + " samples"});
     }
-    const output::SampleFeed feed = [&](const output::Put& put) { put(volume.bytes); };
-    const auto ends = [&](const char* end) { return io::ends_with_ignoring_case(path, end); };
-    if (ends(".nrrd")) return output::write_nrrd(path, info, feed, output::Packing::raw);
-    if (ends(".npy")) return output::write_npy(path, info, feed);
-    if (ends(".raw")) return output::write_raw(path, info, feed);
-    if (ends(".mha")) return output::write_metaimage(path, info, feed);
-    if (ends(".nii")) return output::write_nifti(path, info, feed, output::Packing::raw);
-    if (ends(".nii.gz")) return output::write_nifti(path, info, feed, output::Packing::gzip);
-    if (ends(".tif") || ends(".tiff")) return output::write_tiff(path, info, feed);
+    const SampleFeed feed = [&](const Put& put) { put(volume.bytes); };
+    const auto ends = [&](const char* end) { return ends_with_ignoring_case(path, end); };
+    if (ends(".nrrd")) return write_nrrd(path, info, feed, Packing::raw);
+    if (ends(".npy")) return write_npy(path, info, feed);
+    if (ends(".raw")) return write_raw(path, info, feed);
+    if (ends(".mha")) return write_metaimage(path, info, feed);
+    if (ends(".nii")) return write_nifti(path, info, feed, Packing::raw);
+    if (ends(".nii.gz")) return write_nifti(path, info, feed, Packing::gzip);
+    if (ends(".tif") || ends(".tiff")) return write_tiff(path, info, feed);
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write the volume",
                                    .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .npy, .tif or .raw",

@@ -117,7 +117,7 @@ public:
 private:
     std::string fault_in_files() {
         static const mesh_samples::Folder folder;
-        const bool keeps_double = isoatlas::output::position_precision(surface_) == isoatlas::output::Real::f64;
+        const bool keeps_double = isoatlas::position_precision(surface_) == isoatlas::Real::f64;
         tally_.kept_double += keeps_double;
         const bool is_written =
             surface_.triangles.size() > 2000 || tally_.rounded_meshes % 7 == 0;  // the disk is slower than all else here

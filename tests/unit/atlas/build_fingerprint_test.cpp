@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-using store::Fingerprint;
+using Fingerprint;
 
 struct Asked {
     VolumeInfo file;
@@ -95,7 +95,7 @@ TEST(StoreDifferences, AStoreKnowsItsVolumeAndItsOptions) {
         MemoryReader reader(volume);
         build_atlas("a.atlas", reader, options);
         const Atlas atlas("a.atlas");
-        EXPECT_EQ(atlas.version(), store::kStoreVersion);
+        EXPECT_EQ(atlas.version(), kStoreVersion);
         EXPECT_FALSE(atlas.is_replaceable());
         EXPECT_EQ(joined_differences(store_differences(atlas, reader, options)), "");
         BuildOptions other = options;

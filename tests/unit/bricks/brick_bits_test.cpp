@@ -9,14 +9,14 @@
 namespace isoatlas {
 namespace {
 
-using store::Box;
-using store::BrickGrid;
+using Box;
+using BrickGrid;
 
 template <class T>
 void bits_are_those_of_samples(T low, T high) {
     const std::array<std::int64_t, 3> size{*rc::gen::inRange<std::int64_t>(1, 17), *rc::gen::inRange<std::int64_t>(1, 9),
                                            *rc::gen::inRange<std::int64_t>(1, 9)};
-    std::vector<T> samples(static_cast<std::size_t>(store::kBrickSamples));
+    std::vector<T> samples(static_cast<std::size_t>(kBrickSamples));
     for (T& sample : samples) sample = *rc::gen::element(low, T{0}, T{1}, high);
     const T least = *rc::gen::element(low, T{0}, T{1}, high);
     const BrickBits bits = bits_of_brick(samples.data(), size, least);

@@ -10,7 +10,7 @@
 #include "catalogue/thin_curve.h"
 #include "oracle/stores.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 class PageAxis : public oracle::Stores {
@@ -65,4 +65,4 @@ TEST(ThinCurve, KeepsTheEndsAndFewPointsBetween) {
 }
 
 }  // namespace
-}  // namespace isoatlas::page
+}  // namespace isoatlas

@@ -8,7 +8,7 @@
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 /// Descending intervals between 0 and `edges` with random counts.
@@ -72,4 +72,4 @@ RC_GTEST_PROP(BranchIntervals, FollowTheEventsDown, ()) {
 }
 
 }  // namespace
-}  // namespace isoatlas::page
+}  // namespace isoatlas

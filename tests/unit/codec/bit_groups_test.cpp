@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 template <class N>
@@ -80,4 +80,4 @@ TEST(BitGroups, BytesAreThoseOfTheDocument) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

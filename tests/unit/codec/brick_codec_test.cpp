@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 template <class T>
@@ -135,4 +135,4 @@ TEST(BrickCodec, UnknownCodesAreRefused) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

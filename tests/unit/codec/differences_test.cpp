@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 struct Boxed {
@@ -70,4 +70,4 @@ TEST(Differences, HeadsOfRowsAndColumnsComeFirst) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

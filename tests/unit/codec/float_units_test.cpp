@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 template <class T>
@@ -77,4 +77,4 @@ TEST(FloatUnits, ExtremesAndZeros) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

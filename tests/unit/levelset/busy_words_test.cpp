@@ -12,7 +12,7 @@ namespace {
 LevelBricks arbitrary_bricks() {
     Extent extent;
     extent.size = {*rc::gen::inRange<std::int64_t>(1, 300), *rc::gen::inRange<std::int64_t>(1, 50), *rc::gen::inRange<std::int64_t>(1, 50)};
-    LevelBricks bricks{store::BrickGrid(extent), {}, {}, {}};
+    LevelBricks bricks{BrickGrid(extent), {}, {}, {}};
     bricks.classes.assign(static_cast<std::size_t>(bricks.grid.count()), *rc::gen::element(BrickClass::low, BrickClass::high));
     const auto others = *rc::gen::container<std::vector<int>>(rc::gen::inRange<int>(0, 3 * static_cast<int>(bricks.classes.size())));
     for (const int other : others) bricks.classes[static_cast<std::size_t>(other / 3)] = static_cast<BrickClass>(other % 3);
@@ -26,7 +26,7 @@ std::set<BrickClass> classes_around(const LevelBricks& bricks, std::int64_t p, s
         const std::array<std::int64_t, 3> voxel{p - 1 + (k & 1), y + (k >> 1 & 1), z + (k >> 2)};
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis) inside = inside && voxel[axis] >= 0 && voxel[axis] < bricks.grid.extent.size[axis];
-        classes.insert(inside ? bricks.classes[bricks.grid.brick(store::BrickGrid::place_of(voxel))] : BrickClass::low);
+        classes.insert(inside ? bricks.classes[bricks.grid.brick(BrickGrid::place_of(voxel))] : BrickClass::low);
     }
     return classes;
 }
@@ -59,7 +59,7 @@ RC_GTEST_PROP(BusyWords, HoldAllCellsThatMayBeActive, ()) {
 TEST(BusyWords, AreNoneWhereEverythingIsLow) {
     Extent extent;
     extent.size = {200, 40, 40};
-    LevelBricks bricks{store::BrickGrid(extent), {}, {}, {}};
+    LevelBricks bricks{BrickGrid(extent), {}, {}, {}};
     bricks.classes.assign(static_cast<std::size_t>(bricks.grid.count()), BrickClass::low);
     bricks.classes[bricks.grid.brick({9, 1, 1})] = BrickClass::divided;  // voxels 144 to 159, positions 145 to 160: word 2
     const BusyWords busy(bricks, 4);

@@ -185,16 +185,16 @@ TEST(Medium, LightComesAsFarAsTheIntegralSays) {
     Scene scene;
     scene.volume = {
         .volume = &volume, .bumps = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = density, .ramp = 0}}, .shadows = true};
-    const render::SceneBox box = render::box_of(scene);
-    const render::Frame frame{box.centre(), box.radius()};
-    const render::CameraRays camera({.view = view_from(20, 30)}, 8, 8);
-    const render::Lights lights(camera);
+    const SceneBox box = box_of(scene);
+    const Frame frame{box.centre(), box.radius()};
+    const CameraRays camera({.view = view_from(20, 30)}, 8, 8);
+    const Lights lights(camera);
     const std::vector<HalfSpace> none;
-    const render::RaySurfaces nothing(scene, render::RaySurfaces::Which::opaque, frame, none, 1);
-    const render::Medium medium(scene, frame, &lights, nothing, 2);
+    const RaySurfaces nothing(scene, RaySurfaces::Which::opaque, frame, none, 1);
+    const Medium medium(scene, frame, &lights, nothing, 2);
     const Vec3 key = lights.to_key({0, 0});
     for (const double distance : {-15.0, -8.0, 0.0, 6.0, 14.0}) {  // from the centre towards the light
-        const Vec3 point = frame.inside(render::scale(key, distance));
+        const Vec3 point = frame.inside(scale(key, distance));
         EXPECT_NEAR(medium.lit(point), std::exp(-density * (kBall - distance)), 0.02) << distance;
     }
 }

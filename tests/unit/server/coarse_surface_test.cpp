@@ -7,7 +7,7 @@
 
 #include "isoatlas/phantom.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 TEST(CoarseSurface, HasAtMostSoManyTriangles) {
@@ -32,4 +32,4 @@ TEST(CoarseSurface, StaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

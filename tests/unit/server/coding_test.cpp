@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 TEST(Coding, IsTheBestThatIsAllowed) {
@@ -44,4 +44,4 @@ TEST(Coding, CanBeUndone) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 using namespace std::chrono_literals;
@@ -99,4 +99,4 @@ TEST_F(DoorTest, APageNeedsItsCookieAndItsQuestionsTheKeyToo) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

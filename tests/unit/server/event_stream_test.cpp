@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 class EventStreamTest : public testing::Test {
@@ -94,4 +94,4 @@ TEST_F(EventStreamTest, AreNotWithoutBound) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -4,7 +4,7 @@
 
 #include "unit/server/service_fixture.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 TEST_F(ServiceTest, WhatAllAskForIsFoundOnce) {
@@ -55,4 +55,4 @@ TEST_F(ServiceTest, TheFirstSurfaceIsPrepared) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

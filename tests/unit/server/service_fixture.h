@@ -12,7 +12,7 @@
 #include "oracle/stores.h"
 #include "server/service.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 
 class ServiceTest : public oracle::Stores {
 protected:
@@ -32,4 +32,4 @@ protected:
     Left left_;
 };
 
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -13,7 +13,7 @@
 #include "isoatlas/phantom.h"
 #include "unit/server/service_fixture.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 TEST_F(ServiceTest, NothingWithoutTheToken) {
@@ -342,4 +342,4 @@ TEST_F(ServiceTest, AfterTheEndNothingIsMade) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 Context wanted_while(const std::atomic<bool>& left) {
@@ -80,4 +80,4 @@ TEST(SharedTest, WhoStillWantsItMakesItWhenSomebodyElseFails) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

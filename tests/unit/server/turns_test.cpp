@@ -9,7 +9,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 ErrorKind kind_of_refusal(Turns& turns, const std::string& client, const Left& left = {}) {
@@ -183,4 +183,4 @@ TEST(Turns, TheEndIsTheEndOfAll) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

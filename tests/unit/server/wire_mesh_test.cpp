@@ -11,7 +11,7 @@
 
 #include "isoatlas/phantom.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 struct Decoded {
@@ -147,4 +147,4 @@ TEST(WireMesh, SameBytesForAnyThreads) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

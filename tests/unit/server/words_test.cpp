@@ -4,7 +4,7 @@
 
 #include "isoatlas/error.h"
 
-namespace isoatlas::server {
+namespace isoatlas {
 namespace {
 
 using Question = std::multimap<std::string, std::string>;
@@ -51,4 +51,4 @@ TEST(Words, AreRefusedWithWhatWasExpected) {
 }
 
 }  // namespace
-}  // namespace isoatlas::server
+}  // namespace isoatlas

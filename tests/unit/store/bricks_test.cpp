@@ -14,7 +14,7 @@
 #include "store/brick_reader.h"
 #include "store/brick_writer.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST_F(Bricks, ADamagedBrickIsNeverReturned) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

@@ -10,7 +10,7 @@
 #include "isoatlas/error.h"
 #include "store/pack.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 class Store : public testing::Test {
@@ -162,4 +162,4 @@ TEST_F(Store, AnUnwritableFolderIsToldAndNothingIsLeft) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

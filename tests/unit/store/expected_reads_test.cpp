@@ -13,7 +13,7 @@
 #include "store/brick_reader.h"
 #include "store/brick_writer.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 constexpr const char* kPath = "slow.atlas";
@@ -117,4 +117,4 @@ RC_GTEST_PROP(ExpectedReads, AreThoseThatCome, ()) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

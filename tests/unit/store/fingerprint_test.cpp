@@ -8,7 +8,7 @@
 
 #include "codec/frame.h"
 
-namespace isoatlas::store {
+namespace isoatlas {
 namespace {
 
 Fingerprint example() {
@@ -92,4 +92,4 @@ TEST(Frame, IsReadAsItWasWrittenOrRefused) {
 }
 
 }  // namespace
-}  // namespace isoatlas::store
+}  // namespace isoatlas

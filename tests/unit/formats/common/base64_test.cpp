@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 std::string of(std::string_view text) { return base64(std::as_bytes(std::span(text))); }
@@ -23,4 +23,4 @@ TEST(Base64, OfTheStandard) {
 TEST(Base64, OfBytesAbove127) { EXPECT_EQ(of("\xff\xfe\x80"), "//6A"); }
 
 }  // namespace
-}  // namespace isoatlas::page
+}  // namespace isoatlas

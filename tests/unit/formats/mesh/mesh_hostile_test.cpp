@@ -14,11 +14,11 @@ namespace {
 using Parser = std::function<Mesh(std::string_view, const std::string&)>;
 
 Parser parser_of(const std::string& extension) {
-    if (extension == ".ply") return output::parse_ply;
-    if (extension == ".stl") return output::parse_stl;
-    if (extension == ".obj") return output::parse_obj;
-    if (extension == ".vtp") return output::parse_vtp;
-    return output::parse_glb;
+    if (extension == ".ply") return parse_ply;
+    if (extension == ".stl") return parse_stl;
+    if (extension == ".obj") return parse_obj;
+    if (extension == ".vtp") return parse_vtp;
+    return parse_glb;
 }
 
 std::string file_of(const std::string& extension, const Surface& surface) {
@@ -95,32 +95,30 @@ std::string ply(const std::string& body) { return "ply\nformat ascii 1.0\n" + bo
 
 TEST(hostile_ply, absurd_counts_are_refused_before_memory_is_taken) {
     const std::string vertex = "property float x\nproperty float y\nproperty float z\n";
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 18446744073709551615\n" + vertex + "end_header\n0 0 0\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 99999999999999999999\n" + vertex + "end_header\n0 0 0\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex -1\n" + vertex + "end_header\n")));
-    EXPECT_TRUE(
-        refused(output::parse_ply, ply("element vertex 1\n" + vertex +
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 18446744073709551615\n" + vertex + "end_header\n0 0 0\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 99999999999999999999\n" + vertex + "end_header\n0 0 0\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex -1\n" + vertex + "end_header\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 1\n" + vertex +
                                        "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n4000000000 0 0 0\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex +
-                                               "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex +
-                                               "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\n" + vertex + "end_header\n0 nan 0\n")));
-    EXPECT_TRUE(refused(output::parse_ply, ply("element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n")));
-    EXPECT_FALSE(
-        refused(output::parse_ply, ply("element nothing 18446744073709551615\nelement vertex 1\n" + vertex + "end_header\n0 0 0\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 1\n" + vertex +
+                                       "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 1\n" + vertex +
+                                       "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 1\n" + vertex + "end_header\n0 nan 0\n")));
+    EXPECT_TRUE(refused(parse_ply, ply("element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n")));
+    EXPECT_FALSE(refused(parse_ply, ply("element nothing 18446744073709551615\nelement vertex 1\n" + vertex + "end_header\n0 0 0\n")));
 }
 
 TEST(hostile_ply, messages_name_the_line) {
     try {
-        (void)output::parse_ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty quux x\nend_header\n", "bad.ply");
+        (void)parse_ply("ply\nformat ascii 1.0\nelement vertex 1\nproperty quux x\nend_header\n", "bad.ply");
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.text().where, "line 4");
         EXPECT_NE(error.text().what.find("quux"), std::string::npos);
     }
     try {
-        (void)output::parse_obj("v 0 0 0\nv 1 0 zero\n", "bad.obj");
+        (void)parse_obj("v 0 0 0\nv 1 0 zero\n", "bad.obj");
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.text().where, "line 2");
@@ -134,16 +132,16 @@ TEST(hostile_vtp, bombs_and_contradictions) {
     };
     const std::string zlib = "compressor=\"vtkZLibDataCompressor\" header_type=\"UInt64\"";
     // 2^61 blocks; a block of 2^60 bytes; both as base64 of little-endian numbers.
-    EXPECT_TRUE(refused(output::parse_vtp,
-                        vtp(zlib, "<DataArray type=\"Float32\" format=\"binary\">AAAAAAAAACAAAAAAAAAAAAAAAAAAAAAA</DataArray>")));
-    EXPECT_TRUE(refused(output::parse_vtp, vtp(zlib,
-                                               "<DataArray type=\"Float32\" format=\"binary\">"
-                                               "AQAAAAAAAAAAAAAAAAAAEAAAAAAAAAAQBAAAAAAAAAA=AAAAAA==</DataArray>")));
-    EXPECT_TRUE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"binary\">/////w==</DataArray>")));
-    EXPECT_TRUE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"appended\" offset=\"0\"/>")));
-    EXPECT_TRUE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"ascii\">1 2 3 4</DataArray>")));
-    EXPECT_TRUE(refused(output::parse_vtp, vtp("compressor=\"vtkLZ4DataCompressor\"", "<DataArray type=\"Float32\">1 2 3</DataArray>")));
-    EXPECT_FALSE(refused(output::parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"ascii\">1 2 3</DataArray>")));
+    EXPECT_TRUE(
+        refused(parse_vtp, vtp(zlib, "<DataArray type=\"Float32\" format=\"binary\">AAAAAAAAACAAAAAAAAAAAAAAAAAAAAAA</DataArray>")));
+    EXPECT_TRUE(refused(parse_vtp, vtp(zlib,
+                                       "<DataArray type=\"Float32\" format=\"binary\">"
+                                       "AQAAAAAAAAAAAAAAAAAAEAAAAAAAAAAQBAAAAAAAAAA=AAAAAA==</DataArray>")));
+    EXPECT_TRUE(refused(parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"binary\">/////w==</DataArray>")));
+    EXPECT_TRUE(refused(parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"appended\" offset=\"0\"/>")));
+    EXPECT_TRUE(refused(parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"ascii\">1 2 3 4</DataArray>")));
+    EXPECT_TRUE(refused(parse_vtp, vtp("compressor=\"vtkLZ4DataCompressor\"", "<DataArray type=\"Float32\">1 2 3</DataArray>")));
+    EXPECT_FALSE(refused(parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"ascii\">1 2 3</DataArray>")));
 }
 
 std::string glb(std::string json, std::string binary) {
@@ -164,19 +162,18 @@ TEST(hostile_glb, loops_repetition_and_wrong_types) {
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],";
     const std::string zeros(36, '\0');
-    EXPECT_FALSE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0}]}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0}]}", "")));
-    EXPECT_TRUE(
-        refused(output::parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"children\":[0]}]}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[4]}],\"nodes\":[{\"mesh\":0}]}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":-1}]}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":\"seven\"}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0,\"matrix\":[1,2]}]}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb("{" + mesh + "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}", zeros)));
-    EXPECT_TRUE(refused(output::parse_glb, glb(std::string(100'000, '['), "")));
+    EXPECT_FALSE(refused(parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0}]}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0}]}", "")));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"children\":[0]}]}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"scenes\":[{\"nodes\":[4]}],\"nodes\":[{\"mesh\":0}]}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":-1}]}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"nodes\":\"seven\"}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"nodes\":[{\"mesh\":0,\"matrix\":[1,2]}]}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb("{" + mesh + "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}", zeros)));
+    EXPECT_TRUE(refused(parse_glb, glb(std::string(100'000, '['), "")));
     std::string many = "{" + mesh + "\"nodes\":[{\"mesh\":0}";
     for (int i = 0; i < 1000; ++i) many += ",{\"mesh\":0}";
-    EXPECT_FALSE(refused(output::parse_glb, glb(many + "]}", zeros)));  // 3 points a node: no more than the JSON's size
+    EXPECT_FALSE(refused(parse_glb, glb(many + "]}", zeros)));  // 3 points a node: no more than the JSON's size
 }
 
 }  // namespace

@@ -173,8 +173,8 @@ TEST(write_surface, warns_about_what_a_format_loses) {
 }
 
 TEST(precision, float32_unless_it_merges_flattens_or_is_too_coarse) {
-    using output::position_precision;
-    using output::Real;
+    using position_precision;
+    using Real;
     EXPECT_EQ(position_precision(two_objects()), Real::f32);
     EXPECT_EQ(position_precision(far_away()), Real::f64);
     EXPECT_EQ(position_precision(Surface{}), Real::f32);
@@ -182,7 +182,7 @@ TEST(precision, float32_unless_it_merges_flattens_or_is_too_coarse) {
     merged.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1 + 1e-9, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     merged.triangles = {{0, 1, 2}, {3, 4, 5}};
     EXPECT_EQ(position_precision(merged), Real::f64);
-    EXPECT_EQ(output::points_merged_by_float32(merged.points), 1);
+    EXPECT_EQ(points_merged_by_float32(merged.points), 1);
     merged.points[3][0] = 1;  // equal already: float32 loses nothing
     EXPECT_EQ(position_precision(merged), Real::f32);
     Surface flat;
@@ -216,7 +216,7 @@ RC_GTEST_PROP(RoundTripOfAnything, ply_obj_and_vtp_are_lossless, ()) {
         const std::string path = folder / ("any" + extension);
         write_surface(path, surface);
         const Mesh mesh = read_mesh(path);
-        const bool wide = output::position_precision(surface) == output::Real::f64;
+        const bool wide = position_precision(surface) == Real::f64;
         RC_ASSERT(mesh.points == (wide ? surface.points : in_float32(surface.points)));
         RC_ASSERT(mesh.triangles == surface.triangles);
         RC_ASSERT(mesh.object == surface.object);

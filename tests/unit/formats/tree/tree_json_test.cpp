@@ -197,7 +197,7 @@ TEST(TreeJson, a_failing_stream_or_disk_is_an_error) {
 
 TEST(JsonStream, numbers_text_and_layout) {
     std::string text;
-    output::JsonStream json([&](std::string_view piece) { text += piece; });
+    JsonStream json([&](std::string_view piece) { text += piece; });
     json.begin_object().key("a").begin_array().value(0.1).value(1e300).value(-0.0).value(std::numeric_limits<double>::infinity());
     json.value(std::numeric_limits<double>::quiet_NaN()).value(std::int64_t{-9007199254740993}).value(~std::uint64_t{0}).end_array();
     json.key("b\"").value("\x01\\/\x7f").line().key("c").begin_array().end_array().key("d").value(false).end_object().finish();
@@ -209,7 +209,7 @@ TEST(JsonStream, numbers_text_and_layout) {
 
 RC_GTEST_PROP(JsonStream, any_double_and_any_bytes_come_back, (const double number, const std::string& bytes)) {
     std::string text;
-    output::JsonStream json([&](std::string_view piece) { text += piece; });
+    JsonStream json([&](std::string_view piece) { text += piece; });
     json.begin_array().value(number).value(bytes).end_array().finish();
     const Json document = Json::parse(text);
     if (std::isfinite(number)) RC_ASSERT(document[0].get<double>() == number);

@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-using io::ByteSource;
+using ByteSource;
 using test::expect_helpful;
 using test::failure_of;
 
@@ -62,21 +62,19 @@ std::vector<std::unique_ptr<ByteSource>> sources_of(const test::TestFolder& fold
     const std::string parts = folder.write("parts", payload);
     const auto part_bytes = static_cast<std::int64_t>(payload.size()) / 3;
     std::vector<std::unique_ptr<ByteSource>> sources;
-    sources.push_back(io::open_file_source(folder.write("plain", payload)));
+    sources.push_back(open_file_source(folder.write("plain", payload)));
+    sources.push_back(open_file_source(folder.write("inside", "head" + payload + "tail"), 4, static_cast<std::int64_t>(payload.size())));
+    sources.push_back(open_inflate_source(folder.write("gz", test::gzip(payload))));
+    sources.push_back(open_inflate_source(folder.write("z", "head" + test::zlib(payload)), 4));
     sources.push_back(
-        io::open_file_source(folder.write("inside", "head" + payload + "tail"), 4, static_cast<std::int64_t>(payload.size())));
-    sources.push_back(io::open_inflate_source(folder.write("gz", test::gzip(payload))));
-    sources.push_back(io::open_inflate_source(folder.write("z", "head" + test::zlib(payload)), 4));
-    sources.push_back(io::open_inflate_source(
-        folder.write("members", test::gzip(payload.substr(0, 5)) + test::gzip("") + test::gzip(payload.substr(5)))));
-    sources.push_back(io::open_inflate_source(folder.write("padded", test::gzip(payload) + std::string(9, '\0'))));
-    sources.push_back(
-        io::open_parts_source({.count = 3,
-                               .part_bytes = part_bytes,
-                               .size_bound = 3 * part_bytes,
-                               .random_access = true,
-                               .open = [=](std::int64_t part) { return io::open_file_source(parts, part * part_bytes, part_bytes); },
-                               .file = parts}));
+        open_inflate_source(folder.write("members", test::gzip(payload.substr(0, 5)) + test::gzip("") + test::gzip(payload.substr(5)))));
+    sources.push_back(open_inflate_source(folder.write("padded", test::gzip(payload) + std::string(9, '\0'))));
+    sources.push_back(open_parts_source({.count = 3,
+                                         .part_bytes = part_bytes,
+                                         .size_bound = 3 * part_bytes,
+                                         .random_access = true,
+                                         .open = [=](std::int64_t part) { return open_file_source(parts, part * part_bytes, part_bytes); },
+                                         .file = parts}));
     return sources;
 }
 
@@ -120,7 +118,7 @@ TEST(ByteSource, FailingDisksAreReported) {
             for (const int error : {EIO, 0}) {
                 const WithBadDisk disk(64, offset, error);
                 const test::Failure failure = failure_of([&] {
-                    const auto source = compressed ? io::open_inflate_source(packed) : io::open_file_source(plain);
+                    const auto source = compressed ? open_inflate_source(packed) : open_file_source(plain);
                     read_text(*source, 300);
                 });
                 expect_helpful(failure, ErrorKind::input, error == EIO ? "Input/output error" : "ends early");
@@ -135,10 +133,10 @@ TEST(ByteSource, RangesBeyondTheFile) {
     const std::string path = folder.write("v", "12345");
     for (const auto& [offset, length] :
          std::vector<std::pair<std::int64_t, std::int64_t>>{{6, -1}, {0, 6}, {3, 3}, {-1, 2}, {INT64_MAX, 1}, {1, INT64_MAX}}) {
-        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(io::open_file_source(path, o, l)); }), ErrorKind::input,
+        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(open_file_source(path, o, l)); }), ErrorKind::input,
                        "5 bytes");
-        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(io::open_inflate_source(path, o, l)); }),
-                       ErrorKind::input, "5 bytes");
+        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(open_inflate_source(path, o, l)); }), ErrorKind::input,
+                       "5 bytes");
     }
 }
 
@@ -155,7 +153,7 @@ TEST(ByteSource, EveryDamageOfACompressedStreamIsFound) {
             const test::Replaced replaced(path, damaged);
             std::string text;
             const test::Failure failure = failure_of([&] {
-                const auto source = io::open_inflate_source(path);
+                const auto source = open_inflate_source(path);
                 text = read_text(*source, 40);
                 if (source->payload_bytes(1000) != static_cast<std::int64_t>(payload.size()))
                     throw Error(ErrorKind::input, {.what = "longer"});
@@ -174,7 +172,7 @@ TEST(ByteSource, EveryDamageOfACompressedStreamIsFound) {
 TEST(ByteSource, AFewBytesCannotClaimMuch) {
     const test::TestFolder folder;
     const std::string zeros = test::gzip(std::string(1 << 20, '\0'));
-    const auto source = io::open_inflate_source(folder.write("gz", zeros));
+    const auto source = open_inflate_source(folder.write("gz", zeros));
     EXPECT_GE(source->size_bound(), 1 << 20);
     EXPECT_LE(source->size_bound(), static_cast<std::int64_t>(zeros.size()) * 1032);
 }

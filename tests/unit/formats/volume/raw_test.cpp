@@ -40,7 +40,7 @@ TEST(Raw, OptionsForEveryType) {
 }
 
 TEST(Raw, Names) {
-    const auto name = [](const std::string& path) { return io::description_from_name(path); };
+    const auto name = [](const std::string& path) { return description_from_name(path); };
     const auto scivis = name("/data/foo_512x512x100_float32.raw");
     EXPECT_EQ(scivis.dims, (std::vector<std::int64_t>{512, 512, 100}));
     EXPECT_EQ(scivis.type, ValueType::f32);

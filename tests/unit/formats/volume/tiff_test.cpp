@@ -205,11 +205,11 @@ TEST(Tiff, Damage) {
 }
 
 TEST(Tiff, DescriptionsOfAllKinds) {
-    using io::parse_tiff_description;
-    EXPECT_EQ(parse_tiff_description("").kind, io::TiffDescription::Kind::none);
-    EXPECT_EQ(parse_tiff_description("{\"shape\": [31, 61, 57]}").kind, io::TiffDescription::Kind::none);
-    EXPECT_EQ(parse_tiff_description("<OME><unclosed").kind, io::TiffDescription::Kind::none);
-    const io::TiffDescription nonsense =
+    using parse_tiff_description;
+    EXPECT_EQ(parse_tiff_description("").kind, TiffDescription::Kind::none);
+    EXPECT_EQ(parse_tiff_description("{\"shape\": [31, 61, 57]}").kind, TiffDescription::Kind::none);
+    EXPECT_EQ(parse_tiff_description("<OME><unclosed").kind, TiffDescription::Kind::none);
+    const TiffDescription nonsense =
         parse_tiff_description("ImageJ=\nimages=-7\nframes=99999999999999999999\nspacing=nan\ncf=0\nc1=0\nunit=furlong");
     EXPECT_EQ(nonsense.images, 0);
     EXPECT_EQ(nonsense.frames, 1);
