@@ -25,7 +25,7 @@ int run_ask(const Arguments& arguments, Terminal& terminal) {
     refuse_secrets(arguments.file);
     const std::string question = arguments.part.empty() ? "/api/atlas" : arguments.part.front();
     if (arguments.output.empty()) {
-        const ServerAnswer answer = ask_server(arguments.file, question);
+        const ServerResponse answer = ask_server(arguments.file, question);
         if (answer.type != "application/json") {
             throw Error(ErrorKind::usage,
                         {.where = question,

@@ -40,7 +40,7 @@ Json estimate_json(const BuildEstimate& estimate) {
     Json json;
     json["critical_elements"] = estimate.critical_elements;
     json["memory"] = estimate.memory;
-    json["memory_least"] = estimate.memory_least;
+    json["memory_least"] = estimate.min_memory;
     json["budget"] = estimate.budget;
     json["uses_scratch"] = estimate.uses_scratch;
     json["disk"] = estimate.disk;
@@ -66,7 +66,7 @@ int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader
         const auto bytes = [](std::int64_t count) { return bytes_text(static_cast<double>(count)); };
         terminal.out() << "critical elements  about " << count_text(estimate.critical_elements) << '\n'
                        << "memory             " << bytes(std::min(estimate.memory, estimate.budget)) << " of a budget of "
-                       << bytes(estimate.budget) << " (at least " << bytes(estimate.memory_least) << ")"
+                       << bytes(estimate.budget) << " (at least " << bytes(estimate.min_memory) << ")"
                        << (estimate.uses_scratch ? ", the rest in a scratch file" : "") << '\n'
                        << "disk               " << bytes(estimate.disk) << " while it runs, " << bytes(estimate.store_bytes)
                        << " in the end; " << bytes(estimate.disk_free) << " are free\n"

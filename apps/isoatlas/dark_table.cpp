@@ -12,7 +12,7 @@
 namespace isoatlas::cli {
 namespace {
 
-Json entry_json(const DarkTable& table, const DarkEntry& entry, const VolumeInfo& info) {
+Json entry_json(const CavityTable& table, const CavityEntry& entry, const VolumeInfo& info) {
     const Scale scale(info);
     Json json{{"id", entry.id}};
     add_isovalues(json, entry, scale);
@@ -25,11 +25,11 @@ Json entry_json(const DarkTable& table, const DarkEntry& entry, const VolumeInfo
     return json;
 }
 
-std::string best_tau_text(const DarkEntry& entry, const Scale& scale) {
+std::string best_tau_text(const CavityEntry& entry, const Scale& scale) {
     return scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high);
 }
 
-void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const DarkTable& table) {
+void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const CavityTable& table) {
     const Scale scale(info);
     const Sizes sizes(info, largest_measure(table.entries));
     std::vector<Table::Column> columns{{"dark"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
@@ -37,7 +37,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
     columns.insert(columns.end(), {{"inside of"}, {"why there", true}, {"note", true}});
     Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
-        const DarkEntry& entry = table.entries[i];
+        const CavityEntry& entry = table.entries[i];
         std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
                                      scale.brief(entry.merges), best_tau_text(entry, scale)};
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.islands);
@@ -56,20 +56,20 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
         terminal.say("no cavity stands out from the noise; --all lists everything");
         return;
     }
-    const DarkEntry& first = table.entries[0];
+    const CavityEntry& first = table.entries[0];
     terminal.next(fmt::format("isoatlas extract {}{} --tau {} --contour {} -o dark.ply", shell_word(arguments.file),
                               reading_options(arguments), best_tau_text(first, scale), first.id));
 }
 
 }  // namespace
 
-void add_dark(Json& json, const DarkTable& table, const VolumeInfo& info) {
+void add_dark(Json& json, const CavityTable& table, const VolumeInfo& info) {
     json["dark_branches"] = table.branches;
     Json& list = json["dark"] = Json::array();
-    for (const DarkEntry& entry : table.entries) list.push_back(entry_json(table, entry, info));
+    for (const CavityEntry& entry : table.entries) list.push_back(entry_json(table, entry, info));
 }
 
-void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const DarkTable& table) {
+void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table) {
     const VolumeInfo& info = source.info();
     if (!arguments.json) return print_text(terminal, arguments, info, table);
     Json head = document("dark-objects", info, source.interpolant(), source.tunnel_height());

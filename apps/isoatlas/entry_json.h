@@ -1,4 +1,4 @@
-// Members that the tables of bright and of dark objects have in common. Entry: ObjectEntry, DarkEntry.
+// Members that the tables of bright and of dark objects have in common. Entry: ObjectEntry, CavityEntry.
 #pragma once
 
 #include <fmt/format.h>

@@ -23,15 +23,15 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
     if (arguments.selects) options.selection = source.selection();
     mark_kept(hierarchy, options.selection ? hierarchy.kept(*options.selection) : hierarchy.essential());
 
-    double least = options.selection ? options.selection->least_persistence : 0;
-    if (least == 0) least = noise_height(source.objects({.top = 1}).noise, source.info().extent.voxels());
-    const FoundHandles found = find_handles(source.info(), analysis_, least, [&] { return source.volume(); }, source.context());
+    double min = options.selection ? options.selection->min_persistence : 0;
+    if (min == 0) min = noise_height(source.objects({.top = 1}).noise, source.info().extent.voxels());
+    const FoundHandles found = find_handles(source.info(), analysis_, min, [&] { return source.volume(); }, source.context());
     exact_tunnels_ = found.exact;
     for (const Handle& handle : found.handles) {
         if (rank_of_event_[static_cast<std::size_t>(handle.event)] >= 0) tunnels_.push_back({handle.opens, handle.closes});
     }
     std::set<std::array<double, 3>> known;  // several lines may show the same dark object
-    for (const DarkEntry& dark : source.dark_objects(options).entries) {
+    for (const CavityEntry& dark : source.dark_objects(options).entries) {
         if (known.insert(dark.position).second) cavities_.push_back({dark.merges, dark.appears});
     }
 }

@@ -54,10 +54,10 @@ std::int64_t wanted_event(const Arguments& arguments, const Analysis& analysis) 
 }
 
 std::vector<Handle> find_handles(const Arguments& arguments, Source& source) {
-    const double least = source.selection().least_persistence;
+    const double min = source.selection().min_persistence;
     const Analysis analysis = source.analysis(false);
-    if (!arguments.exact) return pair_handles(analysis, least);
-    return pair_handles_exactly(source.volume(), analysis, {.least_persistence = least, .event = wanted_event(arguments, analysis)},
+    if (!arguments.exact) return pair_handles(analysis, min);
+    return pair_handles_exactly(source.volume(), analysis, {.min_persistence = min, .event = wanted_event(arguments, analysis)},
                                 source.context());
 }
 

@@ -61,7 +61,7 @@ Values read_values(VolumeReader& reader, Session& session) {
     return values;
 }
 
-Json json_of(const Bounds& bounds) { return {{"least", bounds.least}, {"most", bounds.most}}; }
+Json json_of(const Bounds& bounds) { return {{"least", bounds.min}, {"most", bounds.max}}; }
 
 Json to_json(const SurfacePreview& preview, double tau) {
     return {{"tau", tau},
@@ -79,8 +79,8 @@ Json to_json(const SurfacePreview& preview, double tau) {
 
 /// "1,234", or "1,200 to 1,300".
 std::string text_of(const Bounds& bounds) {
-    if (bounds.least == bounds.most) return count_text(bounds.least);
-    return count_text(bounds.least) + " to " + count_text(bounds.most);
+    if (bounds.min == bounds.max) return count_text(bounds.min);
+    return count_text(bounds.min) + " to " + count_text(bounds.max);
 }
 
 void print_preview(std::ostream& out, const SurfacePreview& preview, double tau) {

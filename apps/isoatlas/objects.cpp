@@ -55,7 +55,7 @@ std::int64_t shown_objects(const ObjectTable& table) {
 }
 
 /// dark: listed too; null: not asked for.
-void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const DarkTable* dark = nullptr) {
+void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const CavityTable* dark = nullptr) {
     const VolumeInfo& info = source.info();
     const Scale scale(info);
     Json head = document("objects", info, source.interpolant(), source.tunnel_height());

@@ -31,7 +31,7 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
     json["slices"] = scene.slices.size();
     Json bumps = Json::array();
     const Scale scale(source.info());
-    for (const TransferBump& bump : scene.volume.bumps) {
+    for (const OpacityTent& bump : scene.volume.bumps) {
         bumps.push_back({{"low", scale.reported(bump.low)},
                          {"high", scale.reported(bump.high)},
                          {"density", bump.density},

@@ -164,7 +164,7 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
     const Scale scale(source.info());
     for (std::size_t i = 0; i < matter.bumps.size(); ++i) {
-        TransferBump& bump = matter.bumps[i];
+        OpacityTent& bump = matter.bumps[i];
         const bool body = i > 0 && bump.tau == matter.bumps[i - 1].tau;
         if (!body) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
     }

@@ -54,12 +54,12 @@ void convert_selection(const std::function<bool(const char*)>& given, const Type
     Selection& selection = arguments.selection;
     if (!typed.top.empty()) take_top(typed.top, arguments);  // other verbs take numbers only, elsewhere
     if (given("--keep")) selection.keep = typed.keep;
-    selection.least_voxels = typed.min_voxels;
-    selection.least_measure = typed.min_volume;
-    selection.least_hypervolume = typed.min_hypervolume;
+    selection.min_voxels = typed.min_voxels;
+    selection.min_measure = typed.min_volume;
+    selection.min_hypervolume = typed.min_hypervolume;
     if (given("--persistence")) {
         arguments.persistence_in_percent = typed.persistence.ends_with('%');
-        selection.least_persistence = parse_height("--persistence", typed.persistence);
+        selection.min_persistence = parse_height("--persistence", typed.persistence);
     }
     for (const char* option : {"--keep", "--min-voxels", "--min-volume", "--min-hypervolume", "--persistence"})
         arguments.selects = arguments.selects || given(option);

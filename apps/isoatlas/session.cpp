@@ -95,10 +95,10 @@ Volume Session::load() {
     Volume volume;
     {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments_.file, arguments_.open);
-        const double least = cost_of_analysis(reader->info(), arguments_.threads).memory_smooth;
-        if (least > machine_memory()) {
+        const double min = cost_of_analysis(reader->info(), arguments_.threads).memory_smooth;
+        if (min > machine_memory()) {
             terminal_.warn(
-                fmt::format("{} needs {} or more, this machine has {}", arguments_.file, bytes_text(least), bytes_text(machine_memory())));
+                fmt::format("{} needs {} or more, this machine has {}", arguments_.file, bytes_text(min), bytes_text(machine_memory())));
         }
         try {
             volume = load_volume(*reader, arguments_.missing, context());

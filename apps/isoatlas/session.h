@@ -25,7 +25,7 @@ public:
 
     /// For long calls; valid while the session lives.
     [[nodiscard]] Context context();
-    /// Loads arguments.file, prints one line about it and the notes of the reader. Turns out-of-memory into Error{resource}.
+    /// Loads arguments.file, prints one line about it and the notes of the reader. JobQueue out-of-memory into Error{resource}.
     [[nodiscard]] Volume load();
     /// "scan.nrrd  NRRD  512 x 512 x 420  int16  spacing ...  values ..."
     [[nodiscard]] static std::string describe(const VolumeInfo& info, const ValueRange& range);

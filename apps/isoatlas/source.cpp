@@ -95,12 +95,12 @@ ObjectTable Source::objects(const RankOptions& options) {
     return table;
 }
 
-DarkTable Source::dark_objects(const RankOptions& options) {
-    if (!atlas_ || arguments_.voxel_units) return rank_dark_objects(volume(), analysis(false), options, context());
+CavityTable Source::dark_objects(const RankOptions& options) {
+    if (!atlas_ || arguments_.voxel_units) return rank_cavities(volume(), analysis(false), options, context());
     return atlas_->dark_objects(options, context());
 }
 
-BothTables Source::both_tables(const RankOptions& options) {
+ObjectsAndCavities Source::both_tables(const RankOptions& options) {
     if (!atlas_) return rank_both(volume(), analysis(true), options, context());
     return {objects(options), dark_objects(options)};
 }
@@ -120,11 +120,11 @@ std::pair<Analysis, BranchHierarchy> Source::analysis_and_hierarchy() {
 Selection Source::selection() {
     Selection selection = arguments_.selection;
     const double slope = std::abs(info_.calibration.slope);
-    selection.least_hypervolume /= slope;
+    selection.min_hypervolume /= slope;
     if (arguments_.persistence_in_percent)
-        selection.least_persistence *= (range().high - range().low) / 100;
+        selection.min_persistence *= (range().high - range().low) / 100;
     else
-        selection.least_persistence /= slope;
+        selection.min_persistence /= slope;
     return selection;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kDefaultSamples = 24;
 
 std::string voxels_text(const Bounds& voxels) {
-    return voxels.least == voxels.most ? count_text(voxels.least) : count_text(voxels.least) + " to " + count_text(voxels.most);
+    return voxels.min == voxels.max ? count_text(voxels.min) : count_text(voxels.min) + " to " + count_text(voxels.max);
 }
 
 std::string size_text(double size) { return size < 1e6 ? fmt::format("{:.5g}", size) : count_text(std::llround(size)); }

@@ -127,7 +127,7 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
     int code = 0;
     if (!atlas) {
         try {
-            await_store(arguments, terminal, store, [&server](const BuildState& state) { server.tell(state); });
+            await_store(arguments, terminal, store, [&server](const BuildState& state) { server.report_progress(state); });
             atlas.emplace(store, options);
             server.open(*atlas);
         } catch (const Error& error) {

@@ -112,10 +112,10 @@ std::int64_t parse_bytes(const std::string& option, const std::string& word) {
         if (unit.ends_with(end)) unit.resize(unit.size() - end.size());
     }
     double number = 0;
-    constexpr double kLeast = 80 * 0x1p20, kMost = 0x1p62;
+    constexpr double kMin = 80 * 0x1p20, kMax = 0x1p62;
     const auto factor = units.find(unit);
-    const bool good = factor != units.end() && read_number(word.substr(0, digits), number) && number * factor->second < kMost;
-    if (!good || number * factor->second < kLeast) bad_word(option, word, "a size of at least 80M, such as 500M or 2G");
+    const bool good = factor != units.end() && read_number(word.substr(0, digits), number) && number * factor->second < kMax;
+    if (!good || number * factor->second < kMin) bad_word(option, word, "a size of at least 80M, such as 500M or 2G");
     return static_cast<std::int64_t>(number * factor->second);
 }
 

@@ -132,7 +132,7 @@ void measure(Arguments arguments) {
     }
     write(arguments.picture, image.rgba.data(), image.rgba.size());
     ordered_json bumps = ordered_json::array();
-    for (const isoatlas::TransferBump& bump : scene.volume.bumps) {
+    for (const isoatlas::OpacityTent& bump : scene.volume.bumps) {
         bumps.push_back({{"low", bump.low},
                          {"high", bump.high},
                          {"ramp", bump.ramp},

@@ -26,12 +26,12 @@ struct ActiveObject {
     ZoneRange zone;      ///< the isovalues at which it is what it is here: one step down for this object is to zone.tau_low
     double above;        ///< one step up along its largest part: the value of that part's event; zone.tau_high when there is none
     std::int64_t chi, b1, b2;
-    std::int64_t voxels_least, voxels_most;  ///< bounds of its voxels; equal when the trees tell
-    std::int64_t contours;                   ///< how many it has
-    std::int64_t first_contour;              ///< in ActiveObjects::contours: the outer one first, then cavities by id; -1: not asked for
+    std::int64_t min_voxels, max_voxels;  ///< bounds of its voxels; equal when the trees tell
+    std::int64_t contours;                ///< how many it has
+    std::int64_t first_contour;           ///< in ActiveObjects::contours: the outer one first, then cavities by id; -1: not asked for
 };
 
-/// Everything at one isovalue. Objects by descending voxels_most, then ascending id: in the order of Cut when all bounds are equal.
+/// Everything at one isovalue. Objects by descending max_voxels, then ascending id: in the order of Cut when all bounds are equal.
 struct ActiveObjects {
     double tau = 0;
     std::vector<ActiveObject> objects;

@@ -10,8 +10,8 @@
 
 #include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
+#include "isoatlas/cavities.h"
 #include "isoatlas/cut.h"
-#include "isoatlas/dark_objects.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/simplify.h"
@@ -43,7 +43,7 @@ private:
 
 /// A number that is known exactly when both are equal.
 struct Bounds {
-    std::int64_t least = 0, most = 0;
+    std::int64_t min = 0, max = 0;
 };
 
 /// What the surface at an isovalue is, and what it will cost, before any brick is read.
@@ -123,9 +123,9 @@ public:
     /// volumes of more than 2^24 voxels, the volume is read and analysed again.
     [[nodiscard]] ObjectTable objects(const RankOptions& options = {}, const Context& context = {}) const;
 
-    /// The table of dark objects, as from rank_dark_objects(). Cost: as objects(); with any selection the volume is read and analysed
+    /// The table of dark objects, as from rank_cavities(). Cost: as objects(); with any selection the volume is read and analysed
     /// again.
-    [[nodiscard]] DarkTable dark_objects(const RankOptions& options = {}, const Context& context = {}) const;
+    [[nodiscard]] CavityTable dark_objects(const RankOptions& options = {}, const Context& context = {}) const;
 
     /// The branches of the criticality tree, for selections and simplified trees. Cost: reads the trees and no sample. Of volumes with more
     /// than one critical element for three voxels, of grids with uneven steps, and of stores of early versions, all samples are read and
@@ -147,7 +147,7 @@ public:
     /// The whole volume coarser: means of cubes of step^3 samples, step the first power of two that leaves at most `most` of them.
     /// Throws Error: usage (most is less than 1), cancelled. Cost: reads all bricks, and keeps none; memory: the result and, where the step
     /// is more than 8, 4 bytes for 512 samples.
-    [[nodiscard]] CoarseVolume coarse(std::int64_t most, const Context& context = {}) const;
+    [[nodiscard]] CoarseVolume coarse(std::int64_t max, const Context& context = {}) const;
 
     /// How many samples lie in [edges[i], edges[i + 1]); the last count includes its end. Stored values, ascending, two at least. Throws
     /// Error{usage}. Cost: reads the bricks with samples on both sides of an edge.

@@ -36,13 +36,13 @@ struct BuildOptions {
 /// What a build will take; critical elements are counted in a few slabs of the volume.
 struct BuildEstimate {
     std::int64_t critical_elements = 0;
-    std::int64_t memory = 0;        ///< that all arrays would take at once, bytes
-    std::int64_t memory_least = 0;  ///< smallest budget that this volume can be built with
-    std::int64_t budget = 0;        ///< BuildOptions::memory, or the default
-    bool uses_scratch = false;      ///< arrays go to a scratch file
-    std::int64_t disk = 0;          ///< for store, finished phases and scratch file together
-    std::int64_t disk_free = 0;     ///< in the folder of the store
-    std::int64_t store_bytes = 0;   ///< of the store
+    std::int64_t memory = 0;       ///< that all arrays would take at once, bytes
+    std::int64_t min_memory = 0;   ///< smallest budget that this volume can be built with
+    std::int64_t budget = 0;       ///< BuildOptions::memory, or the default
+    bool uses_scratch = false;     ///< arrays go to a scratch file
+    std::int64_t disk = 0;         ///< for store, finished phases and scratch file together
+    std::int64_t disk_free = 0;    ///< in the folder of the store
+    std::int64_t store_bytes = 0;  ///< of the store
     double seconds = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace isoatlas {
 
-struct ServerAnswer {
+struct ServerResponse {
     std::string type;   ///< such as "application/json"
     std::string bytes;  ///< text of a JSON document, a mesh, a file: docs/server.md
 };
@@ -14,7 +14,7 @@ struct ServerAnswer {
 /// `isoatlas view` of this user keeps it. A program that has it writes http://127.0.0.1:PORT/?token=TOKEN, which does not belong on a
 /// command line. question: a path with its words, such as /api/objects?tau=100. Waits for the answer. Throws the Error with which the
 /// server refuses; also usage (no address of a viewer, no question with an end), input (nobody answers there, no token is known).
-[[nodiscard]] ServerAnswer ask_server(const std::string& address, const std::string& question);
+[[nodiscard]] ServerResponse ask_server(const std::string& address, const std::string& question);
 
 /// The same into a file, which appears whole or not at all. Returns its bytes. Throws also Error{resource}.
 std::size_t ask_server(const std::string& address, const std::string& question, const std::string& path);

@@ -28,14 +28,14 @@ struct Handle {
 
 /// By descending persistence, then ascending element that opens it; those of at least that persistence, which is above 0. 2D: none, holes
 /// are contours there. Cost: O(elements log^2 elements).
-[[nodiscard]] std::vector<Handle> pair_handles(const Analysis& analysis, double least_persistence = 0);
+[[nodiscard]] std::vector<Handle> pair_handles(const Analysis& analysis, double min_persistence = 0);
 
 struct ExactHandles {
-    double least_persistence = 0;
+    double min_persistence = 0;
     /// Only the object of this event at the low end of its zone: all that happens in it down to there. -1: the whole volume.
     std::int64_t event = -1;
     /// Refuse more tunnels than that: their number is known from the trees at once, the time is not.
-    std::int64_t most = 1'000'000;
+    std::int64_t max = 1'000'000;
 };
 
 /// The same handles, each with the isovalue at which it truly closes. Persistence of H1 mod 2 over the critical elements that the join
@@ -53,7 +53,7 @@ struct FoundHandles {
 
 /// Exact pairs where they cost little: of at most 2^26 bytes of samples and 2^17 tunnels; else approximate ones. samples: called for exact
 /// pairs only; the volume that analysis is of. Throws Error: cancelled, what samples() throws. Cost: seconds at most.
-[[nodiscard]] FoundHandles find_handles(const VolumeInfo& info, const Analysis& analysis, double least_persistence,
+[[nodiscard]] FoundHandles find_handles(const VolumeInfo& info, const Analysis& analysis, double min_persistence,
                                         const std::function<Volume()>& samples, const Context& context = {});
 
 /// The largest object whose highest voxel is that one: the event just before it merges with a higher object, the root for the highest

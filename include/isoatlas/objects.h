@@ -29,20 +29,20 @@ struct ObjectEntry {
     std::int64_t inside;             ///< position in ObjectTable::entries of the closest entry that contains this one; -1: none
     std::int64_t branch_top;         ///< the event at which its branch begins: a maximum; -1: not known (stores of early versions)
     bool outline;                    ///< best_tau shows everything that is not background
-    bool trunk;                      ///< of the object that is there at every isovalue
+    bool main_branch;                ///< of the object that is there at every isovalue
     std::string note;                ///< "largest", "outline", "inside 3", ...
 };
 
 /// Why an isovalue shows an object well (docs/theory/7-which-objects-matter.md#stable-isovalues). V(tau) is the object's volume.
 enum class IsovalueReason : std::uint8_t {
-    steady,   ///< -d ln V / d tau is locally least there: the boundary is steep, the body compact
+    stable,   ///< -d ln V / d tau is locally least there: the boundary is steep, the body compact
     outline,  ///< the same at the low end of its range, or the lowest of several that holds 15 % of the volume: all but background
-    outer,    ///< steady when its outer boundary is counted alone, with the cavities filled that are dark objects that matter
-    inner,    ///< steady for one of these cavities: its wall
-    merge,    ///< nothing stands out: just above the value at which it merges; of the trunk: at which another large object joins it
+    outer,    ///< stable when its outer boundary is counted alone, with the cavities filled that are dark objects that matter
+    inner,    ///< stable for one of these cavities: its wall
+    merge,    ///< nothing stands out: just above the value at which it merges; of the main branch: at which another large object joins it
     middle,   ///< nothing stands out: the middle of the range of the object that is there at every isovalue
 };
-[[nodiscard]] const char* name_of(IsovalueReason reason);  ///< "steady", "outline", ...
+[[nodiscard]] const char* name_of(IsovalueReason reason);  ///< "stable", "outline", ...
 [[nodiscard]] const char* text_of(IsovalueReason reason);  ///< in plain words, for a reader who knows no topology
 
 /// One isovalue of one object, and why. The lines of the table are some of these.
@@ -52,12 +52,13 @@ struct RecommendedIsovalue {
     double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: nothing stands out. Where
                               ///< nearly all samples are low, the rate is along the bent axis of the page
     IsovalueReason reason;
-    std::int64_t cavity = -1;  ///< inner, and of dark objects: the cavity (DarkEntry::id at tau, the id of the contour around it); else -1
+    std::int64_t cavity =
+        -1;  ///< inner, and of dark objects: the cavity (CavityEntry::id at tau, the id of the contour around it); else -1
     friend bool operator==(const RecommendedIsovalue&, const RecommendedIsovalue&) = default;
 };
 
 struct ObjectTable {
-    std::vector<ObjectEntry> entries;  ///< by rank; the trunk has up to five, from the outside in, the box of the volume last
+    std::vector<ObjectEntry> entries;  ///< by rank; the main branch has up to five, from the outside in, the box of the volume last
     /// Of all objects of the table, by their rank; of each those of lines first, then by descending prominence, outlines last; then outer
     /// and inner ones that are further from the former than can be told apart, of up to five cavities. Empty: a store of an early version.
     std::vector<RecommendedIsovalue> isovalues{};
@@ -72,7 +73,7 @@ struct RankOptions {
 };
 
 /// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (docs/theory/7-which-objects-matter.md).
-/// Cost: with the dark objects, as rank_dark_objects().
+/// Cost: with the dark objects, as rank_cavities().
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
 
@@ -80,7 +81,7 @@ struct RankOptions {
 /// (docs/theory/8-noise-and-stability.md#how-high-noise-rises). In units of `noise`.
 [[nodiscard]] double noise_height(double noise, std::int64_t voxels);
 
-/// Those of one object, given by ObjectEntry::branch_top or DarkEntry::branch_minimum. isovalues: of a table.
+/// Those of one object, given by ObjectEntry::branch_top or CavityEntry::branch_minimum. isovalues: of a table.
 [[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top);
 /// That of the line's own isovalue; nothing when it is not known.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);

@@ -53,7 +53,7 @@ struct SceneSlice {
 
 /// Light that matter between two values sends out and swallows. Extinction per unit of length rises linearly from 0 at low and at high to
 /// `density`, over `ramp` of the range at each end, 0 (a box) to 0.5 (a triangle).
-struct TransferBump {
+struct OpacityTent {
     double low = 0, high = 0;  ///< stored values
     Colour colour{};
     double density = 0;
@@ -74,7 +74,7 @@ struct TransferCurve {
 /// add up.
 struct SceneVolume {
     const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
-    std::vector<TransferBump> bumps{};
+    std::vector<OpacityTent> bumps{};
     std::vector<TransferCurve> curves{};
     std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; left out: looked for
     bool shadows = false;  ///< light of the key light is scattered once: matter and opaque surfaces keep it from what lies behind them
@@ -174,8 +174,8 @@ struct SliceOptions {
 /// Bumps for the objects of a table at their best isovalues, in ascending order, one colour each (from palette(first_colour) on), outer
 /// matter thinner: a skin at the isovalue, and a thin body up to where another object, another recommended isovalue of its own or its top
 /// comes; the last one is solid. Background (is_background()) only if there is nothing else. range: lowest and highest sample.
-[[nodiscard]] std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
-                                                         std::int64_t first_colour = 0);
+[[nodiscard]] std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
+                                                        std::int64_t first_colour = 0);
 
 /// Between which values something may be seen, in no order; they may overlap. volume.range must be given.
 [[nodiscard]] std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume);

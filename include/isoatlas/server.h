@@ -48,7 +48,7 @@ public:
     /// found, or stop() was called. Those who ask meanwhile wait for the same. Cost: the trees are read.
     void prepare(const Context& context = {});
     /// The store is being built.
-    void tell(const BuildState& state);
+    void report_progress(const BuildState& state);
     /// There will be no store. Another tell() or open() takes it back.
     void fail(const Error& error);
 

@@ -21,9 +21,9 @@ namespace isoatlas {
 struct BranchInfo {
     std::int64_t id;         ///< index of the highest voxel of the object just before it merges
     std::int64_t top;        ///< the event at which it begins, a maximum
-    std::int64_t parent;     ///< the branch that it ends in; -1: the trunk
-    double appears, merges;  ///< on its own for tau in (merges, appears]; merges = -infinity: the trunk
-    double persistence;      ///< highest value - merges (the trunk: - lowest sample)
+    std::int64_t parent;     ///< the branch that it ends in; -1: the main branch
+    double appears, merges;  ///< on its own for tau in (merges, appears]; merges = -infinity: the main branch
+    double persistence;      ///< highest value - merges (the main branch: - lowest sample)
     double hypervolume;      ///< sum of (value - merges); the rank
     std::int64_t voxels;     ///< just before it merges
     double measure;          ///< physical volume of these
@@ -69,7 +69,7 @@ public:
     BranchHierarchy& operator=(BranchHierarchy&&) noexcept;
     ~BranchHierarchy();
 
-    /// All, by rank; the first is the trunk.
+    /// All, by rank; the first is the main branch.
     [[nodiscard]] std::span<const BranchInfo> branches() const;
     /// What a selection keeps, by rank. Cost: O(branches).
     [[nodiscard]] std::vector<std::int64_t> kept(const Selection& selection) const;
@@ -77,7 +77,7 @@ public:
     [[nodiscard]] const std::vector<std::int64_t>& essential() const;
     /// Cost: O(events).
     [[nodiscard]] Simplified simplify(const Selection& selection) const;
-    /// The same for any kept branches: with a branch its parent must be among them, the trunk always.
+    /// The same for any kept branches: with a branch its parent must be among them, the main branch always.
     [[nodiscard]] Simplified simplify(std::vector<std::int64_t> kept) const;
     /// Of hypervolume, persistence and voxels. Cost: O(branches log branches).
     [[nodiscard]] std::vector<SelectionCurve> curves() const;

@@ -49,8 +49,8 @@ struct ExtractOptions {
     std::vector<std::int64_t> contours;  ///< contour ids as in Cut; empty: all
     ShellChoice shell = ShellChoice::all;
     bool normals = true;
-    bool ids = true;                  ///< fill Surface::object and Surface::contour
-    std::int64_t most_triangles = 0;  ///< more (2D: segments) are refused before memory is taken for them; 0: any number
+    bool ids = true;                 ///< fill Surface::object and Surface::contour
+    std::int64_t max_triangles = 0;  ///< more (2D: segments) are refused before memory is taken for them; 0: any number
 };
 
 /// Cost: O(volume) scan plus O(surface). Throws Error: not_found for an object or contour that does not exist at tau, resource

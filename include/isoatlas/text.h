@@ -18,6 +18,6 @@ namespace isoatlas {
 /// written_name() with control characters as \x1b, too: fit for a terminal.
 [[nodiscard]] std::string shown_name(std::string_view name);
 /// The longest beginning of UTF-8 text that has at most so many bytes and cuts no character.
-[[nodiscard]] std::string_view utf8_prefix(std::string_view text, std::size_t most);
+[[nodiscard]] std::string_view utf8_prefix(std::string_view text, std::size_t max);
 
 }  // namespace isoatlas

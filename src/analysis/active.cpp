@@ -52,7 +52,7 @@ public:
         }
         std::vector<std::size_t> order(active.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        const auto key = [&](std::size_t i) { return std::tuple(-all.objects[i].voxels_most, all.objects[i].id); };
+        const auto key = [&](std::size_t i) { return std::tuple(-all.objects[i].max_voxels, all.objects[i].id); };
         std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return key(p) < key(q); });
         std::vector<ActiveObject> sorted;
         for (const std::size_t i : order) sorted.push_back(all.objects[i]);
@@ -144,13 +144,13 @@ private:
         object.b2 = extent_.rank == 3 ? object.contours - 1 : 0;
         object.b1 = 1 + object.b2 - object.chi;
         object.first_contour = -1;
-        object.voxels_most = extent_.voxels();
+        object.max_voxels = extent_.voxels();
         if (!zones_.counts_voxels()) return object;
         object.zone.voxels = static_cast<std::int64_t>(arrays.voxels[event]);
-        object.voxels_most = zones_.object_voxels(event);
+        object.max_voxels = zones_.object_voxels(event);
         // Between the low end of the zone and tau no whole number: no sample.
         const bool known = options.integer_samples && std::ceil(tau) - 1 <= object.zone.tau_low;
-        object.voxels_least = known ? object.voxels_most : object.voxels_most - object.zone.voxels;
+        object.min_voxels = known ? object.max_voxels : object.max_voxels - object.zone.voxels;
         return object;
     }
 

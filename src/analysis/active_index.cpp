@@ -16,14 +16,14 @@ ActiveZones<Id>::ActiveZones(const AnalysisArrays<Id>& arrays)
       largest_child_(arrays.tree.size()),
       object_voxels_(arrays.tree.size()) {
     const CriticalityTree<Id>& tree = arrays.tree;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t e = 0; e < tree.size(); ++e) {
         memory.step();
         object_voxels_[e] = e < arrays.voxels.size() ? arrays.voxels[e] : Id{0};
         highest_[e] = largest_child_[e] = static_cast<Id>(e);
     }
     for (std::size_t e = 0; e < tree.size(); ++e) {  // children come before their parents
-        memory.step(4 * PacedCheck::kTouch);
+        memory.step(4 * BudgetPoll::kTouch);
         if (tree.is_root(e)) continue;
         const std::size_t p = tree.parent[e];
         object_voxels_[p] += object_voxels_[e];
@@ -44,7 +44,7 @@ template <class Id>
 std::vector<Id> ActiveZones<Id>::zones(std::size_t rank) const {
     std::vector<Id> active;
     if (rank == 0) return active;
-    parents_.for_reaching(0, rank, static_cast<Id>(rank), [&](std::size_t e) { active.push_back(static_cast<Id>(e)); });
+    parents_.for_each_at_least(0, rank, static_cast<Id>(rank), [&](std::size_t e) { active.push_back(static_cast<Id>(e)); });
     if (rank == events()) active.push_back(static_cast<Id>(rank - 1));  // the root is its own parent
     return active;
 }

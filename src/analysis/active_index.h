@@ -2,8 +2,8 @@
 //
 // Elements and events are sorted by value: an isovalue is a rank, the number of those at or above it. A zone is the interval of ranks
 // between its event and the parent, a contour the one between the ends of its arc. Which of them contain a rank is read off the arrays of
-// the trees (base/furthest.h); the object of a contour is an ancestor of the event at its upper end, its low component one of its lower end
-// (T6).
+// the trees (base/max_pyramid.h); the object of a contour is an ancestor of the event at its upper end, its low component one of its lower
+// end (T6).
 //
 // In the literature: stabbing queries; for cells usually answered by an interval tree (Cignoni et al., Speeding up isosurface extraction
 // using interval trees, 1997).
@@ -12,22 +12,22 @@
 #include <cmath>
 
 #include "analysis/analysis_data.h"
-#include "base/furthest.h"
-#include "tree/climber.h"
-#include "tree/low_tree.h"
+#include "base/max_pyramid.h"
+#include "tree/level_ancestor.h"
+#include "tree/split_tree.h"
 
 namespace isoatlas {
 
 /// What is asked of contours: 13 bytes an element (ids of 32 bits).
 template <class Id>
 struct ActiveContours {
-    Furthest<Id, std::greater<>> highest_other;
-    Furthest<Id, std::less<>> lowest_other;
-    LowTree<Id> low;
-    Climber<Id> climber;  ///< of low.parent
+    MaxPyramid<Id, std::greater<>> highest_other;
+    MaxPyramid<Id, std::less<>> lowest_other;
+    SplitTree<Id> low;
+    LevelAncestor<Id> climber;  ///< of low.parent
 
     explicit ActiveContours(const ContourTree<Id>& contours)
-        : highest_other(contours.other), lowest_other(contours.other), low(low_tree(contours)), climber(low.parent) {}
+        : highest_other(contours.other), lowest_other(contours.other), low(split_tree_of(contours)), climber(low.parent) {}
 };
 
 template <class Id>
@@ -61,8 +61,8 @@ public:
     void for_contours(std::size_t rank, Visit&& visit) const {
         if (rank == 0) return;
         const auto limit = static_cast<Id>(rank);
-        contours().highest_other.for_reaching(0, rank, limit, visit);
-        contours().lowest_other.for_reaching(rank, arrays_.contours.nodes(), limit - 1, visit);
+        contours().highest_other.for_each_at_least(0, rank, limit, visit);
+        contours().lowest_other.for_each_at_least(rank, arrays_.contours.nodes(), limit - 1, visit);
     }
     /// Of an arc that contains the rank: is its contour an outer one, and the lowest element of its low component.
     [[nodiscard]] bool is_outer(std::size_t arc) const { return arrays_.contours.other[arc] > static_cast<Id>(arc); }
@@ -79,8 +79,8 @@ private:
     }
 
     const AnalysisArrays<Id>& arrays_;
-    Furthest<Id, std::greater<>> parents_;
-    Climber<Id> climber_;
+    MaxPyramid<Id, std::greater<>> parents_;
+    LevelAncestor<Id> climber_;
     BigVector<Id> highest_, largest_child_, object_voxels_;
     Lazy<std::unique_ptr<ActiveContours<Id>>> contours_;
 };

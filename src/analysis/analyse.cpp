@@ -12,12 +12,12 @@
 #include "base/paced_fill.h"
 #include "critical/basins.h"
 #include "critical/bodies.h"
+#include "critical/elements_with_extrema.h"
 #include "critical/grid_domain.h"
-#include "critical/leading_elements.h"
-#include "critical/parted_domain.h"
+#include "critical/partitioned_domain.h"
 #include "field/slab_work.h"
 #include "tree/assemble.h"
-#include "tree/paths.h"
+#include "tree/heavy_paths.h"
 #include "zones/count_voxels.h"
 #include "zones/label.h"
 
@@ -43,7 +43,7 @@ CriticalSet<Id> critical_set(const GridView<T>& grid, GridScan scan, AnalysisArr
 /// Value, code and arcs when memory is short: nothing is accessed at random but a tile at a time.
 template <class Id>
 void make_arcs_by_tiles(const Extent& extent, GridScan scan, AnalysisArrays<Id>& arrays, const Context& context) {
-    PartedCriticals<Id> criticals = parted_criticals<Id>(extent, std::move(scan), tiling_for(extent, context), context);
+    PartitionedCriticals<Id> criticals = parted_criticals<Id>(extent, std::move(scan), tiling_for(extent, context), context);
     context.report("trees", 3, kPhases, 0);
     arrays.value = std::move(criticals.value);
     arrays.code = std::move(criticals.code);
@@ -55,7 +55,8 @@ template <class T, class Id>
 void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Context& context) {
     BigVector<Id> maxima = elements_of_maxima<Id>(arrays.code, grid.extent);
     const CriticalityTree<Id>& tree = arrays.tree;
-    const HeavyPaths<Id, ComparisonValue<T>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element}, maxima, context.threads);
+    const HeavyPathDecomposition<Id, ComparisonValue<T>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element}, maxima,
+                                                               context.threads);
     release(maxima);
     fill_fresh(arrays.voxels, arrays.tree.size(), Id{0});
     for_each_slab_of(slab_height(grid.extent, context), context, {"zones", 4, kPhases}, grid.extent.size[2], [&](const Slab& slab) {
@@ -64,10 +65,10 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
     });
 }
 
-/// Is every basin (arrays.zone) that of a maximum, and does every object begin at one? HeavyPaths takes it for granted.
+/// Is every basin (arrays.zone) that of a maximum, and does every object begin at one? HeavyPathDecomposition takes it for granted.
 template <class Id>
 bool fit(const AnalysisArrays<Id>& arrays, const Extent& extent) {
-    PacedCheck memory;
+    BudgetPoll memory;
     const auto is_maximum = [&](std::uint64_t code) { return memory.step(sizeof code), ElementCode{code}.h0() == 0; };
     const BigVector<Id> maxima = elements_of_maxima<Id>(arrays.code, extent);
     if (static_cast<std::size_t>(std::ranges::count_if(arrays.code, is_maximum)) != maxima.size()) return false;  // one voxel twice
@@ -75,7 +76,7 @@ bool fit(const AnalysisArrays<Id>& arrays, const Extent& extent) {
     if (!std::ranges::all_of(arrays.zone, exists)) return false;
     std::vector<bool> is_reached(arrays.tree.size(), false);
     for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
-        memory.step(2 * PacedCheck::kTouch);
+        memory.step(2 * BudgetPoll::kTouch);
         if (!is_reached[e] && !is_maximum(arrays.code[arrays.tree.top[e]])) return false;
         is_reached[arrays.tree.parent[e]] = true;  // parents come after their children
     }
@@ -165,7 +166,7 @@ Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Con
                 release(arrays.zone);
             }
         });
-    return_big_memory();
+    trim_memory_pool();
     return analysis;
 }
 

@@ -6,7 +6,7 @@
 namespace isoatlas {
 namespace {
 
-/// Turns counts (by list, shifted by one) into first positions.
+/// JobQueue counts (by list, shifted by one) into first positions.
 template <class Id>
 void accumulate(std::vector<Id>& first) {
     std::partial_sum(first.begin(), first.end(), first.begin());

@@ -36,7 +36,7 @@ void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank,
 
 BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
     BigVector<std::int8_t> delta(code.size());
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = 0; i < delta.size(); ++i) {
         memory.step(sizeof(std::uint64_t) + 1);
         delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));

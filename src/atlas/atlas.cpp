@@ -169,14 +169,14 @@ ObjectTable Atlas::objects(const RankOptions& options, const Context& context) c
     return rank_objects(whole, zoned_analysis_of(data_->store, whole, context), options, context);
 }
 
-DarkTable Atlas::dark_objects(const RankOptions& options, const Context& context) const {
+CavityTable Atlas::dark_objects(const RankOptions& options, const Context& context) const {
     if (has_dark(data_->store) && options.gate && !options.selection) {
-        DarkTable stored = dark_of(data_->store);
+        CavityTable stored = dark_of(data_->store);
         if (is_whole(stored) || (options.top > 0 && options.top <= std::ssize(stored.entries)))
             return first_entries(std::move(stored), options.top);
     }
     const Volume whole = volume(context);
-    return rank_dark_objects(whole, data_->trees_now().analysis, options, context);
+    return rank_cavities(whole, data_->trees_now().analysis, options, context);
 }
 
 BranchHierarchy Atlas::hierarchy(const Context& context) const {

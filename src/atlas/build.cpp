@@ -88,8 +88,8 @@ double range_of(const VolumeView& volume) {
         constexpr std::size_t kPart = std::size_t{1} << 20;
         T low = samples[0], high = samples[0];
         for (std::size_t first = 0; first < samples.size(); first += kPart) {
-            const auto [least, most] = std::ranges::minmax(samples.subspan(first, std::min(kPart, samples.size() - first)));
-            low = std::min(low, least), high = std::max(high, most);
+            const auto [min, max] = std::ranges::minmax(samples.subspan(first, std::min(kPart, samples.size() - first)));
+            low = std::min(low, min), high = std::max(high, max);
             check_memory();
         }
         return static_cast<double>(high) - static_cast<double>(low);
@@ -132,7 +132,7 @@ public:
             zones = std::make_unique<Container>(folder_.file(kZones));
         }
         analysis.reset();
-        return_big_memory();
+        trim_memory_pool();
         pack(volume, contents, {trees.get(), zones.get()});
         return report_;
     }

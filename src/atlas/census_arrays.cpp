@@ -28,10 +28,10 @@ LevelCensus census_of(const Container& store) {
     LevelCensus census;
     census.value = store.all<double>("census/value", "float64");
     bool is_sound = !census.value.empty() && std::is_sorted(census.value.begin(), census.value.end());
-    const auto most = static_cast<std::uint64_t>(64 * store.contents().volume.extent.voxels());
+    const auto max = static_cast<std::uint64_t>(64 * store.contents().volume.extent.voxels());
     for_counts(census, [&](const char* name, std::vector<std::uint64_t>& counts) {
         counts = store.all<std::uint64_t>(name, "uint64");
-        is_sound = is_sound && counts.size() == census.value.size() && std::is_sorted(counts.rbegin(), counts.rend()) && counts[0] <= most;
+        is_sound = is_sound && counts.size() == census.value.size() && std::is_sorted(counts.rbegin(), counts.rend()) && counts[0] <= max;
     });
     if (is_sound) return census;
     throw Error(ErrorKind::input, {.file = store.path(),

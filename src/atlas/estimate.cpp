@@ -86,7 +86,7 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     // Slices that every thread holds; what is kept of every brick; counts of levels, of every part that is counted on its own.
     const std::int64_t slices = workers * 8 * info.extent.slice(), bricks = rounded(voxels / 16);
     const std::int64_t census = (2 * std::int64_t{workers} + 1) * 40 * rounded(std::clamp(voxels / 256, 256.0, 65535.0));
-    estimate.memory_least = filter + std::max(kLeastMemory, kProgram + slices + bricks + census);
+    estimate.min_memory = filter + std::max(kMinMemory, kProgram + slices + bricks + census);
     estimate.uses_scratch = estimate.memory > estimate.budget / 5 * 3;
     const double stored = elements > voxels / 2 ? 3 : 7;  // bytes an element; of noise without order and values
     estimate.store_bytes = rounded(voxels * sample + elements * stored);
@@ -100,10 +100,10 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
 }
 
 void check_estimate(const BuildEstimate& estimate, const std::string& volume_path, const std::string& path) {
-    if (estimate.budget < estimate.memory_least) {
+    if (estimate.budget < estimate.min_memory) {
         throw Error(ErrorKind::resource, {.file = volume_path,
                                           .what = "a memory budget of " + std::to_string(estimate.budget >> 20) + " MiB is too small",
-                                          .expected = std::to_string((estimate.memory_least + (1 << 20) - 1) >> 20) + " MiB or more",
+                                          .expected = std::to_string((estimate.min_memory + (1 << 20) - 1) >> 20) + " MiB or more",
                                           .next = "give a larger --memory, or fewer --threads"});
     }
     if (estimate.disk > estimate.disk_free) {

@@ -8,7 +8,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMostElements = std::int64_t{1} << 22;
+constexpr std::int64_t kMaxElements = std::int64_t{1} << 22;
 constexpr std::int64_t kVoxelsAnElement = 3;
 
 /// Calls visit(name, numbers) for every array.
@@ -48,7 +48,7 @@ std::string type_of() {
 
 bool stores_events(const Analysis& analysis) {
     const std::int64_t elements = analysis.element_count();
-    return elements <= kMostElements && elements <= analysis.extent().voxels() / kVoxelsAnElement;
+    return elements <= kMaxElements && elements <= analysis.extent().voxels() / kVoxelsAnElement;
 }
 
 std::vector<PackedArray> event_arrays(const Analysis& analysis) {

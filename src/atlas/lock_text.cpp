@@ -9,7 +9,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kMostPhases = 100;
+constexpr int kMaxPhases = 100;
 constexpr std::size_t kLongestPhase = 64;
 
 void put(std::string& text, double number) {
@@ -60,7 +60,7 @@ BuildState state_in(std::string_view text) {
     double seconds = 0, rate = 0;
     const bool good = take(line, state.phase_index) && take(line, state.phase_count) && take(line, state.peak_memory) &&
                       take(line, state.fraction) && take(line, seconds) && take(line, rate);
-    const bool possible = state.phase_count >= 1 && state.phase_count <= kMostPhases && state.phase_index >= 0 &&
+    const bool possible = state.phase_count >= 1 && state.phase_count <= kMaxPhases && state.phase_index >= 0 &&
                           state.phase_index < state.phase_count && state.fraction >= 0 && state.fraction <= 1 && state.peak_memory >= 0;
     if (!good || !possible || line.size() > kLongestPhase) return {};
     state.seconds_left = known(seconds);

@@ -27,27 +27,27 @@ void for_members(Visit&& visit) {
     visit("objects/inside", "int64", &ObjectEntry::inside);
     visit(kBranchTop, "int64", &ObjectEntry::branch_top);
     visit("objects/outline", "uint8", &ObjectEntry::outline);
-    visit("objects/trunk", "uint8", &ObjectEntry::trunk);
+    visit("objects/trunk", "uint8", &ObjectEntry::main_branch);
 }
 
-/// The same for DarkEntry.
+/// The same for CavityEntry.
 template <class Visit>
 void for_dark_members(Visit&& visit) {
-    visit("dark/id", "int64", &DarkEntry::id);
-    visit("dark/appears", "float64", &DarkEntry::appears);
-    visit("dark/merges", "float64", &DarkEntry::merges);
-    visit("dark/best_tau", "float64", &DarkEntry::best_tau);
-    visit("dark/tau_low", "float64", &DarkEntry::tau_low);
-    visit("dark/tau_high", "float64", &DarkEntry::tau_high);
-    visit("dark/voxels", "int64", &DarkEntry::voxels);
-    visit("dark/measure", "float64", &DarkEntry::measure);
-    visit("dark/hypervolume", "float64", &DarkEntry::hypervolume);
-    visit("dark/object", "int64", &DarkEntry::object);
-    visit("dark/tunnels", "int64", &DarkEntry::tunnels);
-    visit("dark/islands", "int64", &DarkEntry::islands);
-    visit("dark/inside", "int64", &DarkEntry::inside);
-    visit("dark/reason", "uint8", &DarkEntry::reason);
-    visit(kBranchMinimum, "int64", &DarkEntry::branch_minimum);
+    visit("dark/id", "int64", &CavityEntry::id);
+    visit("dark/appears", "float64", &CavityEntry::appears);
+    visit("dark/merges", "float64", &CavityEntry::merges);
+    visit("dark/best_tau", "float64", &CavityEntry::best_tau);
+    visit("dark/tau_low", "float64", &CavityEntry::tau_low);
+    visit("dark/tau_high", "float64", &CavityEntry::tau_high);
+    visit("dark/voxels", "int64", &CavityEntry::voxels);
+    visit("dark/measure", "float64", &CavityEntry::measure);
+    visit("dark/hypervolume", "float64", &CavityEntry::hypervolume);
+    visit("dark/object", "int64", &CavityEntry::object);
+    visit("dark/tunnels", "int64", &CavityEntry::tunnels);
+    visit("dark/islands", "int64", &CavityEntry::islands);
+    visit("dark/inside", "int64", &CavityEntry::inside);
+    visit("dark/reason", "uint8", &CavityEntry::reason);
+    visit(kBranchMinimum, "int64", &CavityEntry::branch_minimum);
 }
 
 /// The same for RecommendedIsovalue. group: "isovalues" or "dark_isovalues".
@@ -168,7 +168,7 @@ bool knows_branches(const ObjectTable& table) {
     return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
 }
 
-std::vector<PackedArray> dark_arrays(const DarkTable& table) {
+std::vector<PackedArray> dark_arrays(const CavityTable& table) {
     std::vector<PackedArray> arrays;
     add_arrays([](const auto& visit) { for_dark_members(visit); }, table.entries, arrays);
     add_arrays([](const auto& visit) { for_isovalue_members("dark_isovalues", visit); }, table.isovalues, arrays);
@@ -179,8 +179,8 @@ std::vector<PackedArray> dark_arrays(const DarkTable& table) {
 
 bool has_dark(const Container& store) { return store.contents().has_array("dark/id"); }
 
-DarkTable dark_of(const Container& store) {
-    DarkTable table{lines_of<DarkEntry>(store, "dark/id", "int64", [](const auto& visit) { for_dark_members(visit); })};
+CavityTable dark_of(const Container& store) {
+    CavityTable table{lines_of<CavityEntry>(store, "dark/id", "int64", [](const auto& visit) { for_dark_members(visit); })};
     const auto branches = store.all<std::int64_t>("dark/branches", "int64");
     const auto noise = store.all<double>("dark/noise", "float64");
     if (branches.size() != 1 || noise.size() != 1) contradiction(store);
@@ -189,7 +189,7 @@ DarkTable dark_of(const Container& store) {
     for (const RecommendedIsovalue& isovalue : table.isovalues) check(isovalue, true, store);
     const Extent& extent = store.contents().volume.extent;
     const auto count = static_cast<std::int64_t>(table.entries.size());
-    for (DarkEntry& entry : table.entries) {
+    for (CavityEntry& entry : table.entries) {
         if (entry.id < 0 || entry.id >= extent.voxels() || entry.inside < -1 || entry.inside >= count) contradiction(store);
         if (entry.reason > IsovalueReason::middle) contradiction(store);
         // What contains an entry has a higher isovalue: the way from one to the next ends.

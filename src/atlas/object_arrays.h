@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 #include "store/container.h"
 #include "store/pack.h"
@@ -30,17 +30,17 @@ inline constexpr std::int64_t kStoredEntries = 1024;
 [[nodiscard]] std::vector<PackedArray> object_arrays(const ObjectTable& table);
 
 [[nodiscard]] bool has_objects(const Container& store);
-/// Does a stored table (ObjectTable, DarkTable) list all that pass the gate?
+/// Does a stored table (ObjectTable, CavityTable) list all that pass the gate?
 [[nodiscard]] bool is_whole(const auto& stored) { return std::ssize(stored.entries) < kStoredEntries; }
 /// Throws Error{input} when it contradicts itself.
 [[nodiscard]] ObjectTable objects_of(const Container& store);
 /// Does it say where the branches of its entries begin? Not in stores of before.
 [[nodiscard]] bool knows_branches(const ObjectTable& table);
 
-/// The table of dark objects, the same way: dark/id, ... as in DarkEntry, dark/branches, noise.
-[[nodiscard]] std::vector<PackedArray> dark_arrays(const DarkTable& table);
+/// The table of dark objects, the same way: dark/id, ... as in CavityEntry, dark/branches, noise.
+[[nodiscard]] std::vector<PackedArray> dark_arrays(const CavityTable& table);
 [[nodiscard]] bool has_dark(const Container& store);
 /// Without notes. Throws Error{input} when it contradicts itself.
-[[nodiscard]] DarkTable dark_of(const Container& store);
+[[nodiscard]] CavityTable dark_of(const Container& store);
 
 }  // namespace isoatlas

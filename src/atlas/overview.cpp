@@ -24,7 +24,7 @@ Overview overview_of(const Atlas& atlas, const Context& context) {
     const Volume whole = atlas.volume(context);
     Analysis zoned = zoned_analysis_of(AtlasAccess::store(atlas), whole, context);
     stop_if_cancelled(context);
-    BothTables tables = rank_both(whole, zoned, {.top = 0}, context);
+    ObjectsAndCavities tables = rank_both(whole, zoned, {.top = 0}, context);
     stop_if_cancelled(context);
     BranchHierarchy hierarchy(whole, zoned, context);
     AtlasAccess::keep(atlas, std::move(zoned));

@@ -8,7 +8,7 @@ namespace isoatlas {
 
 struct Overview {
     ObjectTable bright;  ///< all that pass the gate
-    DarkTable dark;
+    CavityTable dark;
     BranchHierarchy hierarchy;
 };
 

@@ -7,7 +7,7 @@
 namespace isoatlas {
 namespace {
 
-Bounds bounds(std::int64_t least, std::int64_t most) { return {least, most}; }
+Bounds bounds(std::int64_t min, std::int64_t max) { return {min, max}; }
 
 }  // namespace
 
@@ -27,13 +27,12 @@ SurfacePreview Atlas::preview(double tau, const Context& context) const {
     preview.points = preview.triangles = counts.hits;
     if (is_3d) {
         const std::int64_t chi = 2 * (preview.contours - preview.tunnels);  // tunnels: the sum of the genera
-        for (std::int64_t* count : {&preview.triangles.least, &preview.triangles.most})
-            *count = std::max<std::int64_t>(0, 2 * (*count - chi));
+        for (std::int64_t* count : {&preview.triangles.min, &preview.triangles.max}) *count = std::max<std::int64_t>(0, 2 * (*count - chi));
     }
     const StoredSamples::Foreseen reads = AtlasAccess::samples(*this).foresee(tau);
-    preview.bricks = bounds(reads.least.bricks, reads.most.bricks);
-    preview.bytes = bounds(reads.least.bytes, reads.most.bytes);
-    preview.extents = bounds(reads.least.extents, reads.most.extents);
+    preview.bricks = bounds(reads.min.bricks, reads.max.bricks);
+    preview.bytes = bounds(reads.min.bytes, reads.max.bytes);
+    preview.extents = bounds(reads.min.extents, reads.max.extents);
     return preview;
 }
 

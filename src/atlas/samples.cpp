@@ -70,11 +70,11 @@ Volume Atlas::samples(const SampleBox& box, std::int64_t step, const Context& co
     return volume;
 }
 
-CoarseVolume Atlas::coarse(std::int64_t most, const Context& context) const {
+CoarseVolume Atlas::coarse(std::int64_t max, const Context& context) const {
     constexpr std::int64_t kLargestCube = 8;  // that lies in one brick
-    if (most < 1) throw Error(ErrorKind::usage, {.where = "most", .what = "no values would be left", .expected = "1 or more"});
+    if (max < 1) throw Error(ErrorKind::usage, {.where = "most", .what = "no values would be left", .expected = "1 or more"});
     CoarseVolume result{.step = 1, .extent = info().extent, .mean = {}};
-    while (result.extent.voxels() > most && result.step < kLargestCube) {
+    while (result.extent.voxels() > max && result.step < kLargestCube) {
         result.step *= 2;
         for (int a = 0; a < 3; ++a) result.extent.size[a] = steps_along(info().extent.size[a], result.step);
     }
@@ -88,7 +88,7 @@ CoarseVolume Atlas::coarse(std::int64_t most, const Context& context) const {
         samples.read_means(result.step, layer, result.mean, context, spent);
     }
     AtlasAccess::count(*this, spent, 0, nullptr);
-    while (result.extent.voxels() > most) result = halved(result);
+    while (result.extent.voxels() > max) result = halved(result);
     return result;
 }
 

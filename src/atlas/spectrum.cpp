@@ -118,8 +118,8 @@ Spectrum spectrum(const Volume& volume, const Analysis& analysis, const Spectrum
     Spectrum spectrum = count(analysis, rank_objects(volume, analysis, ranking(options), context));
     spectrum.selected = options.selection.has_value();
     const auto [low, high] = visit_samples(volume, [](auto samples) {
-        const auto [least, most] = std::ranges::minmax(samples);
-        return std::pair(static_cast<double>(least), static_cast<double>(most));
+        const auto [min, max] = std::ranges::minmax(samples);
+        return std::pair(static_cast<double>(min), static_cast<double>(max));
     });
     const std::vector<double> taus = isovalues(low, high, options.samples);
     const ExtractOptions how = bare(analysis.interpolant(), analysis.tunnel_height());

@@ -13,7 +13,7 @@ namespace {
 
 void add_tables(const Analysis& analysis, const VolumeView& volume, const Context& quiet, const std::function<void(double)>& done,
                 ZonePhase& phase) {
-    const BothTables tables = rank_both(volume, analysis, {.top = kStoredEntries}, quiet);
+    const ObjectsAndCavities tables = rank_both(volume, analysis, {.top = kStoredEntries}, quiet);
     done(0.9);
     const auto add = [&phase](std::vector<PackedArray> more) { std::ranges::move(more, std::back_inserter(phase.arrays)); };
     add(object_arrays(tables.bright));

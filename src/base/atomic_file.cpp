@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-constexpr int kMostNames = 100;                // that are tried: 64 random bits are hardly ever taken
-constexpr std::size_t kMostEntries = 100'000;  // of a folder that is tidied up
+constexpr int kMaxNames = 100;                // that are tried: 64 random bits are hardly ever taken
+constexpr std::size_t kMaxEntries = 100'000;  // of a folder that is tidied up
 constexpr const char* kNeedsFile = "cannot be written: this format needs a file, not a device or a pipe";
 
 /// Removes what a crash has left in a folder: only our names, and only files of this user that nobody writes.
 void tidy_up(const std::string& folder) {
-    for (const std::string& name : file_system().entries(folder, kMostEntries)) {
+    for (const std::string& name : file_system().entries(folder, kMaxEntries)) {
         if (is_temporary_name(name)) file_system().remove_abandoned(folder + "/" + name);
     }
 }
@@ -31,7 +31,7 @@ void tidy_up(const std::string& folder) {
 template <class Call>
 int with_new_name(const std::string& folder, std::string& name, const Call& call) {
     int error = -EEXIST;
-    for (int i = 0; i < kMostNames && error == -EEXIST; ++i) {
+    for (int i = 0; i < kMaxNames && error == -EEXIST; ++i) {
         name = (folder == "/" ? "" : folder) + "/" + temporary_name();
         error = call(name);
     }

@@ -16,11 +16,11 @@ namespace {
 /// The limit of a control group, or of its parents; nothing when there is none.
 std::int64_t control_group_limit() {
     std::ifstream own("/proc/self/cgroup");
-    std::int64_t least = INT64_MAX;
+    std::int64_t min = INT64_MAX;
     const auto look = [&](const std::string& path) {
         std::ifstream file(path);
         std::int64_t bytes = 0;
-        if (file >> bytes && bytes > 0) least = std::min(least, bytes);
+        if (file >> bytes && bytes > 0) min = std::min(min, bytes);
     };
     for (std::string line; std::getline(own, line);) {
         const std::size_t colon = line.rfind(':');
@@ -33,7 +33,7 @@ std::int64_t control_group_limit() {
             look("/sys/fs/cgroup/memory" + line.substr(colon + 1) + "/memory.limit_in_bytes");
         }
     }
-    return least;
+    return min;
 }
 
 }  // namespace

@@ -148,6 +148,6 @@ void free_big(void* memory, std::size_t bytes) noexcept {
     }
 }
 
-void return_big_memory() noexcept { pool().give_back(); }
+void trim_memory_pool() noexcept { pool().give_back(); }
 
 }  // namespace isoatlas

@@ -15,7 +15,7 @@ using BigVector = Array<T>;
 
 /// v.resize(count) when nobody needs what is in v. A vector that was used before gets room to grow.
 template <class T>
-void resize_fresh(BigVector<T>& v, std::size_t count) {
+void resize_for_overwrite(BigVector<T>& v, std::size_t count) {
     if (count > v.capacity()) {
         const std::size_t room = v.capacity() == 0 ? count : count + count / 8;
         v = {};

@@ -14,7 +14,7 @@ namespace isoatlas {
 class BitRanks {
 public:
     explicit BitRanks(std::size_t bound) {
-        const KeepInMemory keep;
+        const PinInMemory keep;
         words_.assign(bound / kBits + 1, std::uint64_t{0});
     }
 
@@ -28,7 +28,7 @@ public:
 
     /// Once all are added. Returns how many there are.
     std::size_t count() {
-        const KeepInMemory keep;
+        const PinInMemory keep;
         before_.resize(words_.size());
         std::size_t sum = 0;
         for (std::size_t w = 0; w < words_.size(); ++w) {

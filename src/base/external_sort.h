@@ -18,9 +18,9 @@ namespace isoatlas {
 /// Items that a thread may sort at once: with the copy and the places of sort_by_steps() a small share of the limit.
 template <class T>
 [[nodiscard]] std::size_t sortable_items(int threads) {
-    constexpr std::size_t kShare = 32, kLeast = std::size_t{1} << 10;
+    constexpr std::size_t kShare = 32, kMin = std::size_t{1} << 10;
     const std::size_t bytes = static_cast<std::size_t>(memory_limit()) / kShare / static_cast<std::size_t>(thread_count(threads));
-    return std::max(kLeast, bytes / (2 * sizeof(T) + sizeof(std::size_t)));
+    return std::max(kMin, bytes / (2 * sizeof(T) + sizeof(std::size_t)));
 }
 
 /// Calls visit(item) for the items of all runs in order. runs: each in order; before(p, q): strict, items of which neither comes before
@@ -39,7 +39,7 @@ void merge_runs(std::span<const std::span<const T>> runs, const Before& before, 
         if (readers.has_next(run)) heads.push_back({readers.next(run), run});
     }
     std::make_heap(heads.begin(), heads.end(), later);
-    PacedCheck memory;
+    BudgetPoll memory;
     while (!heads.empty()) {
         memory.step();
         std::pop_heap(heads.begin(), heads.end(), later);

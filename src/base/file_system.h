@@ -26,9 +26,9 @@ public:
     /// Reads at most out.size() bytes at offset; the number read (0 at the end of the file), or -errno. May be called by several threads.
     [[nodiscard]] virtual std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out);
     /// read_at(), of what need not be waited for: -EAGAIN where nothing of it is in memory.
-    [[nodiscard]] virtual std::ptrdiff_t read_present(std::int64_t offset, std::span<std::byte> out);
+    [[nodiscard]] virtual std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out);
     /// Says that bytes, at least one, will be read soon: they may be fetched meanwhile.
-    virtual void expect(std::int64_t offset, std::int64_t bytes);
+    virtual void prefetch(std::int64_t offset, std::int64_t bytes);
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
     [[nodiscard]] virtual std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes);
     /// Cuts the file, or lengthens it by zeros. 0 or -errno, as all that follow.
@@ -99,7 +99,7 @@ public:
     /// An empty one.
     [[nodiscard]] virtual int remove_folder(const std::string& path);
     /// Names of at most `most` entries of a folder, in no order; nothing when it cannot be read.
-    [[nodiscard]] virtual std::vector<std::string> entries(const std::string& path, std::size_t most);
+    [[nodiscard]] virtual std::vector<std::string> entries(const std::string& path, std::size_t max);
     /// Returns when the names in a folder would survive a power failure. Systems that cannot promise it say that it went well.
     [[nodiscard]] virtual int sync_folder(const std::string& path);
 };

@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-thread_local bool keeps_in_memory = false;  // KeepInMemory
+thread_local bool keeps_in_memory = false;  // PinInMemory
 
 std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
@@ -53,12 +53,12 @@ int open_scratch(const std::string& folder) {
 }
 
 /// Maps a part of the file, at an address that has another place in its huge page than the part has in the file: the system would map
-/// up to 2 MB of its cache at one touch, and so maps PacedCheck::kTouch. Null when it cannot.
+/// up to 2 MB of its cache at one touch, and so maps BudgetPoll::kTouch. Null when it cannot.
 void* map_scratch(int file, off_t offset, std::size_t size) {
     void* const room = ::mmap(nullptr, size + kHugePage, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED) return nullptr;
     const auto begin = reinterpret_cast<std::uintptr_t>(room);
-    const std::size_t head = (static_cast<std::size_t>(offset) + PacedCheck::kTouch - begin) % kHugePage;  // wraps around and back
+    const std::size_t head = (static_cast<std::size_t>(offset) + BudgetPoll::kTouch - begin) % kHugePage;  // wraps around and back
     char* const at = static_cast<char*>(room) + head;
     if (head > 0) ::munmap(room, head);
     if (head < kHugePage) ::munmap(at + size, kHugePage - head);
@@ -132,7 +132,7 @@ public:
     [[nodiscard]] std::int64_t limit() const noexcept { return active_ ? limit_.load() : 0; }
 
     void* take(std::size_t bytes) {
-        if (!active_ || bytes < kLeastScratch) return nullptr;
+        if (!active_ || bytes < kMinScratch) return nullptr;
         const std::size_t size = rounded(bytes);
         std::unique_lock lock(mutex_);
         if (keeps_in_memory && kept_bytes_ + static_cast<std::int64_t>(bytes) <= at_random()) {
@@ -159,7 +159,7 @@ public:
     }
 
     bool give(void* memory, std::size_t bytes) noexcept {
-        if (bytes < kLeastScratch) return false;
+        if (bytes < kMinScratch) return false;
         std::unique_lock lock(mutex_);
         const auto found = pieces_.find(static_cast<char*>(memory));
         if (found == pieces_.end()) {
@@ -212,7 +212,7 @@ private:
     /// Unmaps arrays, part after part in turn, until so many bytes are left or nothing is mapped.
     void make_room(std::int64_t bytes) {
         const std::lock_guard lock(mutex_);
-        const std::size_t part = static_cast<std::size_t>(std::max<std::int64_t>(limit_ / 32, kLeastScratch)) / kPage * kPage;
+        const std::size_t part = static_cast<std::size_t>(std::max<std::int64_t>(limit_ / 32, kMinScratch)) / kPage * kPage;
         for (std::size_t round = 0; round < pieces_.size() + 1; ++round) {
             auto piece = pieces_.upper_bound(next_unmapped_);
             if (piece != pieces_.begin()) --piece;
@@ -347,18 +347,18 @@ MemoryLimit::~MemoryLimit() {
     if (holds_) scratch().stop();
 }
 
-KeepInMemory::KeepInMemory() : before_(std::exchange(keeps_in_memory, true)) {}
-KeepInMemory::~KeepInMemory() { keeps_in_memory = before_; }
+PinInMemory::PinInMemory() : before_(std::exchange(keeps_in_memory, true)) {}
+PinInMemory::~PinInMemory() { keeps_in_memory = before_; }
 
 void* take_scratch(std::size_t bytes) { return scratch().take(bytes); }
 bool give_scratch(void* memory, std::size_t bytes) noexcept { return scratch().give(memory, bytes); }
 std::size_t check_memory() {
-    constexpr std::int64_t kLeast = std::int64_t{1} << 18;
+    constexpr std::int64_t kMin = std::int64_t{1} << 18;
     static const std::int64_t threads = std::max(1U, std::thread::hardware_concurrency());
     if (!scratch().active()) return std::numeric_limits<std::size_t>::max();
-    return static_cast<std::size_t>(std::max(scratch().check() / (2 * threads), kLeast));
+    return static_cast<std::size_t>(std::max(scratch().check() / (2 * threads), kMin));
 }
-std::size_t PacedCheck::look() {
+std::size_t BudgetPoll::look() {
     if (!scratch().active()) return std::numeric_limits<std::size_t>::max();
     static thread_local long faults_before = 0;
     static thread_local std::size_t left = 0;

@@ -27,10 +27,10 @@ private:
 };
 
 /// The smallest limit that leaves room for the program itself and some pages of every array.
-inline constexpr std::int64_t kLeastMemory = std::int64_t{80} << 20;
+inline constexpr std::int64_t kMinMemory = std::int64_t{80} << 20;
 
 /// Arrays of fewer bytes stay in memory.
-inline constexpr std::size_t kLeastScratch = std::size_t{1} << 20;
+inline constexpr std::size_t kMinScratch = std::size_t{1} << 20;
 
 /// Bytes for arrays that stay in memory, of the limit in force: what is accessed at random may take so much. Nothing is in force: no bound.
 [[nodiscard]] std::int64_t memory_at_random() noexcept;
@@ -43,12 +43,12 @@ inline constexpr std::size_t kLeastScratch = std::size_t{1} << 20;
 
 /// While one lives, arrays that this thread makes stay in memory as long as they take no more than memory_at_random() together: those
 /// that are accessed at random, where every touch of the scratch file would cost a page.
-class KeepInMemory {
+class PinInMemory {
 public:
-    KeepInMemory();
-    ~KeepInMemory();
-    KeepInMemory(const KeepInMemory&) = delete;
-    KeepInMemory& operator=(const KeepInMemory&) = delete;
+    PinInMemory();
+    ~PinInMemory();
+    PinInMemory(const PinInMemory&) = delete;
+    PinInMemory& operator=(const PinInMemory&) = delete;
 
 private:
     bool before_;
@@ -64,7 +64,7 @@ private:
 std::size_t check_memory();
 /// Calls it in a loop as soon as the steps may have used up what the last call allowed: so the limit does not depend on the watcher. What
 /// they did use up is known from the page faults of the thread, which cost less to ask for.
-class PacedCheck {
+class BudgetPoll {
 public:
     /// bytes: that the step may bring into memory, on average where it runs in order; kTouch for every array that it goes anywhere in.
     void step(std::size_t bytes = 64) {

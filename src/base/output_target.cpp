@@ -12,7 +12,7 @@ namespace isoatlas {
 namespace {
 
 using Kind = FileStatus::Kind;
-constexpr int kMostLinks = 40;  // as many as the system follows
+constexpr int kMaxLinks = 40;  // as many as the system follows
 constexpr const char* kOtherName = "choose another name with -o";
 
 bool is_own_descriptor(const std::string& path) { return path == "/dev/stdout" || path.starts_with("/dev/fd/"); }
@@ -77,7 +77,7 @@ OutputTarget find_target(const std::string& path, Obstacle& obstacle) {
             break;
         }
         if (!target.status.trusted) obstacle = {"is a link that another user made", kOtherName};
-        if (links == kMostLinks) obstacle = refused_by_system(-ELOOP);
+        if (links == kMaxLinks) obstacle = refused_by_system(-ELOOP);
         if (!obstacle.what.empty()) return target;
         const std::filesystem::path link = file_system().link(target.path);
         target.path = link.is_absolute() ? link.string() : (std::filesystem::path(target.path).parent_path() / link).string();

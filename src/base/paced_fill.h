@@ -15,7 +15,7 @@ void fill_fresh(BigVector<T>& array, std::size_t count, const T& value) {
     constexpr std::size_t kTogether = std::size_t{1} << 13;
     array.clear();
     array.resize(count);  // writes nothing
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t first = 0; first < count; first += kTogether) {
         const std::size_t some = std::min(kTogether, count - first);
         memory.step(some * sizeof(T));
@@ -27,7 +27,7 @@ void fill_fresh(BigVector<T>& array, std::size_t count, const T& value) {
 template <class T>
 [[nodiscard]] BigVector<T> scratch_chunk() {
     BigVector<T> array;
-    if (memory_is_limited()) array.reserve(kLeastScratch / sizeof(T) + 1);
+    if (memory_is_limited()) array.reserve(kMinScratch / sizeof(T) + 1);
     return array;
 }
 

@@ -23,11 +23,11 @@ void for_each_index(int threads, std::size_t n, const Work& work) {
     for_each_block(threads, static_cast<std::int64_t>((n + kBlock - 1) / kBlock), [&](std::int64_t block) {
         constexpr std::size_t kTogether = 64;
         const std::size_t first = block * kBlock, last = n - first < kBlock ? n : first + kBlock;
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t begin = first; begin < last; begin += kTogether) {
             const std::size_t end = std::min(begin + kTogether, last);
             for (std::size_t i = begin; i < end; ++i) work(i);
-            memory.step((end - begin) * (PacedCheck::kTouch / 8));  // many a step goes anywhere
+            memory.step((end - begin) * (BudgetPoll::kTouch / 8));  // many a step goes anywhere
         }
     });
 }

@@ -60,13 +60,13 @@ private:
 template <class T, class Key, class Before, class Allocate, class Put>
 void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
                  const Put& put) {
-    constexpr std::size_t kBucket = 1 << 10, kMostBuckets = 1 << 12, kSampled = 16, kGroups = 8;
+    constexpr std::size_t kBucket = 1 << 10, kMaxBuckets = 1 << 12, kSampled = 16, kGroups = 8;
     std::size_t n = 0;
     for (const BigVector<T>& chunk : chunks) n += chunk.size();
-    const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMostBuckets);
+    const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMaxBuckets);
     std::vector<double> sample;
     const std::size_t stride = std::max<std::size_t>(1, n / (kSampled * count));
-    PacedCheck sampled;
+    BudgetPoll sampled;
     for (const BigVector<T>& chunk : chunks) {
         for (std::size_t i = 0; i < chunk.size(); i += stride) {
             sampled.step(stride * sizeof(T));
@@ -82,7 +82,7 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         for (std::size_t c = g * chunks.size() / groups; c < (g + 1) * chunks.size() / groups; ++c) visit(chunks[c]);
     };
     for_each_block(threads, static_cast<std::int64_t>(groups), [&](std::int64_t g) {
-        PacedCheck memory;
+        BudgetPoll memory;
         for_chunks_of(g, [&](const BigVector<T>& chunk) {
             for (const T& item : chunk) {
                 memory.step();
@@ -98,7 +98,7 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     first[count] = n;
     BigVector<T> sorted(n);
     for_each_block(threads, static_cast<std::int64_t>(groups), [&](std::int64_t g) {
-        PacedCheck memory;
+        BudgetPoll memory;
         PartWriters<T> writers(sorted, std::span(place).subspan(g * count, count));
         for_chunks_of(g, [&](BigVector<T>& chunk) {
             for (const T& item : chunk) {
@@ -110,11 +110,11 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         writers.finish();
     });
     allocate(n);
-    const std::size_t most = is_scratch(sorted.data()) ? sortable_items<T>(threads) : n;
+    const std::size_t max = is_scratch(sorted.data()) ? sortable_items<T>(threads) : n;
     const auto bucket_of = [&](std::size_t b) { return std::span(sorted).subspan(first[b], first[b + 1] - first[b]); };
     for_each_block(threads, static_cast<std::int64_t>(count), [&](std::int64_t b) {
         std::span<T> bucket = bucket_of(b);
-        if (bucket.size() > most) return;
+        if (bucket.size() > max) return;
         std::vector<T> buffer;
         if (is_scratch(bucket.data())) {
             (void)part_in_memory<T>(bucket, buffer);
@@ -124,8 +124,8 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         put(first[b], std::span<const T>(bucket));
     });
     for (std::size_t b = 0; b < count; ++b) {
-        if (bucket_of(b).size() <= most) continue;
-        sort_large(threads, bucket_of(b), most, key, before,
+        if (bucket_of(b).size() <= max) continue;
+        sort_large(threads, bucket_of(b), max, key, before,
                    [&](std::size_t from, std::span<const T> items) { put(first[b] + from, items); });
     }
 }

@@ -16,9 +16,9 @@ namespace isoatlas {
 /// Items of a buffer when there are so many: all together a small share of the limit.
 template <class T>
 [[nodiscard]] std::size_t buffered_items(std::size_t parts) {
-    constexpr std::size_t kShare = 64, kLeast = 512, kMost = std::size_t{1} << 16;
+    constexpr std::size_t kShare = 64, kMin = 512, kMax = std::size_t{1} << 16;
     const std::size_t bytes = static_cast<std::size_t>(memory_limit()) / kShare / std::max<std::size_t>(parts, 1);
-    return std::max<std::size_t>(std::clamp(bytes, kLeast, kMost) / sizeof(T), 1);
+    return std::max<std::size_t>(std::clamp(bytes, kMin, kMax) / sizeof(T), 1);
 }
 
 /// A part of an array to be read once: in place, or a copy in the buffer.

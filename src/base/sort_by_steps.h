@@ -17,9 +17,9 @@ void sort_by_steps(std::span<T> items, const Key& key, const Before& before) {
     const std::size_t n = items.size();
     double low = 0, factor = 0;
     if (n > kFew) {
-        const auto [least, most] = std::minmax_element(items.begin(), items.end(), [&](const T& p, const T& q) { return key(p) < key(q); });
-        low = key(*least);
-        factor = static_cast<double>(n - 1) / (key(*most) - low);
+        const auto [min, max] = std::minmax_element(items.begin(), items.end(), [&](const T& p, const T& q) { return key(p) < key(q); });
+        low = key(*min);
+        factor = static_cast<double>(n - 1) / (key(*max) - low);
     }
     if (!(factor > 0 && factor < 1e300)) return std::sort(items.begin(), items.end(), before);
     const auto step_of = [&](const T& item) { return std::min(n - 1, static_cast<std::size_t>((key(item) - low) * factor)); };

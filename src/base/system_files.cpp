@@ -50,13 +50,13 @@ public:
         const ::ssize_t done = ::pread(descriptor_, out.data(), out.size(), offset);
         return done < 0 ? -errno : done;
     }
-    std::ptrdiff_t read_present(std::int64_t offset, std::span<std::byte> out) override {
+    std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out) override {
         const ::iovec part{out.data(), out.size()};
         const ::ssize_t done = ::preadv2(descriptor_, &part, 1, offset, RWF_NOWAIT);
         if (done >= 0) return done;
         return errno == EAGAIN ? -EAGAIN : read_at(offset, out);  // not every file system can tell
     }
-    void expect(std::int64_t offset, std::int64_t bytes) override {
+    void prefetch(std::int64_t offset, std::int64_t bytes) override {
         (void)::posix_fadvise(descriptor_, offset, bytes, POSIX_FADV_WILLNEED);
     }
     std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes) override {
@@ -224,11 +224,11 @@ public:
     }
     int make_folder(const std::string& path) override { return error_of(::mkdir(path.c_str(), 0777)); }
     int remove_folder(const std::string& path) override { return error_of(::rmdir(path.c_str())); }
-    std::vector<std::string> entries(const std::string& path, std::size_t most) override {
+    std::vector<std::string> entries(const std::string& path, std::size_t max) override {
         std::vector<std::string> names;
         std::error_code error;
         std::filesystem::directory_iterator at(path, error);
-        while (!error && at != std::filesystem::directory_iterator() && names.size() < most) {
+        while (!error && at != std::filesystem::directory_iterator() && names.size() < max) {
             names.push_back(at->path().filename().string());
             at.increment(error);
         }

@@ -102,10 +102,10 @@ std::string written_name(std::string_view name) {
 
 std::string shown_name(std::string_view name) { return escaped(name, is_control); }
 
-std::string_view utf8_prefix(std::string_view text, std::size_t most) {
-    if (text.size() <= most) return text;
-    std::size_t end = most;
-    while (end > 0 && most - end < 3 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+std::string_view utf8_prefix(std::string_view text, std::size_t max) {
+    if (text.size() <= max) return text;
+    std::size_t end = max;
+    while (end > 0 && max - end < 3 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
     return text.substr(0, end);
 }
 

@@ -13,7 +13,7 @@ namespace isoatlas {
 /// From many threads.
 class TextCache {
 public:
-    explicit TextCache(std::size_t most) : most_(most) {}
+    explicit TextCache(std::size_t max) : max_(max) {}
 
     [[nodiscard]] std::optional<std::string> find(const std::string& name) const {
         const std::lock_guard lock(mutex_);
@@ -25,13 +25,13 @@ public:
         const std::lock_guard lock(mutex_);
         if (!texts_.emplace(name, text).second) return;
         oldest_first_.push_back(name);
-        if (oldest_first_.size() <= most_) return;
+        if (oldest_first_.size() <= max_) return;
         texts_.erase(oldest_first_.front());
         oldest_first_.pop_front();
     }
 
 private:
-    std::size_t most_;
+    std::size_t max_;
     mutable std::mutex mutex_;
     std::map<std::string, std::string> texts_;
     std::deque<std::string> oldest_first_;

@@ -13,7 +13,7 @@ template <class Id>
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count = 0) : parent_(count) {
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t x = 0; x < count; ++x) parent_[x] = static_cast<Id>(x), memory.step(sizeof(Id));
     }
 
@@ -40,8 +40,8 @@ public:
     }
     /// The root of every element.
     [[nodiscard]] BigVector<Id> roots() && {
-        PacedCheck memory;
-        for (Id x = 0; x < parent_.size(); ++x) parent_[x] = find(x), memory.step(PacedCheck::kTouch);
+        BudgetPoll memory;
+        for (Id x = 0; x < parent_.size(); ++x) parent_[x] = find(x), memory.step(BudgetPoll::kTouch);
         return std::move(parent_);
     }
     [[nodiscard]] std::size_t size() const { return parent_.size(); }

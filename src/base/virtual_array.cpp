@@ -24,14 +24,14 @@ std::size_t VirtualArray::page_bytes() {
     return kBytes;
 }
 
-void VirtualArray::take([[maybe_unused]] std::size_t first, [[maybe_unused]] std::size_t bytes) {
+void VirtualArray::commit([[maybe_unused]] std::size_t first, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
     const std::size_t begin = first / page_bytes() * page_bytes(), end = std::min(first + bytes, bytes_);
     if (begin < end) (void)madvise(data_ + begin, end - begin, MADV_POPULATE_WRITE);
 #endif
 }
 
-void VirtualArray::give_back(std::size_t first, std::size_t bytes) {
+void VirtualArray::release(std::size_t first, std::size_t bytes) {
     if (first < bytes_) madvise(data_ + first, std::min(bytes, bytes_ - first), MADV_DONTNEED);
 }
 

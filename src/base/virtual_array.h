@@ -19,10 +19,10 @@ public:
     [[nodiscard]] static std::size_t page_bytes();
     /// Takes the memory of the pages of some bytes that will be written: one call is cheaper than a fault for each page. Where the system
     /// cannot, nothing happens; they are taken when they are written.
-    void take(std::size_t first, std::size_t bytes);
+    void commit(std::size_t first, std::size_t bytes);
     /// Gives the memory of whole pages back; they are zero afterwards. first: a multiple of page_bytes(). bytes may reach into the last
     /// page, or beyond the end.
-    void give_back(std::size_t first, std::size_t bytes);
+    void release(std::size_t first, std::size_t bytes);
 
 private:
     std::byte* data_;

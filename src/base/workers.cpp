@@ -18,7 +18,7 @@ Workers::~Workers() {
 bool Workers::post(std::function<void()> job) {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(job));
-    if (idle_ < std::ssize(jobs_) && std::ssize(threads_) < most_) {
+    if (idle_ < std::ssize(jobs_) && std::ssize(threads_) < max_) {
         try {
             threads_.reserve(threads_.size() + 1);
             threads_.emplace_back([this] { work(); });

@@ -13,7 +13,7 @@ namespace isoatlas {
 class Workers {
 public:
     /// most: threads.
-    explicit Workers(int most) : most_(most) {}
+    explicit Workers(int max) : max_(max) {}
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
     /// Waits for all jobs.
@@ -27,7 +27,7 @@ public:
 private:
     void work();
 
-    const int most_;
+    const int max_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::function<void()>> jobs_;

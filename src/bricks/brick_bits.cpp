@@ -16,13 +16,13 @@ constexpr std::int64_t kRow = kBrickRow, kSide = kBrickSize[1];
 #if defined(__SSE2__)
 /// Which of 16 samples are at least `least`, as bits.
 template <class T>
-std::uint16_t bits_of_row(const T* samples, T least) {
+std::uint16_t bits_of_row(const T* samples, T min) {
     typedef T Vector __attribute__((vector_size(16)));  // NOLINT(modernize-use-using): an alias template would lose the attribute
     __m128i masks[sizeof(T)];                           // one, two, four or eight times 16 bytes of samples
     for (std::size_t i = 0; i < sizeof(T); ++i) {
         Vector vector;
         std::memcpy(&vector, samples + i * 16 / sizeof(T), 16);
-        masks[i] = reinterpret_cast<__m128i>(vector >= least);
+        masks[i] = reinterpret_cast<__m128i>(vector >= min);
     }
     if constexpr (sizeof(T) == 8) {
         for (std::size_t i = 0; i < 4; ++i)
@@ -34,9 +34,9 @@ std::uint16_t bits_of_row(const T* samples, T least) {
 }
 #else
 template <class T>
-std::uint16_t bits_of_row(const T* samples, T least) {
+std::uint16_t bits_of_row(const T* samples, T min) {
     std::uint16_t bits = 0;
-    for (std::int64_t x = 0; x < kRow; ++x) bits |= static_cast<std::uint16_t>((samples[x] >= least) << x);
+    for (std::int64_t x = 0; x < kRow; ++x) bits |= static_cast<std::uint16_t>((samples[x] >= min) << x);
     return bits;
 }
 #endif
@@ -44,13 +44,13 @@ std::uint16_t bits_of_row(const T* samples, T least) {
 }  // namespace
 
 template <class T>
-BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T least) {
+BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T min) {
     BrickBits bits{};
     const auto columns = static_cast<std::uint16_t>(0xffff >> (kRow - size[0]));
     for (std::int64_t z = 0; z < size[2]; ++z) {
         for (std::int64_t y = 0; y < size[1]; ++y) {
             const std::int64_t row = y + kSide * z;
-            bits[static_cast<std::size_t>(row)] = bits_of_row(samples + kRow * row, least) & columns;
+            bits[static_cast<std::size_t>(row)] = bits_of_row(samples + kRow * row, min) & columns;
         }
     }
     return bits;
@@ -70,10 +70,10 @@ void put_brick(const BrickBits& bits, const Box& box, HighBits& high) {
     }
 }
 
-BrickSides sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size) {
+BrickFaces sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size) {
     const auto whole = static_cast<std::uint16_t>(0xffff >> (kRow - size[0]));
     const auto behind = [&size](std::size_t axis) { return static_cast<std::uint16_t>(0xff & ~(0xff >> (kSide - size[axis]))); };
-    BrickSides sides;
+    BrickFaces sides;
     sides.low[1] = behind(1), sides.low[2] = behind(2);
     std::uint16_t all = 0xffff;
     for (std::int64_t z = 0; z < size[2]; ++z) {

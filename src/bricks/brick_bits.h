@@ -17,15 +17,15 @@ using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)
 /// samples: of the place of a brick (bricks/brick_layout.h), row after row, all slices that bricks of the grid have. least: of the Highs.
 /// T: a sample type.
 template <class T>
-[[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T least);
+[[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T min);
 
 /// Writes them where the brick lies, over what is there.
 void put_brick(const BrickBits& bits, const Box& box, HighBits& high);
 
 /// Layers of a brick along each axis that have Highs, that have Lows; what lies beyond a smaller brick is Low.
-struct BrickSides {
+struct BrickFaces {
     std::array<std::uint16_t, 3> high{}, low{};
 };
-[[nodiscard]] BrickSides sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size);
+[[nodiscard]] BrickFaces sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size);
 
 }  // namespace isoatlas

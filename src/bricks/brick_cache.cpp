@@ -30,17 +30,17 @@ void BrickCache::drop_pages(std::int64_t brick, PageRange& unused) {
         if (--users_[static_cast<std::size_t>(page)] > 0) continue;
         --pages_;
         if (page != unused.end) {
-            give_back(unused);
+            release(unused);
             unused.begin = page;
         }
         unused.end = page + 1;
     }
 }
 
-void BrickCache::give_back(const PageRange& unused) {
+void BrickCache::release(const PageRange& unused) {
     if (unused.begin == unused.end) return;
-    array_.give_back(static_cast<std::size_t>(unused.begin * page_bytes_),
-                     static_cast<std::size_t>((unused.end - unused.begin) * page_bytes_));
+    array_.release(static_cast<std::size_t>(unused.begin * page_bytes_),
+                   static_cast<std::size_t>((unused.end - unused.begin) * page_bytes_));
 }
 
 std::vector<std::int64_t> BrickCache::admit(std::span<const std::int64_t> bricks, BrickLease& lease) {
@@ -67,7 +67,7 @@ void BrickCache::settle(std::span<const std::int64_t> bricks) {
 void BrickCache::abandon(std::span<const std::int64_t> bricks) {
     PageRange unused;
     for (const std::int64_t b : bricks) drop_pages(b, unused);
-    give_back(unused);
+    release(unused);
 }
 
 void BrickCache::end(std::span<const std::int64_t> bricks) {
@@ -92,7 +92,7 @@ void BrickCache::trim() {
         state_[static_cast<std::size_t>(b)].present = false;
         drop_pages(b, unused);
     }
-    give_back(unused);
+    release(unused);
 }
 
 void BrickCache::clear() {
@@ -102,7 +102,7 @@ void BrickCache::clear() {
         state_[b].present = false;
         drop_pages(static_cast<std::int64_t>(b), unused);
     }
-    give_back(unused);
+    release(unused);
 }
 
 }  // namespace isoatlas

@@ -65,7 +65,7 @@ private:
     };
     /// Adds a brick's pages to `unused`, which is given back when others come.
     void drop_pages(std::int64_t brick, PageRange& unused);
-    void give_back(const PageRange& unused);
+    void release(const PageRange& unused);
     void trim();
 
     std::int64_t brick_bytes_, page_bytes_, budget_;

@@ -52,12 +52,12 @@ std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vect
     std::transform(classes.begin(), classes.end(), has.begin(), [](BrickClass own) {
         return own == BrickClass::divided ? kLow | kHigh : own == BrickClass::high ? kHigh : kLow;
     });
-    std::vector<std::uint8_t> touching = with_neighbours(grid, has, kLow);
+    std::vector<std::uint8_t> touching = with_halo(grid, has, kLow);
     for (std::size_t b = 0; b < touching.size(); ++b) touching[b] = classes[b] != BrickClass::divided && touching[b] != has[b];
     return touching;
 }
 
-bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides, std::int64_t brick) {
+bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides, std::int64_t brick) {
     const BrickGrid& grid = bricks.grid;
     const BrickClass own = bricks.classes[static_cast<std::size_t>(brick)];
     const std::array<std::int64_t, 3> place = grid.place(brick);
@@ -90,17 +90,17 @@ bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const st
     return false;
 }
 
-std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
+std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides,
                                          int threads) {
     std::vector<std::uint8_t> wanted = touching_others(bricks.grid, bricks.classes);
     for_bricks(bricks.grid, threads, [&](std::int64_t b) {
         const auto i = static_cast<std::size_t>(b);
-        if (wanted[i]) wanted[i] = is_beside_surface(high, bricks, sides, b);
+        if (wanted[i]) wanted[i] = touches_surface(high, bricks, sides, b);
     });
     return flagged(wanted);
 }
 
-std::vector<std::uint8_t> with_neighbours(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside) {
+std::vector<std::uint8_t> with_halo(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside) {
     const std::size_t axes = grid.extent.rank == 2 ? 2 : 3;
     std::size_t stride = 1;
     for (std::size_t axis = 0; axis < axes; ++axis) {

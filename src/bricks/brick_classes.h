@@ -20,14 +20,14 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 
 /// Of a brick that touches others: is there something else among the samples around it that matter (bricks/brick_surroundings.h)? sides: of
 /// the divided bricks.
-[[nodiscard]] bool is_beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickSides>& sides,
-                                     std::int64_t brick);
+[[nodiscard]] bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides,
+                                   std::int64_t brick);
 /// All of these.
 [[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks,
-                                                       const std::vector<BrickSides>& sides, int threads);
+                                                       const std::vector<BrickFaces>& sides, int threads);
 
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
-[[nodiscard]] std::vector<std::uint8_t> with_neighbours(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside = 0);
+[[nodiscard]] std::vector<std::uint8_t> with_halo(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside = 0);
 
 /// The numbers of the flagged bricks.
 [[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);

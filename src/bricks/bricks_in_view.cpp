@@ -50,7 +50,7 @@ std::vector<std::uint8_t> bricks_in_view(const BrickGrid& grid, const SamplesWan
                                    [&](const std::array<double, 2>& values) { return cells[1] >= values[0] && cells[0] <= values[1]; });
         }
         // Whatever lies within a few samples of a cell lies in the bricks around: those that have others behind them are whole.
-        flags = with_neighbours(grid, std::move(flags));
+        flags = with_halo(grid, std::move(flags));
     }
     for (const SampleBox& box : wanted.boxes) flag_box(grid, box, flags);
     return flags;

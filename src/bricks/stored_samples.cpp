@@ -59,14 +59,14 @@ public:
         }
         auto& [high, bricks] = *kept.level;
         bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
-        high.set_busy(bricks);
+        high.set_candidates(bricks);
         hold(divided_bricks(BrickPart(grid_), bricks), context, query);
         const std::vector<std::uint8_t> changed = bricks_between(threshold_for<T>(*before), threshold);
-        refill(changed, bricks.classes, threshold.least, context.threads, kept);
-        const std::vector<std::uint8_t> near = with_neighbours(grid_, changed);
+        refill(changed, bricks.classes, threshold.min, context.threads, kept);
+        const std::vector<std::uint8_t> near = with_halo(grid_, changed);
         const std::vector<std::uint8_t> touching = touching_others(grid_, bricks.classes);
         for_bricks(grid_, context.threads, [&](std::int64_t b) {
-            if (near[b]) kept.beside[b] = touching[b] && is_beside_surface(high, bricks, kept.sides, b);
+            if (near[b]) kept.beside[b] = touching[b] && touches_surface(high, bricks, kept.sides, b);
         });
         hold(flagged(kept.beside), context, query);
         return std::count(changed.begin(), changed.end(), std::uint8_t{1});
@@ -97,9 +97,9 @@ public:
     [[nodiscard]] Foreseen foresee(double tau) const override {
         const LevelBricks bricks = bricks_of(BrickPart(grid_), threshold_for<T>(tau), 1);
         const std::vector<std::int64_t> beside = flagged(touching_others(grid_, bricks.classes));
-        const IoCounters least = bricks_.cost_of(divided_bricks(BrickPart(grid_), bricks));
-        Foreseen foreseen{least, least};
-        foreseen.most += bricks_.most_of_part(beside);
+        const IoCounters min = bricks_.cost_of(divided_bricks(BrickPart(grid_), bricks));
+        Foreseen foreseen{min, min};
+        foreseen.max += bricks_.max_of_part(beside);
         return foreseen;
     }
 
@@ -220,24 +220,24 @@ private:
     }
 
     [[nodiscard]] BrickClass class_of(std::int64_t brick, const Threshold<T>& threshold) const {
-        if (threshold.none_high || bricks_.high(brick) < threshold.least) return BrickClass::low;
-        return bricks_.low(brick) >= threshold.least ? BrickClass::high : BrickClass::divided;
+        if (threshold.none_high || bricks_.high(brick) < threshold.min) return BrickClass::low;
+        return bricks_.low(brick) >= threshold.min ? BrickClass::high : BrickClass::divided;
     }
 
     struct Classified {
         StoredLevel level;
-        std::vector<BrickSides> sides;     ///< of the divided bricks
+        std::vector<BrickFaces> sides;     ///< of the divided bricks
         std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
     };
 
     Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
         LevelBricks around = bricks_of(part, threshold, context.threads);
         HighBits bits(around);
-        Classified result{{std::move(bits), std::move(around)}, std::vector<BrickSides>(static_cast<std::size_t>(part.grid.count())), {}};
+        Classified result{{std::move(bits), std::move(around)}, std::vector<BrickFaces>(static_cast<std::size_t>(part.grid.count())), {}};
         auto& [high, bricks] = result.level;
         result.needed = divided_bricks(part, bricks);
         hold(result.needed, context, query);
-        fill(high, part, bricks.classes, threshold.least, context.threads, result.sides);
+        fill(high, part, bricks.classes, threshold.min, context.threads, result.sides);
         std::vector<std::int64_t> beside = beside_surface(high, bricks, result.sides, context.threads);
         for (std::int64_t& b : beside) b = part.number(b);
         hold(beside, context, query);
@@ -256,22 +256,22 @@ private:
 
     /// Which bricks have a sample that one isovalue calls High and the other one Low?
     [[nodiscard]] std::vector<std::uint8_t> bricks_between(Threshold<T> low, Threshold<T> high) const {
-        if (low.none_high || (!high.none_high && high.least < low.least)) std::swap(low, high);
+        if (low.none_high || (!high.none_high && high.min < low.min)) std::swap(low, high);
         std::vector<std::uint8_t> between(static_cast<std::size_t>(grid_.count()));
-        if (low.none_high || (!high.none_high && low.least == high.least)) return between;
+        if (low.none_high || (!high.none_high && low.min == high.min)) return between;
         for (std::int64_t b = 0; b < grid_.count(); ++b)
-            between[b] = bricks_.high(b) >= low.least && (high.none_high || bricks_.low(b) < high.least);
+            between[b] = bricks_.high(b) >= low.min && (high.none_high || bricks_.low(b) < high.min);
         return between;
     }
 
-    void refill(const std::vector<std::uint8_t>& changed, const std::vector<BrickClass>& classes, T least, int threads, KeptLevel& kept) {
+    void refill(const std::vector<std::uint8_t>& changed, const std::vector<BrickClass>& classes, T min, int threads, KeptLevel& kept) {
         HighBits& high = kept.level->high;
         for_each_block(threads, grid_.size[1] * grid_.size[2], [&](std::int64_t row_of_bricks) {
             for (std::int64_t b = row_of_bricks * grid_.size[0]; b < (row_of_bricks + 1) * grid_.size[0]; ++b) {
                 if (!changed[b]) continue;
                 const Box box = grid_.box(b);
                 if (classes[b] == BrickClass::divided)
-                    kept.sides[b] = fill_brick(high, box, b, least);
+                    kept.sides[b] = fill_brick(high, box, b, min);
                 else
                     put_brick(classes[b] == BrickClass::high ? all_high(box) : BrickBits{}, box, high);
             }
@@ -319,8 +319,8 @@ private:
         }
     }
 
-    void fill(HighBits& high, const BrickPart& part, const std::vector<BrickClass>& classes, T least, int threads,
-              std::vector<BrickSides>& sides) {
+    void fill(HighBits& high, const BrickPart& part, const std::vector<BrickClass>& classes, T min, int threads,
+              std::vector<BrickFaces>& sides) {
         const BrickGrid& grid = part.grid;
         for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
             const std::int64_t first = row_of_bricks * grid.size[0];
@@ -335,7 +335,7 @@ private:
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
                 if (classes[first + i] != BrickClass::divided) continue;
                 if (i + 1 < grid.size[0] && classes[first + i + 1] == BrickClass::divided) prefetch_brick(part.number(first + i + 1));
-                sides[first + i] = fill_brick(high, grid.box(first + i), part.number(first + i), least);
+                sides[first + i] = fill_brick(high, grid.box(first + i), part.number(first + i), min);
             }
         });
     }
@@ -351,8 +351,8 @@ private:
         for (std::int64_t i = 0; i < layout_.samples_of_brick(); i += kLine) prefetch(place + i);
     }
     /// box: of the brick in the part that `high` belongs to.
-    BrickSides fill_brick(HighBits& high, const Box& box, std::int64_t brick, T least) {
-        const BrickBits bits = bits_of_brick(samples() + layout_.first_sample(brick), box.size(), least);
+    BrickFaces fill_brick(HighBits& high, const Box& box, std::int64_t brick, T min) {
+        const BrickBits bits = bits_of_brick(samples() + layout_.first_sample(brick), box.size(), min);
         put_brick(bits, box, high);
         return sides_of(bits, box.size());
     }

@@ -39,7 +39,7 @@ struct KeptLevel {
     std::optional<StoredLevel> level{};  ///< nothing yet
     std::optional<double> tau{};
     std::vector<std::uint8_t> beside{};  ///< per brick: not divided, but its samples are needed
-    std::vector<BrickSides> sides{};     ///< of the divided bricks
+    std::vector<BrickFaces> sides{};     ///< of the divided bricks
 };
 
 /// A question while it is being answered: what it has cost, and the bricks that stay present for it.
@@ -55,19 +55,19 @@ public:
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view()
     /// as long as the query lives.
     /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only words that are busy
-    /// (levelset/busy_words.h) need be looked at.
+    /// (levelset/candidate_words.h) need be looked at.
     [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, LevelQuery& query) = 0;
     /// The same for another isovalue than that of `kept`, which becomes this one: only bricks with a sample between the two are classified
     /// again. Returns how many these are. When it throws, `kept` must not be used again.
     virtual std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) = 0;
-    /// What names need (levelset/names.h) of the bricks of a level.
+    /// What names need (levelset/component_representatives.h) of the bricks of a level.
     virtual void add_extremes(LevelBricks& bricks, const Context& context) const = 0;
     /// classify() for the bricks of a box alone (bricks, not samples), with all that names need. Cost: proportional to the box.
     [[nodiscard]] virtual StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) = 0;
     /// What classify() would read of a store that was just opened: the divided bricks at least, at most also those beside bricks of
     /// another class. Reads nothing.
     struct Foreseen {
-        IoCounters least, most;
+        IoCounters min, max;
     };
     [[nodiscard]] virtual Foreseen foresee(double tau) const = 0;
     [[nodiscard]] virtual SampleView view() const = 0;

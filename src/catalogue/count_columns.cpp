@@ -8,10 +8,10 @@
 namespace isoatlas {
 namespace {
 
-void widen(LevelCounts& least, LevelCounts& most, const LevelCounts& counts) {
+void widen(LevelCounts& min, LevelCounts& max, const LevelCounts& counts) {
     for (const auto member : {&LevelCounts::objects, &LevelCounts::contours, &LevelCounts::tunnels, &LevelCounts::cavities}) {
-        least.*member = std::min(least.*member, counts.*member);
-        most.*member = std::max(most.*member, counts.*member);
+        min.*member = std::min(min.*member, counts.*member);
+        max.*member = std::max(max.*member, counts.*member);
     }
 }
 
@@ -53,8 +53,8 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
         while (first + 1 < inside.size() && inside[first].high <= left) ++first;
         CountColumn column = column_of(inside[first], left, right);
         for (std::size_t i = first; i < inside.size() && inside[i].low < right; ++i) {
-            widen(column.least, column.most, inside[i].all);
-            widen(column.essential_least, column.essential_most, inside[i].essential);
+            widen(column.min, column.max, inside[i].all);
+            widen(column.min_essential, column.max_essential, inside[i].essential);
         }
         result.push_back(column);
         left = right;

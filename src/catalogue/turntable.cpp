@@ -34,7 +34,7 @@ Turntable draw_turntable(Surface surface, const Colour& colour, const PageOption
     std::vector<Camera> cameras;
     for (std::int64_t i = 0; i < options.frames; ++i) {
         const double degrees = 360 * static_cast<double>(i) / static_cast<double>(options.frames);
-        cameras.push_back(fit_camera(scene, turned(best, best.up, degrees), picture));
+        cameras.push_back(fit_camera(scene, rotated(best, best.up, degrees), picture));
     }
     const Camera& widest =
         *std::max_element(cameras.begin(), cameras.end(), [](const Camera& p, const Camera& q) { return p.height < q.height; });

@@ -15,7 +15,7 @@ namespace {
 using Bin = std::uint16_t;  // 0: padding, below every value; else 1 + the last value that is not above the sample
 using Counts = CensusPart::Counts;
 
-constexpr std::int64_t kMostValues = 65535, kLeastValues = 256, kVoxelsOfValue = 256;
+constexpr std::int64_t kMaxValues = 65535, kMinValues = 256, kVoxelsOfValue = 256;
 
 struct Binning {
     std::span<const double> value;
@@ -90,11 +90,11 @@ Counts from_above(const Counts& of_bin) {
 }  // namespace
 
 std::vector<double> census_values(double low, double high, bool whole, std::int64_t voxels) {
-    const std::int64_t most = std::clamp(voxels / kVoxelsOfValue, kLeastValues, kMostValues);
+    const std::int64_t max = std::clamp(voxels / kVoxelsOfValue, kMinValues, kMaxValues);
     const double range = high - low;
     std::vector<double> values{low};
     if (std::isfinite(range)) {
-        const std::int64_t steps = whole && range < static_cast<double>(most) ? static_cast<std::int64_t>(range) : most - 1;
+        const std::int64_t steps = whole && range < static_cast<double>(max) ? static_cast<std::int64_t>(range) : max - 1;
         for (std::int64_t i = 1; i < steps; ++i) values.push_back(low + static_cast<double>(i) * (range / static_cast<double>(steps)));
     }
     values.push_back(high);
@@ -126,7 +126,7 @@ CensusPart count_layers(const T* slab, std::int64_t begin, const Extent& extent,
     const Binning bin(values);
     const auto slice_at = [&](std::int64_t z) { return z < 0 || z >= extent.size[2] ? nullptr : slab + (z - begin) * extent.slice(); };
     Slice<T> slice(extent), above(extent);
-    PacedCheck memory;
+    BudgetPoll memory;
     slice.load(slice_at(first), bin);
     for (std::int64_t z = first; z < last; ++z) {
         if (extent.rank == 3) above.load(slice_at(z + 1), bin);
@@ -143,10 +143,10 @@ LevelCensus take_census(const VolumeView& volume, const Context& context) {
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const Extent& extent = volume.info->extent;
         T low = samples[0], high = samples[0];
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t row = 0; row < samples.size(); row += extent.size[0], memory.step(extent.size[0] * sizeof(T))) {
-            const auto [least, most] = std::ranges::minmax(samples.subspan(row, extent.size[0]));
-            low = std::min(low, least), high = std::max(high, most);
+            const auto [min, max] = std::ranges::minmax(samples.subspan(row, extent.size[0]));
+            low = std::min(low, min), high = std::max(high, max);
         }
         std::vector<double> values =
             census_values(static_cast<double>(low), static_cast<double>(high), std::is_integral_v<T>, extent.voxels());
@@ -174,7 +174,7 @@ LevelCensus::Counts LevelCensus::at(double tau, bool whole) const {
     };
     const auto active = [&](const std::vector<std::uint64_t>& high, const std::vector<std::uint64_t>& low) {
         const Bounds h = bounds(high), l = bounds(low);
-        return Bounds{std::max<std::int64_t>(0, h.least - l.most), h.most - l.least};
+        return Bounds{std::max<std::int64_t>(0, h.min - l.max), h.max - l.min};
     };
     return {bounds(samples), active(hits_high, hits_low), active(cells_high, cells_low)};
 }

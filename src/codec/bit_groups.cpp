@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "base/wide.h"
+#include "base/target_clones.h"
 
 namespace isoatlas {
 namespace {
@@ -15,7 +15,7 @@ constexpr int kWidest = 64;
 
 /// Widths of groups are stored in `more` bits, less `least`.
 struct Widths {
-    int least = 0, more = 0;
+    int min = 0, more = 0;
     std::int64_t bytes = 0;  ///< of everything
 };
 
@@ -50,11 +50,11 @@ Widths best_widths(std::span<const N> numbers) {
     while (widest > narrowest && count[static_cast<std::size_t>(widest)] == 0) --widest;
     Widths best;
     for (int more = 0;; ++more) {
-        const int least = std::max(narrowest, widest - (1 << more) + 1);
+        const int min = std::max(narrowest, widest - (1 << more) + 1);
         std::int64_t bytes = 2 + bytes_of_widths(groups, more);
-        for (int w = narrowest; w <= widest; ++w) bytes += count[static_cast<std::size_t>(w)] * std::max(w, least);
-        if (more == 0 || bytes < best.bytes) best = {least, more, bytes};
-        if (least == narrowest) return best;
+        for (int w = narrowest; w <= widest; ++w) bytes += count[static_cast<std::size_t>(w)] * std::max(w, min);
+        if (more == 0 || bytes < best.bytes) best = {min, more, bytes};
+        if (min == narrowest) return best;
     }
 }
 
@@ -95,7 +95,7 @@ template <class N>
     std::copy(numbers.begin(), numbers.end(), group);
 }
 
-#if ISOATLAS_HAS_WIDE_512
+#if ISOATLAS_HAS_AVX512
 /// Byte j of the numbers of a group is byte order[j] of the bytes of the group.
 template <class N>
 constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
@@ -108,7 +108,7 @@ constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
 
 /// The same in one permutation.
 template <class N>
-[[gnu::always_inline]] ISOATLAS_WIDE_512 inline void read_group_wide(const std::byte* from, int width, N* group) {
+[[gnu::always_inline]] ISOATLAS_AVX512 inline void read_group_wide(const std::byte* from, int width, N* group) {
     const int whole = width / 8, left = width % 8;
     const auto low_bytes = [](int words) { return words >= 8 ? ~__mmask64{0} : (__mmask64{1} << 8 * words) - 1; };
     __m512i words = _mm512_maskz_loadu_epi8(low_bytes(whole), from);
@@ -119,7 +119,7 @@ template <class N>
 }
 
 template <class N>
-ISOATLAS_WIDE_512 void read_groups_wide(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+ISOATLAS_AVX512 void read_groups_wide(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
     for (const int width : widths) {
         read_group_wide(from, width, numbers);
         from += width, numbers += kGroup;
@@ -130,8 +130,8 @@ ISOATLAS_WIDE_512 void read_groups_wide(const std::byte* from, std::span<const s
 /// Groups one behind the other; kLookedAt bytes may be read from the start of the last one on.
 template <class N>
 void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
-#if ISOATLAS_HAS_WIDE_512
-    if (kHasWide512) return read_groups_wide(from, widths, numbers);
+#if ISOATLAS_HAS_AVX512
+    if (kHasAvx512) return read_groups_wide(from, widths, numbers);
 #endif
     for (const int width : widths) {
         read_group(from, width, numbers);
@@ -158,20 +158,20 @@ bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_
 }  // namespace
 
 template <class N>
-ISOATLAS_WIDE std::int64_t group_bytes(std::span<const N> numbers) {
+ISOATLAS_TARGET_CLONES std::int64_t group_bytes(std::span<const N> numbers) {
     return best_widths(numbers).bytes;
 }
 
 template <class N>
 void pack_groups(std::span<const N> numbers, std::vector<std::byte>& out) {
     const Widths widths = best_widths(numbers);
-    out.push_back(static_cast<std::byte>(widths.least));
+    out.push_back(static_cast<std::byte>(widths.min));
     out.push_back(static_cast<std::byte>(widths.more));
-    const auto stored_width = [&](std::size_t i) { return std::max(widths.least, width_of(numbers.data() + i)); };
+    const auto stored_width = [&](std::size_t i) { return std::max(widths.min, width_of(numbers.data() + i)); };
     for (std::size_t i = 0; i < numbers.size(); i += 8 * kGroup) {
         std::array<std::uint8_t, kGroup> above{};
         for (std::size_t k = 0; k < 8 && i + k * kGroup < numbers.size(); ++k)
-            above[k] = static_cast<std::uint8_t>(stored_width(i + k * kGroup) - widths.least);
+            above[k] = static_cast<std::uint8_t>(stored_width(i + k * kGroup) - widths.min);
         append_group(above.data(), widths.more, out);
     }
     for (std::size_t i = 0; i < numbers.size(); i += kGroup) append_group(numbers.data() + i, stored_width(i), out);
@@ -180,7 +180,7 @@ void pack_groups(std::span<const N> numbers, std::vector<std::byte>& out) {
 template <class N>
 bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
     if (packed.size() < 2) return false;
-    const int least = static_cast<int>(packed[0]), more = static_cast<int>(packed[1]);
+    const int min = static_cast<int>(packed[0]), more = static_cast<int>(packed[1]);
     packed = packed.subspan(2);
     const std::int64_t size = bytes_of_widths(static_cast<std::int64_t>(numbers.size() / kGroup), more);
     if (more > 7 || static_cast<std::int64_t>(packed.size()) < size) return false;
@@ -191,8 +191,8 @@ bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
         const std::array<std::uint8_t, 1> width_of_widths{static_cast<std::uint8_t>(more)};
         if (!take_groups<std::uint8_t>(widths, width_of_widths, group.data())) return false;
         for (std::uint8_t& width : group) {
-            if (least + width > static_cast<int>(8 * sizeof(N))) return false;
-            width = static_cast<std::uint8_t>(width + least);
+            if (min + width > static_cast<int>(8 * sizeof(N))) return false;
+            width = static_cast<std::uint8_t>(width + min);
         }
         const std::size_t count = std::min<std::size_t>(8, (numbers.size() - i) / kGroup);
         if (!take_groups<N>(packed, std::span(group).first(count), numbers.data() + i)) return false;

@@ -45,14 +45,14 @@ struct Numbers {
 
 template <class T>
 void fill_keys(std::span<const T> samples, T low, std::span<Key<T>> keys) {
-    const Key<T> least = key_of(low);
-    std::transform(samples.begin(), samples.end(), keys.begin(), [least](T s) { return static_cast<Key<T>>(key_of(s) - least); });
+    const Key<T> min = key_of(low);
+    std::transform(samples.begin(), samples.end(), keys.begin(), [min](T s) { return static_cast<Key<T>>(key_of(s) - min); });
 }
 
 template <class T>
 void fill_units(std::span<const T> samples, T low, const Units& units, std::span<Key<T>> numbers) {
-    const Key<T> least = in_units(low, units);
-    std::transform(samples.begin(), samples.end(), numbers.begin(), [&](T s) { return static_cast<Key<T>>(in_units(s, units) - least); });
+    const Key<T> min = in_units(low, units);
+    std::transform(samples.begin(), samples.end(), numbers.begin(), [&](T s) { return static_cast<Key<T>>(in_units(s, units) - min); });
 }
 
 template <class N>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "base/wide.h"
+#include "base/target_clones.h"
 
 namespace isoatlas {
 namespace {
@@ -101,14 +101,14 @@ template <class Visit>
 }  // namespace
 
 template <class N>
-ISOATLAS_WIDE void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
+ISOATLAS_TARGET_CLONES void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int order = 1; order <= orders[axis]; ++order) subtract(numbers.data(), lines_of(size, axis), order);
     }
 }
 
 template <class N>
-ISOATLAS_WIDE void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
+ISOATLAS_TARGET_CLONES void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
     for (int axis = 2; axis >= 0; --axis) {
         if (axis == 0 && orders[0] > 0) add_along_rows(numbers.data(), size[1] * size[2], size[0], orders[0]);
         for (int order = axis == 0 ? 0 : orders[axis]; order >= 1; --order) add(numbers.data(), lines_of(size, axis), order);
@@ -116,14 +116,14 @@ ISOATLAS_WIDE void undo_differences(std::span<N> numbers, const BoxSize& size, c
 }
 
 template <class N>
-ISOATLAS_WIDE void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out) {
+ISOATLAS_TARGET_CLONES void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out) {
     N* to = out.data();
     for_each_part(size, orders, [&](std::int64_t first, std::int64_t length) { to = std::copy_n(differences.data() + first, length, to); });
     if (are_signed(orders)) std::transform(out.begin(), out.end(), out.begin(), without_sign<N>);
 }
 
 template <class N>
-ISOATLAS_WIDE void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out) {
+ISOATLAS_TARGET_CLONES void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out) {
     if (are_signed(orders)) std::transform(arranged.begin(), arranged.end(), arranged.begin(), with_sign<N>);
     const N* from = arranged.data();
     for_each_part(size, orders, [&](std::int64_t first, std::int64_t length) {

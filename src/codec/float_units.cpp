@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/check.h"
-#include "base/wide.h"
+#include "base/target_clones.h"
 #include "field/brick_grid.h"
 
 namespace isoatlas {
@@ -18,7 +18,7 @@ namespace {
 template <class T>
 constexpr int kDigits = std::numeric_limits<T>::digits;  ///< bits of a mantissa
 template <class T>
-constexpr int kLeastPlace = std::numeric_limits<T>::min_exponent - kDigits<T>;  ///< 2^this is the smallest number
+constexpr int kMinPlace = std::numeric_limits<T>::min_exponent - kDigits<T>;  ///< 2^this is the smallest number
 
 /// A float as mantissa * 2^place.
 template <class T>
@@ -32,7 +32,7 @@ struct Parts {
         const int exponent = static_cast<int>(bits >> kStored);
         mantissa = bits & ((Key<T>{1} << kStored) - 1);
         if (exponent > 0) mantissa |= Key<T>{1} << kStored;
-        place = exponent - (exponent > 0 ? 1 : 0) + kLeastPlace<T>;
+        place = exponent - (exponent > 0 ? 1 : 0) + kMinPlace<T>;
     }
 };
 
@@ -62,12 +62,12 @@ void for_each_piece(std::span<const T> samples, const Units& units, const Put& p
 class BitReader {
 public:
     explicit BitReader(std::span<const std::byte> bytes) : size_(bytes.size()) {
-        ISOATLAS_CHECK(size_ <= kMost);
+        ISOATLAS_CHECK(size_ <= kMax);
         std::copy(bytes.begin(), bytes.end(), bytes_.begin());
         std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(size_), kLookedAt, std::byte{0});
     }
     /// More bytes than tails of a brick ever take.
-    static constexpr std::size_t kMost = static_cast<std::size_t>(kBrickSamples) * (sizeof(std::uint64_t) + 1);
+    static constexpr std::size_t kMax = static_cast<std::size_t>(kBrickSamples) * (sizeof(std::uint64_t) + 1);
 
     /// The next bits, at most 56; zeros behind the end.
     std::uint64_t take(int bits) {
@@ -96,7 +96,7 @@ private:
     }();
 
     std::size_t size_, position_ = 0;
-    std::array<std::byte, kMost + kLookedAt> bytes_;  // only what is read has a value
+    std::array<std::byte, kMax + kLookedAt> bytes_;  // only what is read has a value
 };
 
 template <class T>
@@ -119,11 +119,11 @@ template <class T>
     return true;
 }
 
-#if ISOATLAS_HAS_WIDE_512
-constexpr std::int8_t kMostTogether = 24;  ///< bits that are whole in 4 bytes, wherever they begin
+#if ISOATLAS_HAS_AVX512
+constexpr std::int8_t kMaxTogether = 24;  ///< bits that are whole in 4 bytes, wherever they begin
 
-/// The same for 16 floats at once, none with more than kMostTogether bits.
-ISOATLAS_WIDE_512 bool join_wide(const BitReader& reader, std::span<const std::int8_t> bits, std::span<float> samples) {
+/// The same for 16 floats at once, none with more than kMaxTogether bits.
+ISOATLAS_AVX512 bool join_wide(const BitReader& reader, std::span<const std::int8_t> bits, std::span<float> samples) {
     const __m512i zero = _mm512_setzero_si512(), one = _mm512_set1_epi32(1);
     __m512i end = zero;  // of the tails before, in every lane
     for (std::size_t i = 0; i < samples.size(); i += 16) {
@@ -149,9 +149,9 @@ ISOATLAS_WIDE_512 bool join_wide(const BitReader& reader, std::span<const std::i
 /// join_each(), as fast as it gets here.
 template <class T>
 [[gnu::always_inline]] inline bool join_fast(const BitReader& reader, std::span<const std::int8_t> bits, std::span<T> samples) {
-#if ISOATLAS_HAS_WIDE_512
+#if ISOATLAS_HAS_AVX512
     if constexpr (std::is_same_v<T, float>) {
-        if (kHasWide512 && std::ranges::all_of(bits, [](std::int8_t own) { return own <= kMostTogether; }))
+        if (kHasAvx512 && std::ranges::all_of(bits, [](std::int8_t own) { return own <= kMaxTogether; }))
             return join_wide(reader, bits, samples);
     }
 #endif
@@ -167,18 +167,18 @@ T power_of_2(int exponent) {
 
 template <class T>
 std::optional<Units> units_of(std::span<const T> samples) {
-    int most = kLeastPlace<T>, common = std::numeric_limits<int>::max();
+    int max = kMinPlace<T>, common = std::numeric_limits<int>::max();
     bool finite = true, negative_zero = false;
     for (const T sample : samples) {
         const Parts<T> parts(sample);
         finite &= std::isfinite(sample);
-        most = std::max(most, parts.place);
+        max = std::max(max, parts.place);
         if (parts.mantissa != 0) common = std::min(common, parts.place + std::countr_zero(parts.mantissa));
         negative_zero |= sample == 0 && !is_positive_zero(sample);
     }
     if (!finite) return std::nullopt;
-    if (common == std::numeric_limits<int>::max()) common = most;  // zeros
-    return Units{std::max(most, common), common >= most && !negative_zero};
+    if (common == std::numeric_limits<int>::max()) common = max;  // zeros
+    return Units{std::max(max, common), common >= max && !negative_zero};
 }
 
 template <class T>
@@ -190,7 +190,7 @@ Key<T> in_units(T sample, const Units& units) {
 }
 
 template <class T>
-ISOATLAS_WIDE void from_units(std::span<const Key<T>> numbers, const Units& units, std::span<T> samples) {
+ISOATLAS_TARGET_CLONES void from_units(std::span<const Key<T>> numbers, const Units& units, std::span<T> samples) {
     const T unit = power_of_2<T>(units.exponent);
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i] = static_cast<T>(static_cast<std::make_signed_t<Key<T>>>(numbers[i])) * unit;
@@ -215,9 +215,10 @@ void append_tails(std::span<const T> samples, const Units& units, std::vector<st
 }
 
 template <class T>
-ISOATLAS_WIDE bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
-    if (units.exponent < kLeastPlace<T> || units.exponent >= std::numeric_limits<T>::max_exponent) return false;
-    if (tails.size() > BitReader::kMost || samples.size() > static_cast<std::size_t>(kBrickSamples)) return false;
+ISOATLAS_TARGET_CLONES bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units,
+                                       std::span<T> samples) {
+    if (units.exponent < kMinPlace<T> || units.exponent >= std::numeric_limits<T>::max_exponent) return false;
+    if (tails.size() > BitReader::kMax || samples.size() > static_cast<std::size_t>(kBrickSamples)) return false;
     from_units(numbers, units, samples);
     std::array<std::int8_t, kBrickSamples> bits;
     for (std::size_t i = 0; i < samples.size(); ++i)

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/wide.h"
+#include "base/target_clones.h"
 #include "critical/trilinear.h"
 #include "field/error_free.h"
 #include "field/rounding.h"
@@ -21,13 +21,13 @@ using Vector = std::array<double, 3>;
 /// The cell relative to corner 0, upside down for a saddle that joins Lows.
 struct Polynomial {
     std::array<TwoDoubles, 8> k;  // k[0] is not used
-    double most = 0;              // the greatest |corner - corner 0|
+    double max = 0;               // the greatest |corner - corner 0|
 
     Polynomial(const CellValues& v, SaddleKind kind) {
         std::array<TwoDoubles, 8> w;
         for (int i = 0; i < 8; ++i) {
             w[i] = kind == SaddleKind::joins_highs ? two_difference(v[i], v[0]) : two_difference(v[0], v[i]);
-            most = std::max(most, std::abs(w[i].high));
+            max = std::max(max, std::abs(w[i].high));
         }
         const auto minus = [](TwoDoubles a, TwoDoubles b) { return a + TwoDoubles{-b.high, -b.low}; };
         const TwoDoubles xy = minus(minus(w[3], w[1]), w[2]), xz = minus(minus(w[5], w[1]), w[4]), yz = minus(minus(w[6], w[2]), w[4]);
@@ -48,7 +48,7 @@ FirstGuess first_guess(const Polynomial& polynomial) {
     for (int i = 0; i < 8; ++i) high[i] = polynomial.k[i].high;
     const auto [k0, k1, k2, k3, k4, k5, k6, k7] = high;
     const double a = k1 * k7 - k4 * k5, b = k2 * k7 - k4 * k6, c = k3 * k7 - k5 * k6;
-    const double error = 0x1p-46 * polynomial.most * polynomial.most;
+    const double error = 0x1p-46 * polynomial.max * polynomial.max;
     if (!(std::abs(a) > error && std::abs(b) > error && std::abs(c) > error)) return {Found::perhaps, {}};
     const double q2 = -(a * b * c);
     if (!(q2 > 0)) return {Found::no, {}};
@@ -68,7 +68,7 @@ Near newton_step(const Polynomial& polynomial, const Vector& p, Vector& next) {
     const double fyz = k(6) + k(7) * x, fxz = k(5) + k(7) * y, fxy = k(4) + k(7) * z;
     const Vector slope{k(1) + k(4) * y + k(5) * z + k(7) * y * z, k(2) + k(4) * x + k(6) * z + k(7) * x * z,
                        k(3) + k(5) * x + k(6) * y + k(7) * x * y};
-    const double error = 0x1p-46 * polynomial.most, least = 0x1p-20 * polynomial.most;  // of slopes; of second derivatives
+    const double error = 0x1p-46 * polynomial.max, min = 0x1p-20 * polynomial.max;  // of slopes; of second derivatives
     const Vector second{fyz, fxz, fxy};
     const double all = std::abs(fyz) + std::abs(fxz) + std::abs(fxy);
     double radius = 0, inverse = 0;  // |step|, |H^-1|
@@ -81,7 +81,7 @@ Near newton_step(const Polynomial& polynomial, const Vector& p, Vector& next) {
         radius = std::max(radius, bound / std::abs(twice));
         inverse = std::max(inverse, all / std::abs(twice));
     }
-    const bool is_safe = fyz * fxz * fxy > 0 && std::min({std::abs(fyz), std::abs(fxz), std::abs(fxy)}) > least &&
+    const bool is_safe = fyz * fxz * fxy > 0 && std::min({std::abs(fyz), std::abs(fxz), std::abs(fxy)}) > min &&
                          inverse * 2 * std::abs(k(7)) * radius < 0.25;
     return {p, is_safe ? 2.1 * radius : -1, all};
 }
@@ -120,15 +120,15 @@ double rounded_value(const Polynomial& polynomial, const Near& near, double corn
     TwoDoubles rise = kHasFused ? rise_fused(polynomial, near.position) : rise_at<PlainProduct>(polynomial, near.position);
     if (kind == SaddleKind::joins_lows) rise = {-rise.high, -rise.low};
     const TwoDoubles first = two_sum(corner, rise.high), sum = two_sum(first.high, first.low + rise.low);
-    const double flatness = near.radius * near.radius * (near.curvature + 10 * near.radius * polynomial.most);
-    const double error = 1.5 * flatness + 0x1p-90 * polynomial.most + 0x1p-104 * std::abs(sum.high);
+    const double flatness = near.radius * near.radius * (near.curvature + 10 * near.radius * polynomial.max);
+    const double error = 1.5 * flatness + 0x1p-90 * polynomial.max + 0x1p-104 * std::abs(sum.high);
     return rounded_down_or_undecided(sum, error);
 }
 
 double clamped(double x) { return std::isnan(x) ? 0.5 : std::clamp(x, 0x1p-30, 1 - 0x1p-30); }
 
 /// Are products of six values, and rounding errors of them, neither too large nor too small for doubles?
-bool is_moderate(double most, double corner) { return most > 0x1p-120 && most < 0x1p120 && std::abs(corner) < 0x1p500; }
+bool is_moderate(double max, double corner) { return max > 0x1p-120 && max < 0x1p120 && std::abs(corner) < 0x1p500; }
 
 std::optional<BodySaddle> exact_saddle(const CellValues& value, SaddleKind kind, const Vector& guess) {
     if (!exactly_has_saddle(value, kind)) return std::nullopt;
@@ -148,7 +148,7 @@ double interpolate(const CellValues& v, const std::array<double, 3>& p) {
 std::optional<BodySaddle> body_saddle(const CellValues& value, SaddleKind kind) {
     const Polynomial polynomial(value, kind);
     constexpr Vector kMiddle{0.5, 0.5, 0.5};
-    if (!is_moderate(polynomial.most, value[0])) return exact_saddle(value, kind, kMiddle);
+    if (!is_moderate(polynomial.max, value[0])) return exact_saddle(value, kind, kMiddle);
     const FirstGuess guess = first_guess(polynomial);
     if (guess.found == Found::no) return std::nullopt;
     if (guess.found == Found::perhaps) return exact_saddle(value, kind, kMiddle);

@@ -12,9 +12,9 @@ namespace {
 
 /// The values times a power of two, so that products of six of them neither overflow nor vanish. exponent: the power that was taken away.
 std::array<double, 8> scaled(const std::array<double, 8>& value, int& exponent) {
-    double most = 0;
-    for (const double v : value) most = std::max(most, std::abs(v));
-    exponent = most == 0 || (most > 1e-30 && most < 1e30) ? 0 : std::ilogb(most);
+    double max = 0;
+    for (const double v : value) max = std::max(max, std::abs(v));
+    exponent = max == 0 || (max > 1e-30 && max < 1e30) ? 0 : std::ilogb(max);
     std::array<double, 8> result = value;
     if (exponent == 0) return result;
     for (double& v : result) v = std::ldexp(v, -exponent);
@@ -22,7 +22,7 @@ std::array<double, 8> scaled(const std::array<double, 8>& value, int& exponent) 
 }
 
 /// A way to look at a cell: corner k of the turned cell is corner image(k), new axis a is old axis order[a], seen from corner `origin`.
-struct Turn {
+struct Symmetry {
     int origin;
     std::array<int, 3> order;
 
@@ -32,16 +32,16 @@ struct Turn {
         return corner;
     }
     [[nodiscard]] std::array<double, 8> of(const std::array<double, 8>& value) const {
-        std::array<double, 8> turned;
-        for (int k = 0; k < 8; ++k) turned[k] = value[image(k)];
-        return turned;
+        std::array<double, 8> rotated;
+        for (int k = 0; k < 8; ++k) rotated[k] = value[image(k)];
+        return rotated;
     }
 };
 
 /// The turn after which mirrored and permuted copies of a cell are the same: its highest corner first, then the highest neighbours of that.
-Turn canonical_turn(const std::array<double, 8>& value) {
-    std::optional<Turn> best;
-    std::array<double, 8> most{};
+Symmetry canonical_symmetry(const std::array<double, 8>& value) {
+    std::optional<Symmetry> best;
+    std::array<double, 8> max{};
     const double top = *std::max_element(value.begin(), value.end());
     for (int origin = 0; origin < 8; ++origin) {
         if (value[origin] != top) continue;
@@ -49,9 +49,9 @@ Turn canonical_turn(const std::array<double, 8>& value) {
         const auto higher = [&](int a, int b) { return value[origin ^ 1 << a] > value[origin ^ 1 << b]; };
         do {
             if (higher(order[1], order[0]) || higher(order[2], order[1])) continue;
-            const Turn turn{origin, order};
-            const std::array<double, 8> turned = turn.of(value);
-            if (!best || turned > most) best = turn, most = turned;
+            const Symmetry symmetry{origin, order};
+            const std::array<double, 8> rotated = symmetry.of(value);
+            if (!best || rotated > max) best = symmetry, max = rotated;
         } while (std::next_permutation(order.begin(), order.end()));
     }
     return *best;
@@ -70,14 +70,14 @@ std::optional<std::array<double, 3>> position_inside(const CellValues& value) {
 std::optional<BodySaddle> earlier_saddle(const std::array<double, 8>& value) {
     int exponent = 0;
     const std::array<double, 8> at_hand = scaled(value, exponent);
-    const Turn turn = canonical_turn(at_hand);
-    const std::array<double, 8> turned = turn.of(at_hand);
-    const std::optional<std::array<double, 3>> position = position_inside(turned);
+    const Symmetry symmetry = canonical_symmetry(at_hand);
+    const std::array<double, 8> rotated = symmetry.of(at_hand);
+    const std::optional<std::array<double, 3>> position = position_inside(rotated);
     if (!position) return std::nullopt;
-    BodySaddle saddle{std::ldexp(interpolate(turned, *position), exponent), {}};
+    BodySaddle saddle{std::ldexp(interpolate(rotated, *position), exponent), {}};
     for (int a = 0; a < 3; ++a) {
-        const int axis = turn.order[a];
-        saddle.position[axis] = turn.origin >> axis & 1 ? 1 - (*position)[a] : (*position)[a];
+        const int axis = symmetry.order[a];
+        saddle.position[axis] = symmetry.origin >> axis & 1 ? 1 - (*position)[a] : (*position)[a];
     }
     return saddle;
 }

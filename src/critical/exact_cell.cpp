@@ -68,10 +68,10 @@ int side_sign_of(const Corners<Int>& v, int f) {
 
 /// Corners relative to the first, in a common unit; none where that takes more bits.
 std::optional<Corners<Small>> small_corners(const CellValues& value) {
-    double most = 0;
-    for (const double v : value) most = std::max(most, std::abs(v - value[0]));
-    if (!(most > 0x1p-900 && most < 0x1p900)) return std::nullopt;
-    const int exponent = std::ilogb(most) + 1 - kSmallBits;
+    double max = 0;
+    for (const double v : value) max = std::max(max, std::abs(v - value[0]));
+    if (!(max > 0x1p-900 && max < 0x1p900)) return std::nullopt;
+    const int exponent = std::ilogb(max) + 1 - kSmallBits;
     Corners<Small> corner{};
     for (int k = 0; k < 8; ++k) {
         const TwoDoubles difference = two_difference(value[k], value[0]);
@@ -132,16 +132,16 @@ bool exactly_has_saddle(const CellValues& value, SaddleKind kind) {
 
 double exact_saddle_value(const CellValues& value, SaddleKind kind, double guess) {
     const CommonExponent common = with_common_exponent(value);
-    const int turn = kind == SaddleKind::joins_lows ? -1 : 1;
+    const int symmetry = kind == SaddleKind::joins_lows ? -1 : 1;
     Corners<cpp_int> corner;
-    for (int k = 0; k < 8; ++k) corner[k] = turn * (common.integers[k] - common.integers[0]);
+    for (int k = 0; k < 8; ++k) corner[k] = symmetry * (common.integers[k] - common.integers[0]);
     const SaddlePolynomial polynomial(corner);
     const auto [lowest, highest] = std::minmax_element(value.begin(), value.end());
     if (!(guess >= *lowest && guess <= *highest)) guess = *lowest;
     return rounded_down_by_comparisons(guess, [&](const BinaryFraction& other) {
         const int up = std::max(0, other.exponent - common.exponent), down = std::max(0, common.exponent - other.exponent);
-        const cpp_int t = turn * ((other.mantissa << up) - (common.integers[0] << down));  // in units of 2^(common.exponent - down)
-        return turn * polynomial.smaller_root_minus(t, down);
+        const cpp_int t = symmetry * ((other.mantissa << up) - (common.integers[0] << down));  // in units of 2^(common.exponent - down)
+        return symmetry * polynomial.smaller_root_minus(t, down);
     });
 }
 

@@ -81,7 +81,7 @@ private:
         const auto at = [&](int i) { return static_cast<double>(corner[step[i]]); };
         place_[batch_.count()] = value;
         batch_.add(at(1 - bd_high), at(3 - bd_high), at(bd_high), at(bd_high + 2));
-        if (batch_.count() == FaceBatch::kMost) store();
+        if (batch_.count() == FaceBatch::kMax) store();
     }
     void store() {
         rounded_face_values(batch_, found_);
@@ -93,8 +93,8 @@ private:
     std::array<std::array<std::int64_t, 4>, 3> step_{};
     std::vector<double> mine_, behind_, above_;  // of the row; of y + 1, the xz faces; of z + 1, the xy faces. Orientation o of x: 3 x + o
     FaceBatch batch_;
-    std::array<double*, FaceBatch::kMost> place_{};
-    std::array<double, FaceBatch::kMost> found_{};
+    std::array<double*, FaceBatch::kMax> place_{};
+    std::array<double, FaceBatch::kMax> found_{};
 };
 
 }  // namespace isoatlas

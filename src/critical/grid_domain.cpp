@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "base/sample_types.h"
-#include "critical/leading_elements.h"
+#include "critical/elements_with_extrema.h"
 
 namespace isoatlas {
 namespace {
@@ -17,8 +17,8 @@ constexpr int kPhases = 5;  // of analyse(): classify, basins, sort, trees, zone
 
 /// Sorts the elements and takes them apart into arrays.
 template <class Id>
-CriticalSet<Id> sort_elements(LeadingChunks<Id> chunks, const Above& above, int threads) {
-    using Element = LeadingElement<Id>;
+CriticalSet<Id> sort_elements(ChunksWithExtrema<Id> chunks, const Above& above, int threads) {
+    using Element = ElementWithExtrema<Id>;
     CriticalSet<Id> set;
     const auto allocate = [&](std::size_t n) {
         set.value.resize(n);
@@ -28,8 +28,8 @@ CriticalSet<Id> sort_elements(LeadingChunks<Id> chunks, const Above& above, int 
     const auto put = [&](std::size_t i, std::span<const Element> elements) {
         for (const Element& element : elements) {
             set.value[i] = element.key.value, set.code[i] = element.key.code.bits;
-            set.up_a[i] = element.ends.above[0], set.up_b[i] = element.ends.above[1];
-            set.low_a[i] = element.ends.below[0], set.low_b[i] = element.ends.below[1];
+            set.up_a[i] = element.representatives.above[0], set.up_b[i] = element.representatives.above[1];
+            set.low_a[i] = element.representatives.below[0], set.low_b[i] = element.representatives.below[1];
             ++i;
         }
     };
@@ -47,7 +47,8 @@ Criticals<IdType> GridDomain<T, IdType>::critical(bool keep_basins, const Contex
     Criticals<Id> result;
     stop_if_cancelled(context);
     context.report("basins", 1, kPhases, 0);
-    LeadingChunks<Id> elements = leading_elements<Id>(extent, scan_, {}, {}, keep_basins ? &result.basin : nullptr, context.threads);
+    ChunksWithExtrema<Id> elements =
+        elements_with_extrema<Id>(extent, scan_, {}, {}, keep_basins ? &result.basin : nullptr, context.threads);
     stop_if_cancelled(context);
     context.report("sort", 2, kPhases, 0);
     result.set = sort_elements<Id>(std::move(elements), above_, context.threads);

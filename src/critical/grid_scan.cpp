@@ -18,12 +18,11 @@ std::int64_t slab_count(const Extent& extent, std::int64_t height) { return (ext
 
 std::int64_t slab_height(const Extent& extent, const Context& context) {
     if (context.slab_slices > 0) return std::min(context.slab_slices, extent.size[2]);
-    const std::int64_t threads = thread_count(context.threads), least = std::min<std::int64_t>(8, extent.size[2]);
-    const std::int64_t shared = std::max(least, (extent.size[2] + 4 * threads - 1) / (4 * threads));
+    const std::int64_t threads = thread_count(context.threads), min = std::min<std::int64_t>(8, extent.size[2]);
+    const std::int64_t shared = std::max(min, (extent.size[2] + 4 * threads - 1) / (4 * threads));
     if (!memory_is_limited()) return shared;
     constexpr std::int64_t kShare = 16, kBytes = 8;  // a voxel: of what is done to a slab
-    return std::clamp<std::int64_t>(memory_limit() / (kShare * kBytes * threads * extent.slice()), std::min<std::int64_t>(2, least),
-                                    shared);
+    return std::clamp<std::int64_t>(memory_limit() / (kShare * kBytes * threads * extent.slice()), std::min<std::int64_t>(2, min), shared);
 }
 
 template <class T>

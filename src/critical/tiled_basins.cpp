@@ -6,8 +6,8 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/sample_types.h"
+#include "critical/elements_with_extrema.h"
 #include "critical/grid_scan.h"
-#include "critical/leading_elements.h"
 
 namespace isoatlas {
 namespace {
@@ -53,7 +53,7 @@ TiledBasins<Id> tiled_basins(const GridView<T>& grid, const Tiling& tiling, cons
     for (Id& of_tile : first) maxima += std::exchange(of_tile, maxima);
     BigVector<Id> number;
     {
-        const KeepInMemory keep;
+        const PinInMemory keep;
         number.reserve(maxima);
     }
     std::vector<Id> next = first;

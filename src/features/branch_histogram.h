@@ -15,7 +15,7 @@ namespace isoatlas {
 struct HeightAxis {
     double lowest = 0;  ///< stored value
     double bend = 0;    ///< as in AxisScale; 0: positions are heights
-    double sign = 1;    ///< of SideTree
+    double sign = 1;    ///< of ObjectTree
 
     HeightAxis(const AxisScale& scale, double of_side) : lowest(scale.low), bend(scale.bend), sign(of_side) {}
     [[nodiscard]] double position(double height) const { return bend > 0 ? sign * std::asinh((sign * height - lowest) / bend) : height; }

@@ -11,19 +11,19 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMostCavities = 5;  // of one branch; all are in the table of dark objects
+constexpr std::size_t kMaxCavities = 5;  // of one branch; all are in the table of dark objects
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Per dark branch: the row of the closest branch that has one, itself or one it ends in; -1: there is none.
 template <class Id>
-BigVector<std::int64_t> rows_of_branches(const DarkSide<Id>& dark) {
-    const std::vector<BranchRow>& rows = dark.chosen.rows;
+BigVector<std::int64_t> rows_of_branches(const CavityCandidates<Id>& dark) {
+    const std::vector<Candidate>& rows = dark.chosen.rows;
     BigVector<std::int64_t> own = filled<std::int64_t>(dark.branches.branch.size(), std::int64_t{-1});
     for (std::size_t row = 0; row < rows.size(); ++row) own[rows[row].branch] = static_cast<std::int64_t>(row);
     BigVector<std::int64_t> result(own.size());
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = 0; i < result.size(); ++i) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         result[i] = own[i];
         for (auto b = static_cast<std::int64_t>(i); b >= 0 && result[i] < 0; b = dark.branches.branch[b].parent) result[i] = own[b];
     }
@@ -31,7 +31,7 @@ BigVector<std::int64_t> rows_of_branches(const DarkSide<Id>& dark) {
 }
 
 /// The isovalue up to which a voxel of the zone of an event belongs to a branch; -infinity: never.
-double joins(const Branches& branches, std::int64_t event, double value, std::int64_t branch) {
+double joins(const BranchDecomposition& branches, std::int64_t event, double value, std::int64_t branch) {
     std::int64_t b = branches.of_event[event];
     for (; b != branch; b = branches.branch[b].parent) {
         if (branches.branch[b].parent < 0) return -kInfinity;
@@ -42,8 +42,8 @@ double joins(const Branches& branches, std::int64_t event, double value, std::in
 
 /// While a dark branch lies in another one it is closed as long as that is.
 template <class Id>
-void widen(std::vector<std::vector<Enclosure>>& all, const DarkSide<Id>& dark) {
-    const std::vector<BranchRow>& rows = dark.chosen.rows;
+void widen(std::vector<std::vector<Enclosure>>& all, const CavityCandidates<Id>& dark) {
+    const std::vector<Candidate>& rows = dark.chosen.rows;
     const BigVector<std::int64_t> row_of = rows_of_branches(dark);
     const std::vector<std::vector<Enclosure>> own = all;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -79,8 +79,8 @@ bool is_new(double tau, const BranchHistogram& histogram, const std::vector<Bran
 template <class Id>
 class Walls {
 public:
-    Walls(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const SideTree<Id>& bright, const Branches& branches,
-          const BranchRows& chosen, const DarkSide<Id>& dark, const std::vector<std::int64_t>& around)
+    Walls(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& bright, const BranchDecomposition& branches,
+          const CandidateTable& chosen, const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around)
         : volume_(volume),
           arrays_(arrays),
           chosen_(chosen),
@@ -99,9 +99,9 @@ public:
 
 private:
     void add_outer(const BranchHistogram& filled, std::vector<BranchIsovalue>& result) const {
-        const auto least = static_cast<double>(least_voxels(volume_.info->extent.voxels()));
+        const auto min = static_cast<double>(min_voxels(volume_.info->extent.voxels()));
         for (const StableIsovalue& peak : stable_isovalues(filled)) {
-            if (peak.at_low_end || peak.volume < least || !has_cavity(filled.branch, peak.tau)) continue;
+            if (peak.at_low_end || peak.volume < min || !has_cavity(filled.branch, peak.tau)) continue;
             if (is_new(peak.tau, filled, chosen_.isovalues))
                 result.push_back({filled.branch, peak.tau, peak.prominence, IsovalueReason::outer});
         }
@@ -130,11 +130,11 @@ private:
 
     void add_inner(const BranchHistogram& filled, std::vector<BranchIsovalue>& result) const {
         std::size_t count = 0;
-        for (std::size_t row = 0; row < enclosures_.size() && count < kMostCavities; ++row) {
-            const BranchRow& cavity = dark_.chosen.rows[row];
+        for (std::size_t row = 0; row < enclosures_.size() && count < kMaxCavities; ++row) {
+            const Candidate& cavity = dark_.chosen.rows[row];
             const auto why = std::ranges::find(dark_.chosen.isovalues, cavity.branch, &BranchIsovalue::branch);
             const double tau = -cavity.tau;
-            if (why->reason != IsovalueReason::steady || !is_around(row, filled.branch, tau)) continue;
+            if (why->reason != IsovalueReason::stable || !is_around(row, filled.branch, tau)) continue;
             if (!is_new(tau, filled, chosen_.isovalues)) continue;
             result.push_back({filled.branch, tau, why->prominence, IsovalueReason::inner, dark_.voxel(arrays_, cavity.event)});
             ++count;
@@ -143,8 +143,8 @@ private:
 
     const VolumeView& volume_;
     const AnalysisArrays<Id>& arrays_;
-    const BranchRows& chosen_;
-    const DarkSide<Id>& dark_;
+    const CandidateTable& chosen_;
+    const CavityCandidates<Id>& dark_;
     std::vector<std::vector<Enclosure>> enclosures_;
     std::vector<BranchHistogram> filled_;
 };
@@ -152,10 +152,10 @@ private:
 }  // namespace
 
 template <class Id>
-std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays, const DarkSide<Id>& dark) {
+std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& dark) {
     std::vector<std::int64_t> around;
     const ActiveIndex index(analysis);
-    for (const BranchRow& row : dark.chosen.rows) {
+    for (const Candidate& row : dark.chosen.rows) {
         const Branch& b = dark.branches.branch[row.branch];
         const ActiveObjects there = index.at(-b.merges);
         const std::int64_t id = lowest_voxel(arrays, dark.dark, static_cast<std::size_t>(b.highest));
@@ -168,8 +168,8 @@ std::vector<std::int64_t> objects_around(const Analysis& analysis, const Analysi
 }
 
 template <class Id>
-std::vector<std::vector<Enclosure>> enclosures(const SideTree<Id>& bright, const Branches& branches, const DarkSide<Id>& dark,
-                                               const std::vector<std::int64_t>& around) {
+std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& bright, const BranchDecomposition& branches,
+                                               const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around) {
     std::vector<std::vector<Enclosure>> all(around.size());
     for (std::size_t row = 0; row < around.size(); ++row) {
         const double appears = -dark.chosen.rows[row].appears;
@@ -185,17 +185,17 @@ std::vector<std::vector<Enclosure>> enclosures(const SideTree<Id>& bright, const
 }
 
 template <class Id>
-std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const SideTree<Id>& bright, const Branches& branches,
-                                           std::vector<BranchHistogram> histograms, const DarkSide<Id>& dark,
+std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const ObjectTree<Id>& bright, const BranchDecomposition& branches,
+                                           std::vector<BranchHistogram> histograms, const CavityCandidates<Id>& dark,
                                            const std::vector<std::vector<Enclosure>>& enclosures) {
     std::vector<std::vector<Enclosure>> filled = enclosures;
     widen(filled, dark);
     const std::vector<std::int64_t> slot = slots(histograms, branches.branch.size());
     for (std::vector<Enclosure>& one : filled) std::erase_if(one, [&](const Enclosure& e) { return slot[e.branch] < 0; });
     const BigVector<std::int64_t> row_of = rows_of_branches(dark);
-    PacedCheck memory;
+    BudgetPoll memory;
     bright.for_heights(volume, [&](std::size_t v, double value) {
-        memory.step(2 * PacedCheck::kTouch);
+        memory.step(2 * BudgetPoll::kTouch);
         const std::int64_t row = row_of[dark.branches.of_event[dark.tree.zone[v]]];
         if (row < 0) return;
         for (const Enclosure& around : filled[row]) {
@@ -210,21 +210,21 @@ std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const SideT
 }
 
 template <class Id>
-std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const SideTree<Id>& bright,
-                                           const Branches& branches, const BranchRows& chosen, const DarkSide<Id>& dark,
-                                           const std::vector<std::int64_t>& around) {
+std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& bright,
+                                           const BranchDecomposition& branches, const CandidateTable& chosen,
+                                           const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around) {
     return Walls<Id>(volume, arrays, bright, branches, chosen, dark, around).all();
 }
 
-#define ISOATLAS_WALLS(Id)                                                                                                 \
-    template std::vector<std::int64_t> objects_around(const Analysis&, const AnalysisArrays<Id>&, const DarkSide<Id>&);    \
-    template std::vector<std::vector<Enclosure>> enclosures(const SideTree<Id>&, const Branches&, const DarkSide<Id>&,     \
-                                                            const std::vector<std::int64_t>&);                             \
-    template std::vector<BranchHistogram> fill_cavities(const VolumeView&, const SideTree<Id>&, const Branches&,           \
-                                                        std::vector<BranchHistogram>, const DarkSide<Id>&,                 \
-                                                        const std::vector<std::vector<Enclosure>>&);                       \
-    template std::vector<BranchIsovalue> wall_isovalues(const VolumeView&, const AnalysisArrays<Id>&, const SideTree<Id>&, \
-                                                        const Branches&, const BranchRows&, const DarkSide<Id>&,           \
+#define ISOATLAS_WALLS(Id)                                                                                                              \
+    template std::vector<std::int64_t> objects_around(const Analysis&, const AnalysisArrays<Id>&, const CavityCandidates<Id>&);         \
+    template std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>&, const BranchDecomposition&,                          \
+                                                            const CavityCandidates<Id>&, const std::vector<std::int64_t>&);             \
+    template std::vector<BranchHistogram> fill_cavities(const VolumeView&, const ObjectTree<Id>&, const BranchDecomposition&,           \
+                                                        std::vector<BranchHistogram>, const CavityCandidates<Id>&,                      \
+                                                        const std::vector<std::vector<Enclosure>>&);                                    \
+    template std::vector<BranchIsovalue> wall_isovalues(const VolumeView&, const AnalysisArrays<Id>&, const ObjectTree<Id>&,            \
+                                                        const BranchDecomposition&, const CandidateTable&, const CavityCandidates<Id>&, \
                                                         const std::vector<std::int64_t>&);
 ISOATLAS_WALLS(std::uint32_t)
 ISOATLAS_WALLS(std::uint64_t)

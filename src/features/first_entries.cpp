@@ -3,14 +3,14 @@
 #include <set>
 
 #include "features/keep_entries.h"
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
 
 const char* name_of(IsovalueReason reason) {
     switch (reason) {
-        case IsovalueReason::steady: return "steady";
+        case IsovalueReason::stable: return "steady";
         case IsovalueReason::outline: return "outline";
         case IsovalueReason::outer: return "outer";
         case IsovalueReason::inner: return "inner";
@@ -22,7 +22,7 @@ const char* name_of(IsovalueReason reason) {
 
 const char* text_of(IsovalueReason reason) {
     switch (reason) {
-        case IsovalueReason::steady: return "its size hardly depends on the isovalue here: its boundary is sharp";
+        case IsovalueReason::stable: return "its size hardly depends on the isovalue here: its boundary is sharp";
         case IsovalueReason::outline: return "everything that is not background";
         case IsovalueReason::outer: return "its outside alone, as if its cavities were filled, is sharpest here";
         case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
@@ -72,17 +72,17 @@ ObjectTable first_entries(ObjectTable table, std::int64_t top) {
     keep_first(table.entries, top);
     std::set<std::int64_t> tops;
     for (ObjectEntry& entry : table.entries) {
-        entry.note = entry.outline ? "outline" : entry.inside >= 0 ? inside_text(entry.inside) : entry.trunk ? "largest" : "";
+        entry.note = entry.outline ? "outline" : entry.inside >= 0 ? inside_text(entry.inside) : entry.main_branch ? "largest" : "";
         tops.insert(entry.branch_top);
     }
     keep_isovalues(table.isovalues, tops);
     return table;
 }
 
-DarkTable first_entries(DarkTable table, std::int64_t top) {
+CavityTable first_entries(CavityTable table, std::int64_t top) {
     keep_first(table.entries, top);
     std::set<std::int64_t> minima;
-    for (DarkEntry& entry : table.entries) {
+    for (CavityEntry& entry : table.entries) {
         entry.note = entry.inside >= 0 ? inside_text(entry.inside) : "";
         minima.insert(entry.branch_minimum);
     }

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "features/branches.h"
+#include "features/branch_decomposition.h"
 #include "isoatlas/simplify.h"
 
 namespace isoatlas {
@@ -15,7 +15,7 @@ struct BranchHierarchy::Data {
     BigVector<std::int64_t> parent;  ///< per event: of the criticality tree
     BigVector<double> value;         ///< per event
     BigVector<std::int64_t> voxels;  ///< per event, of its zone
-    Branches branches;
+    BranchDecomposition branches;
     std::vector<BranchInfo> info;
     BigVector<double> measure;  ///< per branch
     std::vector<std::int64_t> essential;

@@ -27,7 +27,7 @@ double second_differences(std::span<const T> samples, const Extent& extent) {
     BigVector<double> differences;
     differences.reserve(static_cast<std::size_t>(extent.voxels() / stride_for(extent.voxels()) + 1));
     const std::int64_t stride = stride_for(extent.voxels());
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride) {
         memory.step(bytes_of_stride<T>(stride));
         const std::int64_t x = i % extent.size[0];
@@ -67,7 +67,7 @@ bool is_free_of_noise(std::span<const T> samples, const Extent& extent) {
     const auto [low, high] = sample_range(samples);
     const std::int64_t stride = 8 * stride_for(extent.voxels()) | 1;
     std::int64_t constant = 0, all = 0;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
         memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
         const bool flat = local_variance(samples, extent, i) == 0;
@@ -83,7 +83,7 @@ double quiet_places(std::span<const T> samples, const Extent& extent) {
     if (is_free_of_noise(samples, extent)) return 0;
     BigVector<double> variances;
     const std::int64_t stride = 8 * stride_for(extent.voxels()) | 1;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
         memory.step(3 * bytes_of_stride<T>(stride));
         const double variance = local_variance(samples, extent, i);

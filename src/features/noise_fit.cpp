@@ -12,7 +12,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kWindows = 125'000;
-constexpr std::size_t kLeast = 200;  // neighbourhoods of a group
+constexpr std::size_t kMin = 200;    // neighbourhoods of a group
 constexpr double kQuantile = 0.3;    // of the regression
 constexpr double kWorthwhile = 0.5;  // a slope must leave at most this part of the loss
 
@@ -53,7 +53,7 @@ std::vector<Window> windows_of(std::span<const T> samples, const Extent& extent)
     std::vector<Window> windows;
     const auto [low, high] = sample_range(samples);
     const std::int64_t stride = std::max<std::int64_t>(1, extent.voxels() / kWindows) | 1;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
         memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
         const std::array<std::int64_t, 3> p = extent.voxel(i);
@@ -93,8 +93,8 @@ double sigma_of_masks(std::span<const Window> windows) {
 template <class Sigma>
 std::vector<Group> groups_of(std::span<const Window> windows, const Sigma& sigma) {
     std::vector<Group> groups;
-    while (windows.size() >= kLeast) {
-        const std::size_t count = windows.size() < 2 * kLeast ? windows.size() : std::max(kLeast, windows.size() * 3 / 10);
+    while (windows.size() >= kMin) {
+        const std::size_t count = windows.size() < 2 * kMin ? windows.size() : std::max(kMin, windows.size() * 3 / 10);
         const std::span<const Window> part = windows.first(count);
         groups.push_back({part[count / 2].mean, sigma(part), static_cast<double>(count)});
         windows = windows.subspan(count);
@@ -122,8 +122,8 @@ NoiseModel line_through(const std::vector<Group>& groups) {
         const NoiseModel line{0, base, slope, low, high};
         const double loss = base > 0 || slope > 0 ? loss_of(line, groups) : std::numeric_limits<double>::infinity();
         NoiseModel& best = slope == 0 ? flat : steep;
-        double& least = slope == 0 ? flat_loss : steep_loss;
-        if (loss < least) best = line, least = loss;
+        double& min = slope == 0 ? flat_loss : steep_loss;
+        if (loss < min) best = line, min = loss;
     };
     for (std::size_t i = 0; i < groups.size(); ++i) {
         offer(groups[i].sigma, 0);

@@ -1,26 +1,27 @@
-// rank_objects(), rank_dark_objects() and rank_both() for samples that lie anywhere.
+// rank_objects(), rank_cavities() and rank_both() for samples that lie anywhere.
 #pragma once
 
-#include "features/dark_side.h"
+#include "features/cavity_candidates.h"
 #include "field/volume_view.h"
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
 
-/// Cost: the dark tree (features/dark_side.h), and four passes over samples and zones in order, one voxel after the other; 60 bytes an
-/// event.
+/// Cost: the dark tree (features/cavity_candidates.h), and four passes over samples and zones in order, one voxel after the other; 60 bytes
+/// an event.
 [[nodiscard]] ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                        const Context& context);
 
-[[nodiscard]] DarkTable rank_dark_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
-                                          const Context& context);
+[[nodiscard]] CavityTable rank_cavities(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
+                                        const Context& context);
 
-[[nodiscard]] BothTables rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context);
+[[nodiscard]] ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
+                                           const Context& context);
 
 /// The table of a side that is made. Cost: up to top queries at isovalues (isoatlas/active.h).
 template <class Id>
-[[nodiscard]] DarkTable dark_table(const VolumeView& volume, const Analysis& analysis, const AnalysisArrays<Id>& arrays,
-                                   const DarkSide<Id>& side, const NoiseModel& noise, std::int64_t top);
+[[nodiscard]] CavityTable cavity_table(const VolumeView& volume, const Analysis& analysis, const AnalysisArrays<Id>& arrays,
+                                       const CavityCandidates<Id>& side, const NoiseModel& noise, std::int64_t top);
 
 }  // namespace isoatlas

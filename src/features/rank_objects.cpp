@@ -21,17 +21,17 @@ public:
           arrays_(arrays),
           is_3d_(is_3d),
           values_(event_values(arrays)),
-          tree_(bright_side<Id>(arrays, values_)),
-          branches_(make_branches(tree_, sum_zones(tree_, volume_))) {}
+          tree_(superlevel_tree<Id>(arrays, values_)),
+          branches_(decompose_branches(tree_, sum_zones(tree_, volume_))) {}
 
     /// around: as for wall_isovalues().
-    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const DarkSide<Id>& dark,
+    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const CavityCandidates<Id>& dark,
                                     const std::vector<std::int64_t>& around_dark) const {
         ObjectTable table;
         table.noise = noise.sigma;
-        PacedCheck memory;
+        BudgetPoll memory;
         for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges, memory.step(sizeof b);
-        BranchRows chosen = branch_rows(volume_, tree_, branches_, noise, options);
+        CandidateTable chosen = find_candidates(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
         const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, dark, around_dark);
         chosen.isovalues.insert(chosen.isovalues.end(), walls.begin(), walls.end());
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    [[nodiscard]] ObjectEntry entry(const BranchRow& row, std::int64_t inside) const {
+    [[nodiscard]] ObjectEntry entry(const Candidate& row, std::int64_t inside) const {
         const ElementCode code{arrays_.code[arrays_.tree.top[branches_.highest[row.event]]]};
         ObjectEntry entry{};
         entry.id = code.index();  // the highest element of an object is a maximum: a voxel
@@ -59,7 +59,7 @@ private:
         entry.inside = inside;
         entry.branch_top = branches_.branch[row.branch].top;
         entry.outline = row.outline;
-        entry.trunk = row.branch == 0;
+        entry.main_branch = row.branch == 0;
         return entry;
     }
 
@@ -67,8 +67,8 @@ private:
     const AnalysisArrays<Id>& arrays_;
     bool is_3d_;
     BigVector<double> values_;
-    SideTree<Id> tree_;
-    Branches branches_;
+    ObjectTree<Id> tree_;
+    BranchDecomposition branches_;
 };
 
 /// Calls use(arrays, noise, dark objects that matter, table of bright objects).
@@ -80,7 +80,7 @@ auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankO
     return analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
         const AnalysisArrays<Id>& arrays = held.arrays;
         if (arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
-        const DarkSide<Id> dark = make_dark_side(volume, arrays, noise, {.top = 0}, context);
+        const CavityCandidates<Id> dark = make_cavity_candidates(volume, arrays, noise, {.top = 0}, context);
         const Ranking<Id> ranking(volume, arrays, analysis.extent().rank == 3);
         return use(arrays, noise, dark, ranking.table(noise, options, dark, objects_around(analysis, arrays, dark)));
     });
@@ -97,17 +97,17 @@ ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const R
     return rank_objects(VolumeView(volume), analysis, options, context);
 }
 
-BothTables rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     return with_tables(volume, analysis, options, context,
                        [&](const auto& arrays, const NoiseModel& noise, const auto& dark, ObjectTable table) {
                            const bool is_same = options.gate && !options.selection;  // as what matters for the bright ones
-                           DarkTable dark_ones = is_same ? dark_table(volume, analysis, arrays, dark, noise, options.top)
-                                                         : rank_dark_objects(volume, analysis, options, context);
-                           return BothTables{std::move(table), std::move(dark_ones)};
+                           CavityTable dark_ones = is_same ? cavity_table(volume, analysis, arrays, dark, noise, options.top)
+                                                           : rank_cavities(volume, analysis, options, context);
+                           return ObjectsAndCavities{std::move(table), std::move(dark_ones)};
                        });
 }
 
-BothTables rank_both(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+ObjectsAndCavities rank_both(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     return rank_both(VolumeView(volume), analysis, options, context);
 }
 

@@ -20,8 +20,8 @@ template <class Id>
 void gather(const VolumeInfo& info, const AnalysisArrays<Id>& arrays, const ZoneSums& zones, Data& data) {
     data.parent.assign(arrays.tree.parent.begin(), arrays.tree.parent.end());
     data.voxels.assign(arrays.voxels.begin(), arrays.voxels.end());
-    const SideTree<Id> tree = bright_side<Id>(arrays, data.value);
-    data.branches = make_branches(tree, zones);
+    const ObjectTree<Id> tree = superlevel_tree<Id>(arrays, data.value);
+    data.branches = decompose_branches(tree, zones);
     data.measure = branch_measures(tree, data.branches, info);
     for (std::size_t i = 0; i < data.branches.branch.size(); ++i) {
         const Branch& b = data.branches.branch[i];
@@ -79,7 +79,7 @@ SelectionCurve curve_of(const Data& data, const std::string& size, const auto& s
 ZoneSums sum_zones(const VolumeView& volume, const Analysis& analysis) {
     return analysis.data().visit([&](const auto& held) {
         const BigVector<double> values = event_values(held.arrays);
-        return sum_zones(bright_side(held.arrays, std::span<const double>(values)), volume);
+        return sum_zones(superlevel_tree(held.arrays, std::span<const double>(values)), volume);
     });
 }
 

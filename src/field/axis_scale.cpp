@@ -45,14 +45,14 @@ AxisScale axis_scale(double low, double high, std::span<const std::int64_t> coun
 
 AxisScale axis_scale(const VolumeView& volume) {
     return visit_samples(volume, [](auto samples) {
-        const auto [least, most] = sample_range(samples);
-        const auto low = static_cast<double>(least), high = static_cast<double>(most);
+        const auto [min, max] = sample_range(samples);
+        const auto low = static_cast<double>(min), high = static_cast<double>(max);
         const std::vector<double> edges = axis_edges(low, high);
         std::vector<std::int64_t> counts(edges.empty() ? 0 : edges.size() - 1, 0);
         const std::size_t stride = std::max<std::size_t>(1, samples.size() / kSamples) | 1;
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t v = 0; v < samples.size() && !counts.empty(); v += stride) {
-            memory.step(std::min(stride * sizeof(samples[v]), PacedCheck::kTouch));
+            memory.step(std::min(stride * sizeof(samples[v]), BudgetPoll::kTouch));
             const auto sample = static_cast<double>(samples[v]);
             if (sample < edges.front()) continue;
             const auto after = static_cast<std::size_t>(std::ranges::upper_bound(edges, sample) - edges.begin());

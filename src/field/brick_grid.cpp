@@ -9,10 +9,10 @@ namespace {
 /// Is p before q on the curve that takes the bits of z, y, x in turns? The highest bit in which they differ decides (Chan 2002).
 bool comes_before(const std::array<std::int64_t, 3>& p, const std::array<std::int64_t, 3>& q) {
     int axis = 2;
-    std::int64_t most = p[2] ^ q[2];
+    std::int64_t max = p[2] ^ q[2];
     for (const int other : {1, 0}) {
         const std::int64_t differing = p[other] ^ q[other];
-        if (most < differing && most < (most ^ differing)) axis = other, most = differing;
+        if (max < differing && max < (max ^ differing)) axis = other, max = differing;
     }
     return p[axis] < q[axis];
 }

@@ -38,7 +38,7 @@ struct PlainProduct {
     }
 };
 
-/// In functions with ISOATLAS_FUSED (base/wide.h): elsewhere slow.
+/// In functions with ISOATLAS_FUSED (base/target_clones.h): elsewhere slow.
 struct FusedProduct {
     TwoDoubles operator()(double a, double b) const {
         const double product = a * b;

@@ -42,12 +42,12 @@ BinaryFraction binary_fraction(double value) {
 
 CommonExponent with_common_exponent(std::span<const double> values) {
     std::vector<BinaryFraction> fractions;
-    int least = std::numeric_limits<int>::max();
+    int min = std::numeric_limits<int>::max();
     for (const double value : values) {
         fractions.push_back(binary_fraction(value));
-        if (value != 0) least = std::min(least, fractions.back().exponent);
+        if (value != 0) min = std::min(min, fractions.back().exponent);
     }
-    CommonExponent result{{}, least == std::numeric_limits<int>::max() ? 0 : least};
+    CommonExponent result{{}, min == std::numeric_limits<int>::max() ? 0 : min};
     for (BinaryFraction& fraction : fractions) {
         const int shift = fraction.mantissa == 0 ? 0 : fraction.exponent - result.exponent;
         result.integers.push_back(fraction.mantissa << shift);

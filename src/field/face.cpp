@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "base/wide.h"
+#include "base/target_clones.h"
 #include "field/error_free.h"
 #include "field/rounding.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr double kLeast = 0x1p-240, kMost = 0x1p240;  // between these no product underflows or overflows
+constexpr double kMin = 0x1p-240, kMax = 0x1p240;  // between these no product underflows or overflows
 
 /// s rounded down, or kUndecided. No branches: loops over it become vector code.
 template <class Product>
@@ -30,10 +30,10 @@ inline double rounded_or_undecided(const FaceCorners& face) {
     const TwoDoubles first = two_sum(face.low, t), s = two_sum(first.high, first.low + remainder / sum.high);
     // Errors of p q, p + q + r, the quotient and the last sums: 10 + 20 + 30 + 60 times u^2 t, and u^2 s.
     const double error = ((remainder == 0) & (inputs_low == 0)) ? 0 : 0x1p-96 * t + 0x1p-104 * std::abs(s.high);
-    const double least = p.high < q.high ? p.high : q.high;
-    const bool is_moderate = (least >= kLeast) & (sum.high <= kMost) & (std::abs(face.low) <= kMost);
+    const double min = p.high < q.high ? p.high : q.high;
+    const bool is_moderate = (min >= kMin) & (sum.high <= kMax) & (std::abs(face.low) <= kMax);
     const double value = rounded_down_or_undecided(s, error);
-    return least == 0 ? face.low + 0.0 : is_moderate ? value : kUndecided;
+    return min == 0 ? face.low + 0.0 : is_moderate ? value : kUndecided;
 }
 
 /// Eight at a time, so that no loop has a remainder.
@@ -58,7 +58,7 @@ double rounded_face_value(const FaceCorners& face) {
     return std::isnan(value) ? exact_face_value(face) : value;
 }
 
-void rounded_face_values(const FaceBatch& faces, std::span<double, FaceBatch::kMost> value) {
+void rounded_face_values(const FaceBatch& faces, std::span<double, FaceBatch::kMax> value) {
     kHasFused ? round_all_fused(faces, value.data()) : round_all<PlainProduct>(faces, value.data());
     for (std::size_t i = 0; i < faces.count(); ++i) {
         if (std::isnan(value[i])) value[i] = exact_face_value(faces[i]);

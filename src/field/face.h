@@ -46,9 +46,9 @@ struct ApproximateValue {
 /// s = low + p q / (p + q + r) in plain doubles: no cancellation, whatever the samples have in common
 /// (docs/theory/1-elements-and-order.md#numbers).
 inline ApproximateValue approximate_face_value(const FaceCorners& face) {
-    constexpr double kRelative = 0x1p-49, kLeast = 0x1p-1070;  // the latter: where results are denormal
+    constexpr double kRelative = 0x1p-49, kMin = 0x1p-1070;  // the latter: where results are denormal
     const double p = face.high_1 - face.low, q = face.high_2 - face.low, sum = p + q + (face.low - face.lowest);
-    return {face.low + p * (q / sum), kRelative * (std::abs(face.low) + p) + (kLeast + p * kLeast) + 0 * sum};  // p q / sum <= p
+    return {face.low + p * (q / sum), kRelative * (std::abs(face.low) + p) + (kMin + p * kMin) + 0 * sum};  // p q / sum <= p
 }
 
 /// s rounded down (field/rounding.h). Any finite corners. Cost: about 100 flops; a microsecond where twice the precision does not decide.
@@ -57,10 +57,10 @@ double rounded_face_value(const FaceCorners& face);
 /// Faces whose values are found together, as columns.
 class FaceBatch {
 public:
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMax = 256;
 
     [[nodiscard]] std::size_t count() const { return count_; }
-    /// At most kMost. The Lows in any order: which is lower nobody can predict, and vectors need not.
+    /// At most kMax. The Lows in any order: which is lower nobody can predict, and vectors need not.
     void add(double low_1, double low_2, double high_1, double high_2) {
         column_[0][count_] = low_1, column_[1][count_] = low_2;
         column_[2][count_] = high_1, column_[3][count_] = high_2;
@@ -75,11 +75,11 @@ public:
 
 private:
     std::size_t count_ = 0;
-    alignas(64) std::array<std::array<double, kMost>, 4> column_{};
+    alignas(64) std::array<std::array<double, kMax>, 4> column_{};
 };
 
 /// value[i] = rounded_face_value(faces[i]). Cost: about 30 flops a face, by vectors of the processor.
-void rounded_face_values(const FaceBatch& faces, std::span<double, FaceBatch::kMost> value);
+void rounded_face_values(const FaceBatch& faces, std::span<double, FaceBatch::kMax> value);
 
 /// The same by integers alone. Cost: about a microsecond, a hundred with exponents far apart.
 double exact_face_value(const FaceCorners& face);

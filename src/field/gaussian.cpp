@@ -18,7 +18,7 @@ namespace isoatlas {
 namespace {
 
 constexpr double kReach = 4;  ///< sigmas
-constexpr double kMostSamples = 1000;
+constexpr double kMaxSamples = 1000;
 
 /// Weights of the samples 0, 1, ... away on either side.
 using Kernel = std::vector<double>;
@@ -129,10 +129,10 @@ void check(const VolumeInfo& info, double sigma) {
     }
     double finest = geometry.spacing[0];
     for (int axis = 1; axis < info.extent.rank; ++axis) finest = std::min(finest, geometry.spacing[static_cast<std::size_t>(axis)]);
-    if (!(sigma > 0) || !(sigma <= kMostSamples * finest)) {
+    if (!(sigma > 0) || !(sigma <= kMaxSamples * finest)) {
         throw Error(ErrorKind::usage, {.file = info.path,
                                        .what = "the sigma of a Gaussian cannot be " + std::to_string(sigma),
-                                       .expected = "above 0 and at most 1000 samples: " + std::to_string(kMostSamples * finest),
+                                       .expected = "above 0 and at most 1000 samples: " + std::to_string(kMaxSamples * finest),
                                        .next = "give sigma in the unit of the spacing"});
     }
 }

@@ -14,7 +14,7 @@ namespace isoatlas {
 /// What a step brings into memory that reads every stride-th sample.
 template <class T>
 [[nodiscard]] std::size_t bytes_of_stride(std::int64_t stride) {
-    return std::min(static_cast<std::size_t>(stride) * sizeof(T), PacedCheck::kTouch);
+    return std::min(static_cast<std::size_t>(stride) * sizeof(T), BudgetPoll::kTouch);
 }
 
 /// The least and the largest of the samples; there is at least one.
@@ -22,7 +22,7 @@ template <class T>
 [[nodiscard]] std::pair<T, T> sample_range(std::span<const T> samples) {
     constexpr std::size_t kTogether = std::size_t{1} << 13;
     std::pair<T, T> range{samples.front(), samples.front()};
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t first = 0; first < samples.size(); first += kTogether) {
         const std::span<const T> some = samples.subspan(first, std::min(kTogether, samples.size() - first));
         memory.step(some.size_bytes());

@@ -10,10 +10,10 @@ namespace isoatlas {
 
 std::int64_t slab_height(const Context& context, const Slices& slices) {
     if (context.slab_slices > 0) return context.slab_slices;
-    constexpr std::int64_t kLeastVoxels = 1 << 15;
+    constexpr std::int64_t kMinVoxels = 1 << 15;
     const std::int64_t slabs = 8 * static_cast<std::int64_t>(thread_count(context.threads));
     const std::int64_t shared = std::clamp<std::int64_t>((slices.count + slabs - 1) / slabs, 1, 64);
-    return std::max(shared, kLeastVoxels / std::max<std::int64_t>(slices.voxels, 1));
+    return std::max(shared, kMinVoxels / std::max<std::int64_t>(slices.voxels, 1));
 }
 
 void for_each_slab(const Context& context, const Phase& phase, const Slices& slices, const std::function<void(const Slab&)>& work) {

@@ -6,6 +6,6 @@
 namespace isoatlas {
 
 /// Throws Error{usage} for no frames, frames of different sizes, sides above `most`, or frames per second outside of 0.1 .. 100.
-void check_animation(const Animation& animation, std::int64_t most);
+void check_animation(const Animation& animation, std::int64_t max);
 
 }  // namespace isoatlas

@@ -6,16 +6,16 @@
 
 namespace isoatlas {
 
-void check_animation(const Animation& animation, std::int64_t most) {
+void check_animation(const Animation& animation, std::int64_t max) {
     const auto refuse = [](const std::string& what, const std::string& expected) {
         throw Error(ErrorKind::usage, {.what = what, .expected = expected});
     };
     if (animation.frames.empty()) refuse("an animation without frames", "at least one");
     if (!(animation.frames_per_second >= 0.1 && animation.frames_per_second <= 100)) refuse("frames per second out of range", "0.1 to 100");
     const Image& first = animation.frames[0];
-    if (first.width < 1 || first.height < 1 || first.width > most || first.height > most)
+    if (first.width < 1 || first.height < 1 || first.width > max || first.height > max)
         refuse("frames of " + std::to_string(first.width) + " x " + std::to_string(first.height) + " pixels",
-               "1 to " + std::to_string(most));
+               "1 to " + std::to_string(max));
     for (const Image& frame : animation.frames) {
         if (frame.width != first.width || frame.height != first.height) refuse("frames of different sizes", "one size");
     }
@@ -23,7 +23,7 @@ void check_animation(const Animation& animation, std::int64_t most) {
 
 namespace {
 
-constexpr std::int64_t kMostSide = 16384;
+constexpr std::int64_t kMaxSide = 16384;
 
 std::vector<std::uint8_t> frame_control(std::uint32_t sequence, const Animation& animation) {
     std::vector<std::uint8_t> control;
@@ -43,7 +43,7 @@ std::vector<std::uint8_t> frame_control(std::uint32_t sequence, const Animation&
 }  // namespace
 
 std::vector<std::byte> encode_apng(const Animation& animation) {
-    check_animation(animation, kMostSide);
+    check_animation(animation, kMaxSide);
     bool with_alpha = false;
     for (const Image& frame : animation.frames) with_alpha = with_alpha || has_transparency(frame);
     PngChunks chunks;

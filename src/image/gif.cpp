@@ -8,7 +8,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMostSide = 65535;
+constexpr std::int64_t kMaxSide = 65535;
 constexpr std::uint8_t kSame = 255;  // index of "as before"
 
 class GifBytes {
@@ -58,10 +58,10 @@ private:
 
 /// LZW as GIF has it: 8-bit symbols, codes of 9 to 12 bits.
 void compress(const std::vector<std::uint8_t>& indices, GifBytes& out) {
-    constexpr int kClear = 256, kEnd = 257, kMost = 4096;
+    constexpr int kClear = 256, kEnd = 257, kMax = 4096;
     out.byte(8);
     CodeStream codes(out);
-    std::vector<std::int16_t> next(static_cast<std::size_t>(kMost) * 256, -1);  // code of (prefix, symbol)
+    std::vector<std::int16_t> next(static_cast<std::size_t>(kMax) * 256, -1);  // code of (prefix, symbol)
     int used = kEnd + 1, width = 9;
     codes.put(kClear, width);
     int prefix = indices[0];
@@ -72,7 +72,7 @@ void compress(const std::vector<std::uint8_t>& indices, GifBytes& out) {
             continue;
         }
         codes.put(prefix, width);
-        if (used < kMost) {
+        if (used < kMax) {
             code = static_cast<std::int16_t>(used);
             if (used == 1 << width) ++width;
             ++used;
@@ -112,7 +112,7 @@ void put_frame(const Image& frame, int hundredths, const std::vector<std::uint8_
 }  // namespace
 
 std::vector<std::byte> encode_gif(const Animation& animation) {
-    check_animation(animation, kMostSide);
+    check_animation(animation, kMaxSide);
     const Quantiser quantiser(animation.frames);
     GifBytes out;
     put_header(animation, quantiser, out);

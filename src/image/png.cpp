@@ -32,7 +32,7 @@ int predict(int filter, int left, int up, int corner) {
 void filter_row(const std::vector<std::uint8_t>& row, const std::vector<std::uint8_t>& above, std::size_t pixel,
                 std::vector<std::uint8_t>& out) {
     std::vector<std::uint8_t> best, tried(row.size() + 1);
-    long least = -1;
+    long min = -1;
     for (int filter = 0; filter < 5; ++filter) {
         long sum = 0;
         tried[0] = static_cast<std::uint8_t>(filter);
@@ -42,8 +42,8 @@ void filter_row(const std::vector<std::uint8_t>& row, const std::vector<std::uin
             tried[i + 1] = difference;
             sum += std::abs(static_cast<int>(static_cast<std::int8_t>(difference)));
         }
-        if (least >= 0 && sum >= least) continue;
-        least = sum;
+        if (min >= 0 && sum >= min) continue;
+        min = sum;
         best = tried;
     }
     out.insert(out.end(), best.begin(), best.end());

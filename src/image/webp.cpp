@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMostSide = 16383;
+constexpr std::int64_t kMaxSide = 16383;
 
 [[noreturn]] void fail(const std::string& what) {
     throw Error(ErrorKind::resource, {.what = "WebP could not be made: " + what, .next = "write .png or .gif, or smaller frames"});
@@ -45,7 +45,7 @@ WebPConfig config_of(double quality) {
 }  // namespace
 
 std::vector<std::byte> encode_webp(const Animation& animation, double quality) {
-    check_animation(animation, kMostSide);
+    check_animation(animation, kMaxSide);
     const Image& first = animation.frames[0];
     WebPAnimEncoderOptions options;
     WebPAnimEncoderOptionsInit(&options);

@@ -33,7 +33,7 @@ struct CellWindow {
 template <int kRows>
 struct CellRow {
     std::array<const std::uint64_t*, kRows> row;
-    WordSet busy;
+    WordSet candidates;
 
     /// Bit p: the corners of cell p are neither all High nor all Low.
     [[nodiscard]] std::uint64_t active(std::int64_t w) const {
@@ -48,14 +48,14 @@ struct CellRow {
 };
 
 inline CellRow<4> cell_row(const HighBits& high, std::int64_t y, std::int64_t z) {
-    return {{high.row(y, z), high.row(y + 1, z), high.row(y, z + 1), high.row(y + 1, z + 1)}, high.busy(y, z)};
+    return {{high.row(y, z), high.row(y + 1, z), high.row(y, z + 1), high.row(y + 1, z + 1)}, high.candidates(y, z)};
 }
-inline CellRow<2> square_row(const HighBits& high, std::int64_t y) { return {{high.row(y, 0), high.row(y + 1, 0)}, high.busy(y, 0)}; }
+inline CellRow<2> square_row(const HighBits& high, std::int64_t y) { return {{high.row(y, 0), high.row(y + 1, 0)}, high.candidates(y, 0)}; }
 
 /// Calls visit(p, pattern) for every active cell of the window, p ascending. pattern: bit 2 r + i is corner p + i of row r.
 template <int kRows, class Visit>
 void for_active_cells(const CellRow<kRows>& rows, const CellWindow& window, Visit&& visit) {
-    rows.busy.for_each([&](std::int64_t w) {
+    rows.candidates.for_each([&](std::int64_t w) {
         const std::uint64_t active = rows.active(w) & window.mask(w);
         if (active == 0) return;
         for (int half = 0; half < 2; ++half) {  // 32 cells at a time: then both corners lie in one word
@@ -75,7 +75,7 @@ void for_active_cells(const CellRow<kRows>& rows, const CellWindow& window, Visi
 template <int kRows>
 std::int64_t count_active_cells(const CellRow<kRows>& rows, const CellWindow& window) {
     std::int64_t count = 0;
-    rows.busy.for_each([&](std::int64_t w) { count += std::popcount(rows.active(w) & window.mask(w)); });
+    rows.candidates.for_each([&](std::int64_t w) { count += std::popcount(rows.active(w) & window.mask(w)); });
     return count;
 }
 

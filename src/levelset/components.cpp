@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "levelset/names.h"
+#include "levelset/component_representatives.h"
 #include "levelset/unite.h"
 
 namespace isoatlas {
@@ -62,7 +62,7 @@ Components find_components(const TauLevel& level, double tunnel_height, const Co
     Components components{find_runs(level.high, context), {}, {}, {}, {}, {}};
     RunSets sets = unite_runs(level.volume, level.tau, tunnel_height, level.high, components.runs, context);
     number_components(sets, components);
-    name_components(level, context, components);
+    find_representatives(level, context, components);
     return components;
 }
 

@@ -26,15 +26,15 @@ std::uint64_t pack(const std::uint8_t* flags) {
 }
 
 template <class T>
-void classify_row(const T* values, std::int64_t n, T least, std::uint64_t* row) {
+void classify_row(const T* values, std::int64_t n, T min, std::uint64_t* row) {
     alignas(64) std::uint8_t flags[64];
     std::uint64_t carry = 0;  // bit p is voxel p - 1: everything moves up by one
     std::int64_t w = 0;
     for (std::int64_t x = 0; x < n; x += 64, ++w) {
         if (n - x >= 64) {
-            for (int i = 0; i < 64; ++i) flags[i] = values[x + i] >= least;
+            for (int i = 0; i < 64; ++i) flags[i] = values[x + i] >= min;
         } else {
-            for (int i = 0; i < 64; ++i) flags[i] = x + i < n && values[x + i] >= least;
+            for (int i = 0; i < 64; ++i) flags[i] = x + i < n && values[x + i] >= min;
         }
         const std::uint64_t word = pack(flags);
         row[w] = word << 1 | carry;
@@ -50,14 +50,14 @@ std::int64_t words_of(const Extent& extent) { return (extent.size[0] + 2 + 63) /
 HighBits::HighBits(const Extent& extent)
     : extent_(extent),
       words_(words_of(extent)),
-      busy_(words_),
+      candidates_(words_),
       bits_(static_cast<std::size_t>(stride() * extent.size[1] * extent.size[2]), 0),
       zero_row_(static_cast<std::size_t>(stride())) {}
 
 HighBits::HighBits(const LevelBricks& bricks)
     : extent_(bricks.grid.extent),
       words_(words_of(extent_)),
-      busy_(bricks, words_),
+      candidates_(bricks, words_),
       bits_(static_cast<std::size_t>(stride() * extent_.size[1] * extent_.size[2])),
       zero_row_(static_cast<std::size_t>(stride())) {}
 
@@ -72,7 +72,7 @@ HighBits classify(const Volume& volume, double tau, const Context& context) {
         const Threshold<T> threshold = threshold_for<T>(tau);
         if (threshold.none_high) return;
         for_each_row(context, {"classify", 0, 3}, grid.extent, [&](std::int64_t y, std::int64_t z) {
-            classify_row(grid.row(y, z), grid.extent.size[0], threshold.least, high.row(y, z));
+            classify_row(grid.row(y, z), grid.extent.size[0], threshold.min, high.row(y, z));
         });
     });
     return high;

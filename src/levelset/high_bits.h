@@ -12,7 +12,7 @@
 #include "field/grid.h"
 #include "isoatlas/context.h"
 #include "isoatlas/volume.h"
-#include "levelset/busy_words.h"
+#include "levelset/candidate_words.h"
 
 namespace isoatlas {
 
@@ -24,13 +24,13 @@ public:
     explicit HighBits(const LevelBricks& bricks);
 
     /// The bricks are others now: other words are busy. What rows hold stays.
-    void set_busy(const LevelBricks& bricks) { busy_ = BusyWords(bricks, words_); }
+    void set_candidates(const LevelBricks& bricks) { candidates_ = CandidateWords(bricks, words_); }
 
     [[nodiscard]] const Extent& extent() const { return extent_; }
     /// Words of a row; one more zero word follows, so word w + 1 may always be read.
     [[nodiscard]] std::int64_t words() const { return words_; }
     /// Words of row (y, z) of cells, y and z from -1, that may hold active cells.
-    [[nodiscard]] WordSet busy(std::int64_t y, std::int64_t z) const { return busy_.of(y, z); }
+    [[nodiscard]] WordSet candidates(std::int64_t y, std::int64_t z) const { return candidates_.of(y, z); }
     [[nodiscard]] const std::uint64_t* row(std::int64_t y, std::int64_t z) const {
         const bool inside = y >= 0 && y < extent_.size[1] && z >= 0 && z < extent_.size[2];
         return inside ? bits_.data() + (y + extent_.size[1] * z) * stride() : zero_row_.data();
@@ -41,7 +41,7 @@ private:
     [[nodiscard]] std::int64_t stride() const { return words_ + 1; }
     Extent extent_;
     std::int64_t words_;
-    BusyWords busy_;
+    CandidateWords candidates_;
     BigVector<std::uint64_t> bits_;
     std::vector<std::uint64_t> zero_row_;
 };

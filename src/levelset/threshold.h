@@ -10,7 +10,7 @@ namespace isoatlas {
 /// value >= tau for a sample of T is `!none_high && value >= least`.
 template <class T>
 struct Threshold {
-    T least;         ///< smallest T that is >= tau
+    T min;           ///< smallest T that is >= tau
     bool none_high;  ///< no T is >= tau
 };
 
@@ -22,9 +22,9 @@ Threshold<T> threshold_for(double tau) {
     if constexpr (std::is_integral_v<T>) {
         return {static_cast<T>(std::ceil(tau)), false};
     } else {
-        T least = static_cast<T>(tau);
-        if (static_cast<double>(least) < tau) least = std::nextafter(least, Limits::max());
-        return {least, false};
+        T min = static_cast<T>(tau);
+        if (static_cast<double>(min) < tau) min = std::nextafter(min, Limits::max());
+        return {min, false};
     }
 }
 

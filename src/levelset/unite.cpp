@@ -18,13 +18,13 @@ public:
     /// All connections inside slice z.
     void join_inside(std::int64_t z) {
         for (std::int64_t y = 0; y + 1 < extent_.size[1]; ++y) {
-            if (!high_.busy(y, z).empty()) join_rows(y, z, y + 1, z, 0);
+            if (!high_.candidates(y, z).empty()) join_rows(y, z, y + 1, z, 0);
         }
     }
     /// All connections between slices z and z + 1, the faces and the cells between them.
     void join_upwards(std::int64_t z) {
         for (std::int64_t y = 0; y < extent_.size[1]; ++y) {
-            if (high_.busy(y, z).empty()) continue;
+            if (high_.candidates(y, z).empty()) continue;
             join_rows(y, z, y, z + 1, 1);
             if (y + 1 < extent_.size[1]) join_faces_across(y, z);
             if (y + 1 < extent_.size[1] && tunnels_.finds_any()) join_tunnels(y, z);
@@ -64,7 +64,7 @@ private:
     /// The 4-hit yz faces between the rows (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
     void join_faces_across(std::int64_t y, std::int64_t z) {
         const CellRow<4> rows = cell_row(high_, y, z);
-        rows.busy.for_each([&](std::int64_t w) {
+        rows.candidates.for_each([&](std::int64_t w) {
             const std::uint64_t a = rows.row[0][w], b = rows.row[1][w], d = rows.row[2][w], c = rows.row[3][w];
             for (std::uint64_t rest = (a ^ b) & ~(a ^ c) & ~(b ^ d); rest != 0; rest &= rest - 1) {
                 const int bit = std::countr_zero(rest);

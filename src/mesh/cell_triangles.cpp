@@ -11,8 +11,8 @@ bool edge_in_face(int edge, int face) {
     return corners == 2;
 }
 
-/// Hit number of the loop around which a fan has no chord within a face; -1: there is none.
-int fan_centre(const CellLoops& loops, int loop) {
+/// Hit number of the loop around which a articulation has no chord within a face; -1: there is none.
+int articulation_centre(const CellLoops& loops, int loop) {
     const int n = loops.size(loop);
     const std::uint8_t* hits = loops.edge.data() + loops.begin[loop];
     for (int centre = 0; centre < n; ++centre) {
@@ -37,8 +37,8 @@ void add_loop(const CellLoops& loops, int loop, int centre, CellTriangles& cell)
         for (int step = 1; step + 1 < n; ++step) add_triangle(cell, hits[centre], hits[(centre + step) % n], hits[(centre + step + 1) % n]);
         return;
     }
-    const int point = 12 + cell.fans;
-    cell.fan_loop[cell.fans++] = static_cast<std::uint8_t>(loop);
+    const int point = 12 + cell.articulation_points;
+    cell.articulation_loop[cell.articulation_points++] = static_cast<std::uint8_t>(loop);
     for (int i = 0; i < n; ++i) add_triangle(cell, point, hits[i], hits[(i + 1) % n]);
 }
 
@@ -50,7 +50,7 @@ std::vector<CellTriangles> make_table(SurfaceStyle style) {
         for (int loop = 0; loop < loops.count; ++loop) large += loops.size(loop) > 3;
         for (int loop = 0; loop < loops.count; ++loop) {
             const bool alone = loops.size(loop) == 3 || large == 1;
-            add_loop(loops, loop, style == SurfaceStyle::compact && alone ? fan_centre(loops, loop) : -1, table[number]);
+            add_loop(loops, loop, style == SurfaceStyle::compact && alone ? articulation_centre(loops, loop) : -1, table[number]);
         }
     }
     return table;

@@ -6,7 +6,7 @@
 #include "base/sample_types.h"
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
-#include "mesh/wide_cells.h"
+#include "mesh/cells_avx512.h"
 
 namespace isoatlas {
 namespace {
@@ -28,7 +28,8 @@ Vec3 polygon_area(const Surface& surface, const CellLoops& loops, int loop, cons
 }
 
 /// The articulation point of a loop: mean of its hits, in place and in normal.
-void write_fan_point(const CellLoops& loops, int loop, const std::int64_t* point, bool flip, std::int64_t target, Surface& surface) {
+void write_articulation_point(const CellLoops& loops, int loop, const std::int64_t* point, bool flip, std::int64_t target,
+                              Surface& surface) {
     const int n = loops.size(loop);
     const std::uint8_t* hits = loops.edge.data() + loops.begin[loop];
     Vec3 position{}, normal{};
@@ -55,10 +56,10 @@ void write_fan_point(const CellLoops& loops, int loop, const std::int64_t* point
 
 /// The first hits of the rows around a row of cells.
 HitCounters first_hits(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t z) {
-    const RowPlace& r00 = layout[domain.row_number(y, z)];
-    const RowPlace& r10 = layout[domain.row_number(y + 1, z)];
-    const RowPlace& r01 = layout[domain.row_number(y, z + 1)];
-    const RowPlace& r11 = layout[domain.row_number(y + 1, z + 1)];
+    const RowOffsets& r00 = layout[domain.row_number(y, z)];
+    const RowOffsets& r10 = layout[domain.row_number(y + 1, z)];
+    const RowOffsets& r01 = layout[domain.row_number(y, z + 1)];
+    const RowOffsets& r11 = layout[domain.row_number(y + 1, z + 1)];
     return {r00.point, r10.point, r01.point, r11.point, r00.first_y(), r01.first_y(), r00.first_z(), r10.first_z()};
 }
 
@@ -82,17 +83,17 @@ auto CellWriter<T>::state_of(std::int64_t p, std::int64_t y, std::int64_t z, int
 }
 
 template <class T>
-void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowPlace& place) const {
+void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowOffsets& place) const {
     const bool tunnels = has_tunnels(y, z);
     const auto count_rest = [&](std::int64_t p, int pattern) {
         const State state = state_of(p, y, z, pattern, tunnels);
         if (state.tunnel) {
             const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
             place.triangle += cell.triangles;
-            place.fans += cell.points();
+            place.articulation_points += cell.points();
         } else {
             place.triangle += triangles_[state.number].triangles;
-            place.fans += triangles_[state.number].fans;
+            place.articulation_points += triangles_[state.number].articulation_points;
         }
     };
     count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, place, count_rest);
@@ -131,28 +132,28 @@ void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, con
         surface.points[target] = map_.point(position);
         if (!surface.contour.empty()) surface.contour[target] = surface.contour[point[cell.hit]];
     }
-    for (int fan = 0; fan < cell.fans; ++fan) {
-        const std::int64_t target = point[12 + cell.ring_points + fan] = next++;
-        write_fan_point(cell_cases().loops[state.number], cell.fan_loop[fan], point, flip_, target, surface);
+    for (int articulation = 0; articulation < cell.articulation_points; ++articulation) {
+        const std::int64_t target = point[12 + cell.ring_points + articulation] = next++;
+        write_articulation_point(cell_cases().loops[state.number], cell.articulation_loop[articulation], point, flip_, target, surface);
     }
 }
 
 template <class T>
 void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const {
     const std::int64_t row = domain_.row_number(y, z);
-    const RowPlace& place = layout[row];
+    const RowOffsets& place = layout[row];
     if (layout[row + 1].triangle == place.triangle) return;
-    std::int64_t fan_point = place.first_fan();
+    std::int64_t articulation_point = place.first_articulation_point();
     const bool tunnels = has_tunnels(y, z);
     const auto write_rest = [&](std::int64_t p, int pattern, const HitCounters& before, const HitCounters& after,
                                 std::array<std::int64_t, 3>*& triangle) {
         std::array<std::int64_t, 20> point;
         std::ranges::copy(points_of(before, after), point.begin());
-        write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point.data(), fan_point, triangle, surface);
+        write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point.data(), articulation_point, triangle, surface);
     };
     std::array<std::int64_t, 3>* const triangles = surface.triangles.data();
     CellRow<4> cells = cell_row(domain_.high, y, z);
-    cells.busy = words_of(domain_.high, place.cell_words, cells.busy);
+    cells.candidates = words_of(domain_.high, place.cell_words, cells.candidates);
     write_plain_cells(cells, domain_.cells, plain_, first_hits(domain_, layout, y, z), triangles + place.triangle,
                       triangles + layout[row + 1].triangle, write_rest);
 }
@@ -172,9 +173,10 @@ void CellWriter<T>::write_cell(const State& state, const std::array<std::int64_t
         return;
     }
     const CellTriangles& cell = triangles_[state.number];
-    for (int fan = 0; fan < cell.fans; ++fan) {
-        point[12 + fan] = next_point;
-        write_fan_point(cell_cases().loops[state.number], cell.fan_loop[fan], point, flip_, next_point++, surface);
+    for (int articulation = 0; articulation < cell.articulation_points; ++articulation) {
+        point[12 + articulation] = next_point;
+        write_articulation_point(cell_cases().loops[state.number], cell.articulation_loop[articulation], point, flip_, next_point++,
+                                 surface);
     }
     write_triangles(cell.corner.data(), cell.triangles);
 }

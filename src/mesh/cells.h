@@ -14,7 +14,7 @@ namespace isoatlas {
 template <class T>
 class CellWriter {
 public:
-    /// flip: the geometry is mirrored, so triangles must turn the other way round to keep their normals towards lower values.
+    /// flip: the geometry is mirrored, so triangles must compute_normals the other way round to keep their normals towards lower values.
     CellWriter(const SampleGrid<T>& grid, double tau, const MeshDomain& domain, const PhysicalMap& map, const ExtractOptions& options,
                bool flip)
         : joiner_{grid, tau},
@@ -29,7 +29,7 @@ public:
           plain_(options.style, tunnels_.finds_any(), flip) {}
 
     /// Counts the hits of row (y, z), and the triangles and articulation points of its cells.
-    void count_row(std::int64_t y, std::int64_t z, RowPlace& place) const;
+    void count_row(std::int64_t y, std::int64_t z, RowOffsets& place) const;
     /// Writes triangles and articulation points (with normals and contours when the surface has them). All hits are already written.
     void write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const;
 

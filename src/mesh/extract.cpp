@@ -10,7 +10,7 @@
 #include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
 #include "mesh/hits.h"
-#include "mesh/selection.h"
+#include "mesh/select_cells.h"
 #include "mesh/squares.h"
 
 namespace isoatlas {
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPhases = 3;
 
-/// Must triangles (segments) turn the other way round than in voxel coordinates? A 2D image is seen from +z where it can be.
+/// Must triangles (segments) compute_normals the other way round than in voxel coordinates? A 2D image is seen from +z where it can be.
 bool is_mirrored(const VolumeInfo& info) {
     const Mat3& m = info.geometry.direction;
     const double in_plane = m[0][0] * m[1][1] - m[0][1] * m[1][0];
@@ -61,7 +61,7 @@ private:
     void prefetch_group(std::int64_t group, std::int64_t z) const {
         const auto [begin, end] = RowGroups::rows(domain_, group);
         const std::int64_t end_inside = std::min(end, grid_.extent.size[1]);
-        if (z < domain_.z_end && begin >= 0 && begin < end_inside && !domain_.high.busy(begin, z).empty())
+        if (z < domain_.z_end && begin >= 0 && begin < end_inside && !domain_.high.candidates(begin, z).empty())
             prefetch_rows(domain_, layout_, begin, end_inside, z);
     }
     /// Calls visit(group, z) for all groups of rows of points: slab by slab, and in a slab those whose samples lie near each other.
@@ -97,7 +97,7 @@ private:
     }
 
     void count() {
-        resize_fresh(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
+        resize_for_overwrite(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
         for_groups({"count", 1, kPhases}, [&](std::int64_t group, std::int64_t z) {
             const auto [begin, end] = RowGroups::rows(domain_, group);
             bool used = false;
@@ -105,13 +105,13 @@ private:
             if (used) groups_.use(group, z);
         });
         layout_.back() = {};
-        turn_counts_into_places(layout_);
+        exclusive_scan_counts(layout_);
     }
     /// Does the row have anything?
     bool count_row(std::int64_t y, std::int64_t z) {
-        RowPlace& place = layout_[domain_.row_number(y, z)];
+        RowOffsets& place = layout_[domain_.row_number(y, z)];
         place = {};
-        if (domain_.high.busy(y, z).empty()) return false;
+        if (domain_.high.candidates(y, z).empty()) return false;
         if (domain_.is_2d() || !has_cells(y, z)) {
             count_hits(domain_, y, z, place);
             if (has_cells(y, z)) place.triangle = count_segments(domain_, y);
@@ -122,21 +122,21 @@ private:
     }
 
     void check_size() const {
-        const std::int64_t simplices = layout_.back().triangle, most = options_.most_triangles;
-        if (most == 0 || simplices <= most) return;
+        const std::int64_t simplices = layout_.back().triangle, max = options_.max_triangles;
+        if (max == 0 || simplices <= max) return;
         throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(simplices) + " triangles",
-                                          .expected = "at most " + std::to_string(most),
+                                          .expected = "at most " + std::to_string(max),
                                           .next = "ask for one object or another isovalue; isoatlas extract writes surfaces of any size"});
     }
 
     /// Every entry will be written.
     void allocate(Surface& surface) const {
         const auto points = static_cast<std::size_t>(layout_.back().point), simplices = static_cast<std::size_t>(layout_.back().triangle);
-        resize_fresh(surface.segments, domain_.is_2d() ? simplices : 0);
-        resize_fresh(surface.triangles, domain_.is_2d() ? 0 : simplices);
-        resize_fresh(surface.points, points);
-        resize_fresh(surface.normals, options_.normals ? points : 0);
-        resize_fresh(surface.contour, components_ != nullptr ? points : 0);
+        resize_for_overwrite(surface.segments, domain_.is_2d() ? simplices : 0);
+        resize_for_overwrite(surface.triangles, domain_.is_2d() ? 0 : simplices);
+        resize_for_overwrite(surface.points, points);
+        resize_for_overwrite(surface.normals, options_.normals ? points : 0);
+        resize_for_overwrite(surface.contour, components_ != nullptr ? points : 0);
     }
 
     void write_hits(Surface& surface) {
@@ -144,7 +144,7 @@ private:
         const Phase phase{"points", 2, kPhases};
         for_each_slab_of(1, context_, phase, hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });
         for_used_rows(phase, [&](std::int64_t y, std::int64_t z) {
-            const RowPlace& place = layout_[domain_.row_number(y, z)];
+            const RowOffsets& place = layout_[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) return;
             if (y < 0 || z < 0) hits.write_outside(y, z, place);
             if (components_ != nullptr) write_contours(*components_, domain_, y, z, place, surface);

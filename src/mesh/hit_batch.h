@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "base/wide.h"
+#include "base/target_clones.h"
 #include "mesh/physical_map.h"
 
 namespace isoatlas {
@@ -24,11 +24,11 @@ struct HitBatch {
 /// What is computed of them.
 template <class Real>
 struct HitValues {
-    std::array<Real, kLanes> a{}, b{};  ///< samples at the ends of the edge
-    Lanes<Real> slope{}, change{};      ///< of the samples at the first end, and what it changes by towards the other one
-    std::array<double, kLanes> t{};     ///< where the hit lies between them
-    Lanes<double> place{};              ///< of the hit
-    std::array<bool, kLanes> rare{};    ///< PhysicalMap::to_normals
+    std::array<Real, kLanes> a{}, b{};      ///< samples at the ends of the edge
+    Lanes<Real> slope{}, change{};          ///< of the samples at the first end, and what it changes by towards the other one
+    std::array<double, kLanes> t{};         ///< where the hit lies between them
+    Lanes<double> place{};                  ///< of the hit
+    std::array<bool, kLanes> degenerate{};  ///< PhysicalMap::to_normals
 };
 
 /// Where the hits of a run lie: on edges that begin at samples of a row.
@@ -49,9 +49,9 @@ inline std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch
     return point - run.point;
 }
 
-#if ISOATLAS_HAS_WIDE_512
+#if ISOATLAS_HAS_AVX512
 /// The same for 16 hits at a time, without a branch that could not be foreseen.
-ISOATLAS_WIDE_512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
+ISOATLAS_AVX512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
     alignas(64) static constexpr std::array<std::uint8_t, 64> kPositions = [] {
         std::array<std::uint8_t, 64> positions{};
         for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = static_cast<std::uint8_t>(i);
@@ -82,8 +82,8 @@ ISOATLAS_WIDE_512 inline std::int64_t append_wide(const HitRun& run, std::uint64
 
 /// append_plain(), as fast as it gets here.
 inline std::int64_t append(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
-#if ISOATLAS_HAS_WIDE_512
-    if (kHasWide512) return append_wide(run, bits, batch);
+#if ISOATLAS_HAS_AVX512
+    if (kHasAvx512) return append_wide(run, bits, batch);
 #endif
     return append_plain(run, bits, batch);
 }

@@ -53,7 +53,7 @@ void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGro
         if (!groups.is_used(RowGroups::group_of(first_y), z)) continue;
         rows.clear();
         for (std::int64_t y = first_y; y < end_y; ++y) {
-            const RowPlace& place = layout[domain_.row_number(y, z)];
+            const RowOffsets& place = layout[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) continue;
             rows.emplace_back(RowHits(domain_, y, z, place), place, y - first_y, z - first_z, y + 1 == grid_.extent.size[1],
                               z + 1 == grid_.extent.size[2]);
@@ -70,12 +70,12 @@ void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGro
 
 template <class T>
 void HitWriter<T>::write_slice(std::vector<Row>& rows, Work& work) const {
-    for (std::int64_t i = 0; i < rows.front().hits.busy.size; ++i) {
-        std::uint64_t busy = 0;
-        for (const Row& row : rows) busy |= row.hits.busy.bits[i];
-        for_bits(busy, [&](int bit) {
+    for (std::int64_t i = 0; i < rows.front().hits.candidates.size; ++i) {
+        std::uint64_t candidates = 0;
+        for (const Row& row : rows) candidates |= row.hits.candidates.bits[i];
+        for_bits(candidates, [&](int bit) {
             for (Row& row : rows) {
-                if ((row.hits.busy.bits[i] >> bit & 1) != 0) write_word(64 * i + bit, row, work);
+                if ((row.hits.candidates.bits[i] >> bit & 1) != 0) write_word(64 * i + bit, row, work);
             }
         });
     }
@@ -120,10 +120,10 @@ std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
 }
 
 template <class T>
-void HitWriter<T>::turn(std::size_t axis, Work& work) const {
+void HitWriter<T>::compute_normals(std::size_t axis, Work& work) const {
     const BundleSamples<T, Real>& samples = work.samples;
     const HitBatch& batch = work.batch[axis];
-    if (!batch.is_at_end && samples.has_same_scales()) return turn_hits(batch, map_, samples.same_scales(), work.values);
+    if (!batch.is_at_end && samples.has_same_scales()) return compute_normals(batch, map_, samples.same_scales(), work.values);
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < batch.count; ++i) {
             const std::int32_t at = batch.from[k][i], next = at + (axis == k);
@@ -131,7 +131,7 @@ void HitWriter<T>::turn(std::size_t axis, Work& work) const {
             work.values.change[k][i] *= samples.scale(k, next);
         }
     }
-    turn_hits(batch, map_, {1, 1, 1}, work.values);
+    compute_normals(batch, map_, {1, 1, 1}, work.values);
 }
 
 template <class T>
@@ -140,15 +140,15 @@ void HitWriter<T>::flush(std::size_t axis, Work& work) const {
     HitValues<Real>& values = work.values;
     work.samples.gather(batch, axis, normals_, values);
     place_hits(batch, axis, tau_, map_, work.first, values);
-    if (normals_) turn(axis, work);
+    if (normals_) compute_normals(axis, work);
     for (std::size_t i = 0; i < batch.count; ++i)
         surface_.points[batch.point[i]] = {values.place[0][i], values.place[1][i], values.place[2][i]};
     const auto& [x, y, z] = values.slope;
     for (std::size_t i = 0; normals_ && i < batch.count; ++i) {
         surface_.normals[batch.point[i]] =
-            values.rare[i] ? map_.rare_normal({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])},
-                                              static_cast<int>(axis), values.a[i] > values.b[i] ? 1 : -1)
-                           : std::array{static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(z[i])};
+            values.degenerate[i] ? map_.degenerate_normal({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])},
+                                                          static_cast<int>(axis), values.a[i] > values.b[i] ? 1 : -1)
+                                 : std::array{static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(z[i])};
     }
     batch.count = 0;
     batch.is_at_end = false;
@@ -171,10 +171,10 @@ void HitWriter<T>::write_border(const Vec3& position, int axis, double sign, std
 }
 
 template <class T>
-void HitWriter<T>::write_outside(std::int64_t y, std::int64_t z, const RowPlace& place) const {
+void HitWriter<T>::write_outside(std::int64_t y, std::int64_t z, const RowOffsets& place) const {
     const RowHits hits(domain_, y, z);
     std::int64_t y_point = place.first_y(), z_point = place.first_z();
-    hits.busy.for_each([&](std::int64_t w) {
+    hits.candidates.for_each([&](std::int64_t w) {
         for_bits(hits.y(w), [&](int bit) { write_border(position(64 * w + bit - 1, y + 1, z), 1, -1, y_point++); });
         for_bits(hits.z(w), [&](int bit) { write_border(position(64 * w + bit - 1, y, z + 1), 2, -1, z_point++); });
     });

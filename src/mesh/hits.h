@@ -24,7 +24,7 @@ public:
     /// The hits on all edges that begin in the rows of a bundle, and on those towards the first voxels of its rows.
     void write(std::int64_t bundle, const Layout& layout, const RowGroups& groups) const;
     /// The hits on edges that begin in a row outside, in front of the grid.
-    void write_outside(std::int64_t y, std::int64_t z, const RowPlace& place) const;
+    void write_outside(std::int64_t y, std::int64_t z, const RowOffsets& place) const;
 
 private:
     /// What normals are computed in: differences of small samples are exact, or good enough, in float.
@@ -38,7 +38,7 @@ private:
         bool is_last_y, is_last_z;  ///< of the grid: what follows is padding
 
         /// Made in place: copied, vectors would be loaded while their parts are being stored.
-        Row(const RowHits& of, const RowPlace& place, std::int64_t row_y, std::int64_t row_z, bool last_y, bool last_z)
+        Row(const RowHits& of, const RowOffsets& place, std::int64_t row_y, std::int64_t row_z, bool last_y, bool last_z)
             : hits(of),
               next{place.point, place.first_y(), place.first_z()},
               y(static_cast<std::int32_t>(row_y)),
@@ -57,7 +57,7 @@ private:
     /// Computes and writes the hits that wait along an axis.
     void flush(std::size_t axis, Work& work) const;
     /// From differences of samples to normals.
-    void turn(std::size_t axis, Work& work) const;
+    void compute_normals(std::size_t axis, Work& work) const;
     /// The hits between voxels of a row, at positions of word w, and the padding behind them along an axis.
     void write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const;
     /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.

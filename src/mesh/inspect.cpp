@@ -77,18 +77,18 @@ public:
         }
     }
 
-    /// Do the triangles form one fan: no edge has more than two of them, and edges connect them all?
+    /// Do the triangles form one articulation: no edge has more than two of them, and edges connect them all?
     [[nodiscard]] bool is_one_fan(std::size_t corners) {
         bool at_most_two = true;
         for_edges([&](std::int64_t, std::int64_t count, std::int64_t) { at_most_two = at_most_two && count <= 2; });
         if (!at_most_two) return false;
-        UnionFind<std::size_t> fans(corners);
+        UnionFind<std::size_t> articulation_points(corners);
         std::size_t count = corners;
         for (std::size_t i = 1; i < spokes_.size(); ++i) {
             if (spokes_[i].other != spokes_[i - 1].other) continue;
             const auto a = static_cast<std::size_t>(spokes_[i].corner), b = static_cast<std::size_t>(spokes_[i - 1].corner);
-            if (fans.find(a) == fans.find(b)) continue;
-            fans.join(a, b);
+            if (articulation_points.find(a) == articulation_points.find(b)) continue;
+            articulation_points.join(a, b);
             --count;
         }
         return count <= 1;
@@ -149,16 +149,16 @@ SurfaceReport inspect(std::span<const std::array<double, 3>> points, std::span<c
     report.triangles = static_cast<std::int64_t>(triangles.size());
     const Corners corners = group_corners(points.size(), triangles);
     ComponentEuler euler(points.size(), triangles);
-    PointFan fan;
+    PointFan articulation;
     for (std::int64_t point = 0; point < report.points; ++point) {
         const auto first = static_cast<std::size_t>(corners.first[point]), last = static_cast<std::size_t>(corners.first[point + 1]);
         if (first == last) {
             ++report.unused_points;
             continue;
         }
-        fan.load(point, std::span(corners.corner).subspan(first, last - first), triangles);
+        articulation.load(point, std::span(corners.corner).subspan(first, last - first), triangles);
         euler.add(point, 1);
-        fan.for_edges([&](std::int64_t other, std::int64_t count, std::int64_t leaving) {
+        articulation.for_edges([&](std::int64_t other, std::int64_t count, std::int64_t leaving) {
             if (other < point) return;  // seen from its other end
             ++report.edges;
             euler.add(point, -1);
@@ -166,7 +166,7 @@ SurfaceReport inspect(std::span<const std::array<double, 3>> points, std::span<c
             report.non_manifold_edges += count > 2;
             report.misoriented_edges += count == 2 && leaving != 1;
         });
-        report.non_manifold_points += !fan.is_one_fan(last - first);
+        report.non_manifold_points += !articulation.is_one_fan(last - first);
     }
     for (const auto& triangle : triangles)
         report.zero_area_triangles += has_zero_area(points[triangle[0]], points[triangle[1]], points[triangle[2]]);

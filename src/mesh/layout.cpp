@@ -1,7 +1,7 @@
 #include "mesh/layout.h"
 
 #include "base/prefetch.h"
-#include "base/wide.h"
+#include "base/target_clones.h"
 
 namespace isoatlas {
 
@@ -24,9 +24,9 @@ MeshDomain::MeshDomain(const HighBits& bits, Boundary boundary)
     }
 }
 
-ISOATLAS_WIDE void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place) {
+ISOATLAS_TARGET_CLONES void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowOffsets& place) {
     const RowHits hits(domain, y, z);
-    hits.busy.for_each([&](std::int64_t w) { count_hits(w, hits.x(w), hits.y(w), hits.z(w), place); });
+    hits.candidates.for_each([&](std::int64_t w) { count_hits(w, hits.x(w), hits.y(w), hits.z(w), place); });
 }
 
 void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t end, std::int64_t z) {
@@ -34,11 +34,11 @@ void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t 
     prefetch(&layout[static_cast<std::size_t>(domain.row_number(y, z))], &layout[static_cast<std::size_t>(domain.row_number(end, z))]);
 }
 
-void turn_counts_into_places(Layout& layout) {
+void exclusive_scan_counts(Layout& layout) {
     std::int64_t point = 0, triangle = 0;
-    for (RowPlace& place : layout) {
+    for (RowOffsets& place : layout) {
         place.point = point;
-        point += std::int64_t{place.x_hits} + place.y_hits + place.z_hits + place.fans;
+        point += std::int64_t{place.x_hits} + place.y_hits + place.z_hits + place.articulation_points;
         const std::int64_t triangles = place.triangle;
         place.triangle = triangle;
         triangle += triangles;

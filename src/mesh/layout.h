@@ -37,21 +37,21 @@ struct MeshDomain {
     [[nodiscard]] bool has_next_z(std::int64_t z) const { return z < z_end; }
 };
 
-/// RowPlace{} is zeros; a fresh array of them holds anything.
-struct RowPlace {
+/// RowOffsets{} is zeros; a fresh array of them holds anything.
+struct RowOffsets {
     std::int64_t point;     ///< first point of the row
     std::int64_t triangle;  ///< first triangle (2D: segment)
-    std::uint32_t x_hits, y_hits, z_hits, fans;
+    std::uint32_t x_hits, y_hits, z_hits, articulation_points;
     std::uint64_t hit_words, cell_words;  ///< which words have hits, which have active cells, as bits; if there are no more than 64
 
     [[nodiscard]] std::int64_t first_y() const { return point + x_hits; }
     [[nodiscard]] std::int64_t first_z() const { return first_y() + y_hits; }
-    [[nodiscard]] std::int64_t first_fan() const { return first_z() + z_hits; }
+    [[nodiscard]] std::int64_t first_articulation_point() const { return first_z() + z_hits; }
 };
 
 /// The words of a row that need be looked at once they have been counted.
-[[nodiscard]] inline WordSet words_of(const HighBits& high, const std::uint64_t& counted, const WordSet& busy) {
-    return high.words() <= 64 ? WordSet{&counted, 1} : busy;
+[[nodiscard]] inline WordSet words_of(const HighBits& high, const std::uint64_t& counted, const WordSet& candidates) {
+    return high.words() <= 64 ? WordSet{&counted, 1} : candidates;
 }
 /// For counting.
 inline void mark_word(std::uint64_t& words, std::int64_t w) { words |= std::uint64_t{1} << w % 64; }
@@ -59,7 +59,7 @@ inline void mark_word(std::uint64_t& words, std::int64_t w) { words |= std::uint
 /// The edges of a row that are hit, 64 positions at a time.
 struct RowHits {
     const std::uint64_t *row, *next_y, *next_z;
-    WordSet busy;
+    WordSet candidates;
     CellWindow window;
     bool y_edges, z_edges;
 
@@ -67,13 +67,13 @@ struct RowHits {
         : row(domain.high.row(y, z)),
           next_y(domain.high.row(y + 1, z)),
           next_z(domain.high.row(y, z + 1)),
-          busy(domain.high.busy(y, z)),
+          candidates(domain.high.candidates(y, z)),
           window(domain.cells),
           y_edges(domain.has_next_y(y)),
           z_edges(domain.has_next_z(z)) {}
     /// Of a row that has been counted.
-    RowHits(const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowPlace& place) : RowHits(domain, y, z) {
-        busy = words_of(domain.high, place.hit_words, busy);
+    RowHits(const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowOffsets& place) : RowHits(domain, y, z) {
+        candidates = words_of(domain.high, place.hit_words, candidates);
     }
     /// Bit p: the edge between the positions p and p + 1 is hit.
     [[nodiscard]] std::uint64_t x(std::int64_t w) const { return (row[w] ^ bits_after(row, w)) & window.mask(w); }
@@ -112,7 +112,7 @@ private:
 };
 
 /// Places of all rows; the last entry holds the totals.
-using Layout = BigVector<RowPlace>;
+using Layout = BigVector<RowOffsets>;
 
 /// How many slices ahead of those that are walked over rows are asked for: one more than is looked at.
 inline constexpr std::int64_t kSlicesAhead = 3;
@@ -121,7 +121,7 @@ inline constexpr std::int64_t kSlicesAhead = 3;
 void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t end, std::int64_t z);
 
 /// Adds the hits of word w of a row to its counts, along each axis, and marks the word.
-[[gnu::always_inline]] inline void count_hits(std::int64_t w, std::uint64_t x, std::uint64_t y, std::uint64_t z, RowPlace& place) {
+[[gnu::always_inline]] inline void count_hits(std::int64_t w, std::uint64_t x, std::uint64_t y, std::uint64_t z, RowOffsets& place) {
     if ((x | y | z) == 0) return;
     place.x_hits += static_cast<std::uint32_t>(std::popcount(x));
     place.y_hits += static_cast<std::uint32_t>(std::popcount(y));
@@ -129,8 +129,8 @@ void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t 
     mark_word(place.hit_words, w);
 }
 /// The same for a whole row; triangles and articulation points are added by the caller, then turned into places.
-void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowPlace& place);
-/// RowPlace::triangle holds counts before, first numbers after.
-void turn_counts_into_places(Layout& layout);
+void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowOffsets& place);
+/// RowOffsets::triangle holds counts before, first numbers after.
+void exclusive_scan_counts(Layout& layout);
 
 }  // namespace isoatlas

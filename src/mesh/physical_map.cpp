@@ -66,7 +66,7 @@ void PhysicalMap::to_points_one_by_one(std::size_t count, Lanes<double>& voxel) 
     }
 }
 
-std::array<float, 3> PhysicalMap::rare_normal(Vec3 slope, int axis, double sign) const {
+std::array<float, 3> PhysicalMap::degenerate_normal(Vec3 slope, int axis, double sign) const {
     const double largest = std::max({std::abs(slope[0]), std::abs(slope[1]), std::abs(slope[2])});
     if (largest > 0 && std::isfinite(largest) && std::isfinite(slope[0] + slope[1] + slope[2])) {
         for (double& s : slope) s /= largest;

@@ -56,15 +56,15 @@ public:
                      static_cast<Real>(normals_[row][2]) * slope[2];
         }
         const Real squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-        if (is_rare(squared)) return rare_normal({slope[0], slope[1], slope[2]}, axis, sign);
+        if (is_degenerate(squared)) return degenerate_normal({slope[0], slope[1], slope[2]}, axis, sign);
         const Real scale = Real(-1) / std::sqrt(squared);
         return {static_cast<float>(g[0] * scale), static_cast<float>(g[1] * scale), static_cast<float>(g[2] * scale)};
     }
 
-    /// The same for `count` slopes at once, but for rare ones, which are zero, not finite, or too large or too small to be squared: true in
-    /// `rare`.
+    /// The same for `count` slopes at once, but for degenerate ones, which are zero, not finite, or too large or too small to be squared:
+    /// true in `degenerate`.
     template <class Real>
-    [[gnu::always_inline]] void to_normals(std::size_t count, Lanes<Real>& slope, std::array<bool, kLanes>& rare) const {
+    [[gnu::always_inline]] void to_normals(std::size_t count, Lanes<Real>& slope, std::array<bool, kLanes>& degenerate) const {
         std::array<std::array<Real, 3>, 3> m;
         for (std::size_t row = 0; row < 3; ++row) {
             for (std::size_t k = 0; k < 3; ++k) m[row][k] = static_cast<Real>(normals_[row][k]);
@@ -73,19 +73,19 @@ public:
             std::array<Real, 3> g;
             for (std::size_t row = 0; row < 3; ++row) g[row] = m[row][0] * slope[0][i] + m[row][1] * slope[1][i] + m[row][2] * slope[2][i];
             const Real squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-            const bool leave = is_rare(squared);
+            const bool leave = is_degenerate(squared);
             const Real scale = Real(-1) / std::sqrt(squared);
-            rare[i] = leave;
+            degenerate[i] = leave;
             for (std::size_t row = 0; row < 3; ++row) slope[row][i] = leave ? slope[row][i] : g[row] * scale;
         }
     }
     /// For those.
-    [[nodiscard]] std::array<float, 3> rare_normal(Vec3 slope, int axis, double sign) const;
+    [[nodiscard]] std::array<float, 3> degenerate_normal(Vec3 slope, int axis, double sign) const;
 
 private:
     void to_points_one_by_one(std::size_t count, Lanes<double>& voxel) const;
     template <class Real>
-    [[nodiscard]] static bool is_rare(Real squared) {
+    [[nodiscard]] static bool is_degenerate(Real squared) {
         return !(squared > Real(1e-25) && squared < Real(1e25));
     }
 

@@ -1,6 +1,6 @@
 #include "mesh/place_hits.h"
 
-#include "base/wide.h"
+#include "base/target_clones.h"
 
 namespace isoatlas {
 namespace {
@@ -19,8 +19,8 @@ template <class Real>
 }
 
 template <class Real>
-[[gnu::always_inline]] inline void turn(const HitBatch& batch, const PhysicalMap& map, const std::array<Real, 3>& scales,
-                                        HitValues<Real>& values) {
+[[gnu::always_inline]] inline void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<Real, 3>& scales,
+                                                   HitValues<Real>& values) {
     for (std::size_t k = 0; k < 3; ++k) {
         const Real scale = scales[k];
         for (std::size_t i = 0; i < whole_lanes(batch.count); ++i) {
@@ -28,26 +28,27 @@ template <class Real>
             values.slope[k][i] = slope + static_cast<Real>(values.t[i]) * change;
         }
     }
-    map.to_normals(batch.count, values.slope, values.rare);
+    map.to_normals(batch.count, values.slope, values.degenerate);
 }
 
 }  // namespace
 
-ISOATLAS_WIDE void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
-                              HitValues<float>& values) {
+ISOATLAS_TARGET_CLONES void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
+                                       HitValues<float>& values) {
     place(batch, axis, tau, map, first, values);
 }
-ISOATLAS_WIDE void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
-                              HitValues<double>& values) {
+ISOATLAS_TARGET_CLONES void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first,
+                                       HitValues<double>& values) {
     place(batch, axis, tau, map, first, values);
 }
 
-ISOATLAS_WIDE void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales, HitValues<float>& values) {
-    turn(batch, map, scales, values);
+ISOATLAS_TARGET_CLONES void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales,
+                                            HitValues<float>& values) {
+    compute_normals(batch, map, scales, values);
 }
-ISOATLAS_WIDE void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales,
-                             HitValues<double>& values) {
-    turn(batch, map, scales, values);
+ISOATLAS_TARGET_CLONES void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales,
+                                            HitValues<double>& values) {
+    compute_normals(batch, map, scales, values);
 }
 
 }  // namespace isoatlas

@@ -23,9 +23,9 @@ inline double hit_fraction(double a, double b, double tau) {
 void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first, HitValues<float>& values);
 void place_hits(const HitBatch& batch, std::size_t axis, double tau, const PhysicalMap& map, const Vec3& first, HitValues<double>& values);
 
-/// Normals of placed hits in `slope`, but for rare ones. slope and change: differences of samples at the ends of the edges, times scales
-/// where all have the same: slopes.
-void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales, HitValues<float>& values);
-void turn_hits(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales, HitValues<double>& values);
+/// Normals of placed hits in `slope`, but for degenerate ones. slope and change: differences of samples at the ends of the edges, times
+/// scales where all have the same: slopes.
+void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales, HitValues<float>& values);
+void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales, HitValues<double>& values);
 
 }  // namespace isoatlas

@@ -22,7 +22,7 @@ PlainCells::PlainCells(SurfaceStyle style, bool tunnels, bool flip) {
         for (std::size_t i = 0; i < kCounterEdges.size(); ++i)
             moves[entry] |= static_cast<std::uint8_t>((cell_cases().hit_edges[pattern] >> kCounterEdges[i] & 1) << i);
         const CellTriangles& cell = cell_triangles(style)[cell_cases().first_case[pattern]];
-        if (cell_cases().split_faces[pattern] != 0 || cell.fans != 0 || (tunnels && may_hold_tunnel(pattern, 0))) continue;
+        if (cell_cases().split_faces[pattern] != 0 || cell.articulation_points != 0 || (tunnels && may_hold_tunnel(pattern, 0))) continue;
         ISOATLAS_CHECK(3U * cell.triangles < corner[entry].size());
         triangles[entry] = cell.triangles;
         for (std::size_t i = 0; i < 3U * cell.triangles; ++i) corner[entry][i] = number_of(cell.corner[i]);

@@ -25,7 +25,7 @@ struct PlainCells {
     std::array<std::uint8_t, 256> moves{};                   ///< bit i: counter i moves on
     std::array<std::array<std::uint8_t, 16>, 256> corner{};  ///< 3 per triangle, among the 16 numbers
 
-    /// tunnels: may cells have any? flip: triangles turn the other way round.
+    /// tunnels: may cells have any? flip: triangles compute_normals the other way round.
     PlainCells(SurfaceStyle style, bool tunnels, bool flip);
 };
 
@@ -40,8 +40,8 @@ using HitCounters = std::array<std::int64_t, 8>;
 /// Counts the hits on the edges that begin in the first of the rows, and the triangles of the plain cells; marks their words. Calls
 /// rest(p, pattern) for the other active cells, p ascending.
 template <class Rest>
-void count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowPlace& place, Rest&& rest) {
-    rows.busy.for_each([&](std::int64_t w) {
+void count_plain(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowOffsets& place, Rest&& rest) {
+    rows.candidates.for_each([&](std::int64_t w) {
         count_hits(w, (rows.row[0][w] ^ bits_after(rows.row[0], w)) & window.mask(w), rows.row[0][w] ^ rows.row[1][w],
                    rows.row[0][w] ^ rows.row[2][w], place);
     });

@@ -22,7 +22,7 @@ template <class T>
 void write_segments(const SampleGrid<T>& grid, double tau, const MeshDomain& domain, std::int64_t y, const Layout& layout, bool flip,
                     Surface& surface) {
     const FaceJoiner<T> joiner{grid, tau};
-    const RowPlace &near = layout[domain.row_number(y, 0)], &far = layout[domain.row_number(y + 1, 0)];
+    const RowOffsets &near = layout[domain.row_number(y, 0)], &far = layout[domain.row_number(y + 1, 0)];
     std::array<std::int64_t, 2>* segment = surface.segments.data() + near.triangle;
     std::int64_t x_near = near.point, x_far = far.point, y_edge = near.first_y();
     for_active_cells(square_row(domain.high, y), domain.cells, [&](std::int64_t p, int square) {

@@ -122,8 +122,8 @@ TunnelCell tunnel_cell(int pattern, int joined, const OpenTunnel& tunnel, Surfac
             ring.add_triangle(hits[0], hits[1], hits[2]);
             continue;
         }
-        const int point = 12 + cell.ring_points + cell.fans;
-        cell.fan_loop[cell.fans++] = static_cast<std::uint8_t>(loop);
+        const int point = 12 + cell.ring_points + cell.articulation_points;
+        cell.articulation_loop[cell.articulation_points++] = static_cast<std::uint8_t>(loop);
         for (int i = 0; i < 3; ++i) ring.add_triangle(point, hits[i], hits[(i + 1) % 3]);
     }
     ISOATLAS_CHECK(bounds == 2);

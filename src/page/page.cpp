@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/atomic_file.h"
-#include "catalogue/tunnels.h"
+#include "catalogue/longest_tunnels.h"
 #include "page/page_json.h"
 #include "page/template.h"
 

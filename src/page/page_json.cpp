@@ -134,13 +134,13 @@ private:
         json_.begin_object().key("edges").begin_array().value(scale_.reported(columns.front().low));
         for (const CountColumn& column : columns) json_.value(scale_.reported(column.high));
         json_.end_array();
-        const auto put = [&](LevelCounts CountColumn::* least, LevelCounts CountColumn::* most) {
+        const auto put = [&](LevelCounts CountColumn::* min, LevelCounts CountColumn::* max) {
             const auto put_count = [&](const char* name, std::int64_t LevelCounts::* count) {
                 json_.key(name).begin_object();
-                put_array(json_, "most", columns, [&](const CountColumn& column) { return (column.*most).*count; });
-                const bool same = std::ranges::all_of(
-                    columns, [&](const CountColumn& column) { return (column.*least).*count == (column.*most).*count; });
-                if (!same) put_array(json_, "least", columns, [&](const CountColumn& column) { return (column.*least).*count; });
+                put_array(json_, "most", columns, [&](const CountColumn& column) { return (column.*max).*count; });
+                const bool same =
+                    std::ranges::all_of(columns, [&](const CountColumn& column) { return (column.*min).*count == (column.*max).*count; });
+                if (!same) put_array(json_, "least", columns, [&](const CountColumn& column) { return (column.*min).*count; });
                 json_.end_object();
             };
             if (all_counts) {
@@ -152,12 +152,12 @@ private:
         };
         if (all_counts) {
             json_.key("all").begin_object();
-            put(&CountColumn::least, &CountColumn::most);
+            put(&CountColumn::min, &CountColumn::max);
             json_.end_object().key("essential").begin_object();
-            put(&CountColumn::essential_least, &CountColumn::essential_most);
+            put(&CountColumn::min_essential, &CountColumn::max_essential);
             json_.end_object();
         } else {
-            put(&CountColumn::least, &CountColumn::most);
+            put(&CountColumn::min, &CountColumn::max);
         }
         json_.end_object();
     }

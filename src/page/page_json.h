@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "catalogue/contents.h"
+#include "catalogue/page_contents.h"
 #include "formats/common/json_stream.h"
 
 namespace isoatlas {

@@ -131,10 +131,10 @@ void check(const Volume& volume, const Analysis& analysis, const ExactHandles& o
         throw Error(ErrorKind::usage, {.what = "there is no event " + std::to_string(options.event)});
 }
 
-void check_size(std::int64_t tunnels, std::int64_t most) {
-    if (tunnels <= most) return;
+void check_size(std::int64_t tunnels, std::int64_t max) {
+    if (tunnels <= max) return;
     throw Error(ErrorKind::usage, {.what = std::to_string(tunnels) + " tunnels are too many to pair exactly",
-                                   .expected = "at most " + std::to_string(most),
+                                   .expected = "at most " + std::to_string(max),
                                    .next = "take one object, filter the volume first, or take the approximate pairs"});
 }
 
@@ -149,8 +149,8 @@ std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& a
         return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
             const GridView<T> grid{samples.data(), volume.info.extent};
             Reduction reduction(grid, tunnel_height, held.arrays, options.event, context);
-            check_size(reduction.tunnels(), options.most);
-            return handles_of(held.arrays, analysis.extent(), reduction.pairs(), options.least_persistence);
+            check_size(reduction.tunnels(), options.max);
+            return handles_of(held.arrays, analysis.extent(), reduction.pairs(), options.min_persistence);
         });
     });
 }

@@ -10,12 +10,12 @@ constexpr std::size_t kTunnels = std::size_t{1} << 17;
 
 }  // namespace
 
-FoundHandles find_handles(const VolumeInfo& info, const Analysis& analysis, double least_persistence,
-                          const std::function<Volume()>& samples, const Context& context) {
+FoundHandles find_handles(const VolumeInfo& info, const Analysis& analysis, double min_persistence, const std::function<Volume()>& samples,
+                          const Context& context) {
     const bool is_small =
         info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) <= kBytes && analysis.event_count() <= kEvents;
-    if (!is_small || pair_handles(analysis).size() > kTunnels) return {pair_handles(analysis, least_persistence), false};
-    return {pair_handles_exactly(samples(), analysis, {.least_persistence = least_persistence}, context), true};
+    if (!is_small || pair_handles(analysis).size() > kTunnels) return {pair_handles(analysis, min_persistence), false};
+    return {pair_handles_exactly(samples(), analysis, {.min_persistence = min_persistence}, context), true};
 }
 
 }  // namespace isoatlas

@@ -20,9 +20,9 @@ struct HandlePair {
 
 template <class Id>
 [[nodiscard]] std::vector<Handle> handles_of(const AnalysisArrays<Id>& arrays, const Extent& extent, std::vector<HandlePair> pairs,
-                                             double least_persistence) {
+                                             double min_persistence) {
     const auto persistence = [&](const HandlePair& pair) { return arrays.value[pair.opens] - arrays.value[pair.closes]; };
-    std::erase_if(pairs, [&](const HandlePair& pair) { return !(persistence(pair) > 0 && persistence(pair) >= least_persistence); });
+    std::erase_if(pairs, [&](const HandlePair& pair) { return !(persistence(pair) > 0 && persistence(pair) >= min_persistence); });
     std::ranges::sort(pairs, [&](const HandlePair& p, const HandlePair& q) {
         return persistence(p) != persistence(q) ? persistence(p) > persistence(q) : p.opens < q.opens;
     });

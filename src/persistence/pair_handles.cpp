@@ -72,10 +72,10 @@ private:
 
 }  // namespace
 
-std::vector<Handle> pair_handles(const Analysis& analysis, double least_persistence) {
+std::vector<Handle> pair_handles(const Analysis& analysis, double min_persistence) {
     if (analysis.extent().rank == 2) return {};
     return analysis.data().visit([&](const auto& held) {
-        return handles_of(held.arrays, analysis.extent(), HandlePairs(held.arrays.contours).pairs(), least_persistence);
+        return handles_of(held.arrays, analysis.extent(), HandlePairs(held.arrays.contours).pairs(), min_persistence);
     });
 }
 

@@ -14,7 +14,7 @@ namespace {
 struct Entry {
     const char* name;
     const char* summary;
-    std::int64_t default_size, least_size;
+    std::int64_t default_size, min_size;
     bool fixed_size;
     Volume (*make)(const PhantomOptions&);
 };
@@ -77,19 +77,19 @@ void check_size(const Entry& entry, const PhantomOptions& options) {
     if (entry.fixed_size && options.size != entry.default_size) {
         refuse(name + " has a fixed size, not " + std::to_string(options.size), std::to_string(entry.default_size), "leave the size out");
     }
-    if (options.size < entry.least_size || options.size > kLargest) {
+    if (options.size < entry.min_size || options.size > kLargest) {
         refuse(name + " cannot have size " + std::to_string(options.size),
-               std::to_string(entry.least_size) + " to " + std::to_string(kLargest) + " samples a side");
+               std::to_string(entry.min_size) + " to " + std::to_string(kLargest) + " samples a side");
     }
 }
 
 void check_options(const Entry& entry, const PhantomOptions& options) {
     check_size(entry, options);
     if (options.genus < 1 || options.genus > 1000) refuse("genus " + std::to_string(options.genus) + " is not possible", "1 to 1000");
-    const std::int64_t most_shells = options.size / 16;  // a period needs 8 voxels for a clean shell
-    if (entry.make == nested_shells && (options.shells < 1 || options.shells > most_shells)) {
+    const std::int64_t max_shells = options.size / 16;  // a period needs 8 voxels for a clean shell
+    if (entry.make == nested_shells && (options.shells < 1 || options.shells > max_shells)) {
         refuse(std::to_string(options.shells) + " shells do not fit into " + std::to_string(options.size) + " samples a side",
-               "1 to " + std::to_string(most_shells) + " shells", "ask for at least 16 samples a side per shell");
+               "1 to " + std::to_string(max_shells) + " shells", "ask for at least 16 samples a side per shell");
     }
     if (!(options.noise >= 0 && options.noise <= 1)) refuse("noise must be a fraction of the range of values", "0 to 1");
     if (options.quantise != 0 && (options.quantise < 2 || options.quantise > 65536)) {

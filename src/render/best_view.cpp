@@ -68,13 +68,13 @@ View view_from(double around, double above, const Vec3& up) {
     const Vec3 toward{std::cos(b) * std::sin(a), -std::cos(b) * std::cos(a), std::sin(b)};
     const Vec3 above_it{-std::sin(b) * std::sin(a), std::sin(b) * std::cos(a), std::cos(b)};
     const Vec3 z = unit(up);
-    const auto turned = [&](const Vec3& v) -> Vec3 {
+    const auto rotated = [&](const Vec3& v) -> Vec3 {
         if (z[2] <= -1 + 1e-12) return {-v[0], v[1], -v[2]};
         // v + axis x v + axis x (axis x v) / (1 + cos), axis = z x up (Rodrigues).
         const Vec3 axis{-z[1], z[0], 0}, once = cross(axis, v);
         return along(add(v, once), 1 / (1 + z[2]), cross(axis, once));
     };
-    return {turned(toward), turned(above_it)};
+    return {rotated(toward), rotated(above_it)};
 }
 
 View best_view(const Scene& scene, const Vec3& up, const Context& context) {

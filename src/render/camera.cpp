@@ -97,7 +97,7 @@ Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const
     return camera;
 }
 
-View turned(const View& view, const Vec3& axis, double degrees) {
+View rotated(const View& view, const Vec3& axis, double degrees) {
     const Vec3 z = unit(axis);
     const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
     const auto turn = [&](const Vec3& v) { return add(along(scale(v, cosine), sine, cross(z, v)), scale(z, dot(z, v) * (1 - cosine))); };

@@ -35,18 +35,18 @@ RaySlices::RaySlices(const Scene& scene, const Frame& frame) {
     }
 }
 
-void RaySlices::add(const Ray& ray, double most, std::vector<Layer>& layers) const {
+void RaySlices::add(const Ray& ray, double max, std::vector<Layer>& layers) const {
     for (const Plane& plane : planes_) {
         const double speed = dot(ray.direction, plane.normal);
         if (speed == 0) continue;
         const double t = dot(subtract(plane.corner, ray.origin), plane.normal) / speed;
-        if (!(t > 0 && t < most + kTouching)) continue;
+        if (!(t > 0 && t < max + kTouching)) continue;
         const Vec3 from = subtract(along(ray.origin, t, ray.direction), plane.corner);
         const double square = dot(plane.normal, plane.normal);
         const double u = dot(cross(from, plane.down), plane.normal) / square, v = dot(cross(plane.across, from), plane.normal) / square;
         if (u < 0 || u > 1 || v < 0 || v > 1) continue;
         Layer layer = look_up(*plane.picture, u, v);
-        layer.t = std::min(t, most);
+        layer.t = std::min(t, max);
         layers.push_back(layer);
     }
 }

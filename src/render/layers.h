@@ -20,7 +20,7 @@ class RaySlices {
 public:
     RaySlices(const Scene& scene, const Frame& frame);
     /// Adds a layer for every picture that the ray crosses before `most`, or at it.
-    void add(const Ray& ray, double most, std::vector<Layer>& layers) const;
+    void add(const Ray& ray, double max, std::vector<Layer>& layers) const;
 
 private:
     struct Plane {

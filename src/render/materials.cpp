@@ -28,9 +28,9 @@ std::vector<double> material_percentages(std::span<const Material> materials, do
         percentages.push_back(-0.5 * distance * distance - std::log(material.sigma));
     }
     if (percentages.empty()) return percentages;
-    const double most = *std::max_element(percentages.begin(), percentages.end());
+    const double max = *std::max_element(percentages.begin(), percentages.end());
     double sum = 0;
-    for (double& p : percentages) sum += p = std::exp(p - most);
+    for (double& p : percentages) sum += p = std::exp(p - max);
     for (double& p : percentages) p /= sum;
     return percentages;
 }

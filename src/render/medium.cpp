@@ -7,7 +7,7 @@ namespace isoatlas {
 namespace {
 
 constexpr double kEnough = 0.996;  // opacity behind which nothing is seen
-constexpr double kLeast = 5e-4;    // opacity of a piece that is worth a gradient
+constexpr double kMin = 5e-4;      // opacity of a piece that is worth a gradient
 
 /// t at which a ray in sample coordinates is inside the box from low to high.
 Gap inside_box(const Vec3& origin, const Vec3& way, const Vec3& low, const Vec3& high) {
@@ -126,11 +126,11 @@ void Medium::go_through(const Ray& ray, double begin, double end, double shift, 
         while (t < to) {
             const double begin_place = place, begin_t = t;
             t = pieces.end_of(++piece), place = place_at(t);
-            const Matter matter = transfer_.mean(begin_place, place);
+            const OpticalProperties matter = transfer_.mean(begin_place, place);
             if (!(matter.extinction > 0)) continue;
             const double weight = (1 - gathered.opacity) * swallowed(matter.extinction * (t - begin_t));
             Vec3 light = scale(matter.glow, 1 / matter.extinction);
-            if (weight > kLeast && lights != nullptr) light = shaded(values, *lights, light, along(origin, (begin_t + t) / 2, way), to_eye);
+            if (weight > kMin && lights != nullptr) light = shaded(values, *lights, light, along(origin, (begin_t + t) / 2, way), to_eye);
             gathered.light = along(gathered.light, weight, light);
             gathered.opacity += weight;
             if (gathered.opacity >= kEnough) return false;

@@ -3,8 +3,8 @@
 
 #include "isoatlas/render.h"
 #include "render/camera_rays.h"
+#include "render/empty_space.h"
 #include "render/lights.h"
-#include "render/matter_blocks.h"
 #include "render/ray_surfaces.h"
 #include "render/shadow_grid.h"
 #include "render/transfer.h"
@@ -45,7 +45,7 @@ private:
     const Lights* lights_;
     Frame frame_;
     Transfer transfer_;
-    MatterBlocks blocks_;
+    EmptySpaceGrid blocks_;
     Mat3 to_voxel_{};  ///< rows: physical difference to sample difference
     double step_ = 1;  ///< in the frame
     ShadowGrid shadow_;

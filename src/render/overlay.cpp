@@ -10,11 +10,11 @@
 namespace isoatlas {
 
 ScaleBar scale_bar(double pixel_size, std::int64_t width, const std::string& unit) {
-    const double most = pixel_size * static_cast<double>(width) / 4;
-    const double power = std::pow(10, std::floor(std::log10(most)));
+    const double max = pixel_size * static_cast<double>(width) / 4;
+    const double power = std::pow(10, std::floor(std::log10(max)));
     double best = power;
     for (const double factor : {2.0, 5.0}) {
-        if (factor * power <= most) best = factor * power;
+        if (factor * power <= max) best = factor * power;
     }
     char text[64];
     std::snprintf(text, sizeof text, "%.6g %s", best, unit.empty() ? "units" : unit.c_str());
@@ -57,7 +57,7 @@ void draw_legend(const Scene& scene, const Style& style, Image& image) {
         y += 1.8 * style.size;
     };
     for (const SceneObject& object : scene.objects) entry(object.name, object.colour);
-    for (const TransferBump& bump : scene.volume.bumps) entry(bump.name, bump.colour);
+    for (const OpacityTent& bump : scene.volume.bumps) entry(bump.name, bump.colour);
     for (const TransferCurve& curve : scene.volume.curves) entry(curve.name, curve.colour);
 }
 

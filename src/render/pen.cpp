@@ -28,9 +28,7 @@ struct Window {
 };
 
 Window window_of(const Image& image, Point2 low, Point2 high, double rim) {
-    const auto cut = [](double x, std::int64_t most) {
-        return std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, most);
-    };
+    const auto cut = [](double x, std::int64_t max) { return std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, max); };
     return {cut(low.x - rim, image.width), cut(low.y - rim, image.height), cut(high.x + rim + 1, image.width),
             cut(high.y + rim + 1, image.height)};
 }

@@ -49,7 +49,7 @@ std::vector<Best> best_isovalues(const ObjectTable& table, const Extent& extent,
 }
 
 /// ramp: in values.
-TransferBump bump_between(double low, double high, double ramp, double density, const Best& of, std::int64_t first_colour) {
+OpacityTent bump_between(double low, double high, double ramp, double density, const Best& of, std::int64_t first_colour) {
     return {.low = low,
             .high = high,
             .colour = palette(first_colour + of.rank),
@@ -60,12 +60,12 @@ TransferBump bump_between(double low, double high, double ramp, double density, 
 
 }  // namespace
 
-std::vector<TransferBump> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
-                                           std::int64_t first_colour) {
+std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
+                                          std::int64_t first_colour) {
     const double width = kWidth * (range[1] - range[0]), ramp = kRamp * width;
     const std::vector<Best> best = best_isovalues(table, info.extent, range[1] - range[0]);
     const double voxel = std::min({info.geometry.spacing[0], info.geometry.spacing[1], info.geometry.spacing[2]});
-    std::vector<TransferBump> bumps;
+    std::vector<OpacityTent> bumps;
     for (std::size_t i = 0; i < best.size(); ++i) {
         const bool last = i + 1 == best.size();
         const double part = best.size() > 1 ? static_cast<double>(i) / static_cast<double>(best.size() - 1) : 0.5;

@@ -26,19 +26,19 @@ constexpr double kTouching = 1e-5;  // of the scene's radius: crossings so close
     throw Error(ErrorKind::internal, {.what = "Embree failed with code " + std::to_string(static_cast<int>(code))});
 }
 
-RTCRay ray_of(const Ray& ray, double least, double most) {
+RTCRay ray_of(const Ray& ray, double min, double max) {
     RTCRay r{};
     r.org_x = static_cast<float>(ray.origin[0]), r.org_y = static_cast<float>(ray.origin[1]), r.org_z = static_cast<float>(ray.origin[2]);
     r.dir_x = static_cast<float>(ray.direction[0]), r.dir_y = static_cast<float>(ray.direction[1]);
     r.dir_z = static_cast<float>(ray.direction[2]);
-    r.tnear = static_cast<float>(least), r.tfar = static_cast<float>(std::min(most, 1e30));
+    r.tnear = static_cast<float>(min), r.tfar = static_cast<float>(std::min(max, 1e30));
     r.mask = ~0U;
     return r;
 }
 
-RTCRayHit ray_hit_of(const Ray& ray, double least, double most) {
+RTCRayHit ray_hit_of(const Ray& ray, double min, double max) {
     RTCRayHit hit{};
-    hit.ray = ray_of(ray, least, most);
+    hit.ray = ray_of(ray, min, max);
     hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     return hit;
 }
@@ -178,14 +178,14 @@ std::optional<Crossing> RaySurfaces::first(const Ray& ray) const {
     return best;
 }
 
-void RaySurfaces::all(const Ray& ray, double most, std::vector<Crossing>& crossings) const {
+void RaySurfaces::all(const Ray& ray, double max, std::vector<Crossing>& crossings) const {
     crossings.clear();
     if (empty()) return;
     Query query;
     rtcInitIntersectContext(&query.context);
     query.context.filter = &Data::note;
     query.surfaces = data_.get(), query.crossings = &crossings;
-    RTCRayHit hit = ray_hit_of(ray, 0, most);
+    RTCRayHit hit = ray_hit_of(ray, 0, max);
     rtcIntersect1(data_->scene, &query.context, &hit);
     std::sort(crossings.begin(), crossings.end(), [&](const Crossing& a, const Crossing& b) {
         if (a.t != b.t) return a.t < b.t;
@@ -200,13 +200,13 @@ void RaySurfaces::all(const Ray& ray, double most, std::vector<Crossing>& crossi
     crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
 }
 
-bool RaySurfaces::blocked(const Ray& ray, double least, double most) const {
+bool RaySurfaces::blocked(const Ray& ray, double min, double max) const {
     if (empty()) return false;
     Query query;
     rtcInitIntersectContext(&query.context);
     query.gap = gap_of(*data_->removed, ray);
     if (!query.gap.empty()) query.context.filter = &Data::pass_gap;
-    RTCRay r = ray_of(ray, least, most);
+    RTCRay r = ray_of(ray, min, max);
     rtcOccluded1(data_->scene, &query.context, &r);
     return r.tfar < 0;
 }

@@ -53,9 +53,9 @@ public:
     /// The first crossing; where objects touch (the caps at the border of a volume), that of the one with the highest isovalue.
     [[nodiscard]] std::optional<Crossing> first(const Ray& ray) const;
     /// All crossings up to `most`, by t; at the same t lower isovalues first. Replaces what is in `crossings`.
-    void all(const Ray& ray, double most, std::vector<Crossing>& crossings) const;
+    void all(const Ray& ray, double max, std::vector<Crossing>& crossings) const;
     /// Is something in the way, outside of what is cut away, between t = least and most?
-    [[nodiscard]] bool blocked(const Ray& ray, double least, double most) const;
+    [[nodiscard]] bool blocked(const Ray& ray, double min, double max) const;
 
 private:
     struct Data;

@@ -12,13 +12,13 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kTile = 16;
-constexpr std::int64_t kMostSide = 16384;
+constexpr std::int64_t kMaxSide = 16384;
 
 void check_options(const Scene& scene, const RenderOptions& options) {
     const auto refuse = [](const std::string& what, const std::string& expected) {
         throw Error(ErrorKind::usage, {.what = what, .expected = expected});
     };
-    if (options.width < 1 || options.height < 1 || options.width > kMostSide || options.height > kMostSide)
+    if (options.width < 1 || options.height < 1 || options.width > kMaxSide || options.height > kMaxSide)
         refuse("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels", "1 to 16384 each");
     if (options.samples < 1 || options.samples > 256) refuse("the number of samples per pixel is out of range", "1 to 256");
     for (const SceneObject& object : scene.objects) {

@@ -28,7 +28,7 @@ SceneBox shown_samples(std::span<const T> samples, const Extent& extent, const s
     return box;
 }
 
-/// Matter reaches beyond the last sample that is shown, at most to the next one.
+/// What is drawn as a volume reaches beyond the last sample that is shown, at most to the next one.
 std::vector<Vec3> physical_corners(const SceneBox& box, const VolumeInfo& info) {
     std::vector<Vec3> corners;
     for (int i = 0; i < 8; ++i) {

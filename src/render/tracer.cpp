@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSkyRays = 2;     // per sample
 constexpr double kReach = 0.5;  // of the sky's light: what is further away than this takes none
-constexpr double kMostLift = 0.01;
+constexpr double kMaxLift = 0.01;
 
 std::vector<HalfSpace> in_frame(const std::vector<HalfSpace>& removed, const Frame& frame) {
     std::vector<HalfSpace> inside;
@@ -33,7 +33,7 @@ double lift_of(const Scene& scene, const Frame& frame) {
             count += 1;
         }
     }
-    return count > 0 ? std::clamp(0.3 * sum / count, 1e-5, kMostLift) : kMostLift;
+    return count > 0 ? std::clamp(0.3 * sum / count, 1e-5, kMaxLift) : kMaxLift;
 }
 
 /// Towards the eye: a smooth normal may lean away from it at the rim of a thing.
@@ -61,13 +61,13 @@ Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Wor
     Seen seen;
     const Gap gap = gap_of(removed_, ray);
     const std::optional<Crossing> hit = first_opaque(ray, gap, work.crossings);
-    const double most = hit ? hit->t : INFINITY;
+    const double max = hit ? hit->t : INFINITY;
     work.layers.clear();
-    add_sheets(ray, most, gap, work);
-    slices_.add(ray, most, work.layers);
+    add_sheets(ray, max, gap, work);
+    slices_.add(ray, max, work.layers);
     std::stable_sort(work.layers.begin(), work.layers.end(), [](const Layer& a, const Layer& b) { return a.t < b.t; });
     const double shift = fraction_of(hash(seed ^ 0x51ed270bU) + sample * 2654435769U);
-    gather(ray, most, gap, shift, work.layers, seen);
+    gather(ray, max, gap, shift, work.layers, seen);
     if (!hit) return seen;
     add_opaque(ray, *hit, seen);
     if (shading_) look_around(ray, *hit, seed, sample, seen);
@@ -75,7 +75,7 @@ Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Wor
 }
 
 /// Everything in front of the opaque surface, front to back: layers, and the matter between them.
-void Tracer::gather(const Ray& ray, double most, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const {
+void Tracer::gather(const Ray& ray, double max, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const {
     Gathered gathered;
     double begin = 0;
     for (const Layer& layer : layers) {
@@ -85,7 +85,7 @@ void Tracer::gather(const Ray& ray, double most, const Gap& gap, double shift, c
         gathered.opacity += weight;
         begin = layer.t;
     }
-    march(ray, begin, most, gap, shift, gathered);
+    march(ray, begin, max, gap, shift, gathered);
     seen.glow = gathered.light, seen.opacity = gathered.opacity;
 }
 
@@ -138,8 +138,8 @@ std::optional<Crossing> Tracer::cut_face(const Ray& ray, const Gap& gap, const s
     return Crossing{gap.end, best, on->normal, on->normal};
 }
 
-void Tracer::add_sheets(const Ray& ray, double most, const Gap& gap, Workspace& work) const {
-    transparent_.all(ray, most, work.crossings);
+void Tracer::add_sheets(const Ray& ray, double max, const Gap& gap, Workspace& work) const {
+    transparent_.all(ray, max, work.crossings);
     for (const Crossing& crossing : work.crossings) {
         if (gap.holds(crossing.t)) continue;
         const Vec3 normal = facing(crossing.enters(ray) ? crossing.normal : scale(crossing.normal, -1), ray);

@@ -38,8 +38,8 @@ public:
     [[nodiscard]] Seen trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Workspace& work) const;
 
 private:
-    void add_sheets(const Ray& ray, double most, const Gap& gap, Workspace& work) const;
-    void gather(const Ray& ray, double most, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const;
+    void add_sheets(const Ray& ray, double max, const Gap& gap, Workspace& work) const;
+    void gather(const Ray& ray, double max, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const;
     void march(const Ray& ray, double begin, double end, const Gap& gap, double shift, Gathered& gathered) const;
     [[nodiscard]] std::optional<Crossing> first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const;
     void add_opaque(const Ray& ray, const Crossing& crossing, Seen& seen) const;

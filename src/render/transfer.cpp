@@ -11,7 +11,7 @@ namespace isoatlas {
 namespace {
 
 /// A trapezoid over the values.
-TransferCurve curve_of(const TransferBump& bump) {
+TransferCurve curve_of(const OpacityTent& bump) {
     const double ramp = std::clamp(bump.ramp, 0.0, 0.5) * (bump.high - bump.low);
     return {.points = {{bump.low, 0}, {bump.low + ramp, bump.density}, {bump.high - ramp, bump.density}, {bump.high, 0}},
             .colour = bump.colour,
@@ -43,7 +43,7 @@ private:
 
 Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<double, 2> range)
     : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
-    for (const TransferBump& bump : volume.bumps) add(curve_of(bump), length_unit);
+    for (const OpacityTent& bump : volume.bumps) add(curve_of(bump), length_unit);
     for (const TransferCurve& curve : volume.curves) add(curve, length_unit);
     next_visible_.assign(kPlaces + 1, static_cast<double>(kPlaces));
     for (std::int64_t i = kPlaces - 1; i >= 0; --i)
@@ -61,7 +61,7 @@ void Transfer::add(const TransferCurve& curve, double length_unit) {
     }
 }
 
-Matter Transfer::mean_between(double low, double high) const {
+OpticalProperties Transfer::mean_between(double low, double high) const {
     // Closer together than a place, the sums would be lost in rounding: then over some to both sides.
     if (high - low < 1e-3) {
         low = std::max(0.0, low - kWidening);
@@ -79,7 +79,7 @@ std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
     std::vector<std::array<double, 2>> values;
     // What stands in one place of a table with something visible is visible.
     const double place = volume.range ? ((*volume.range)[1] - (*volume.range)[0]) / Transfer::kPlaces : 0;
-    for (const TransferBump& bump : volume.bumps) values.push_back({bump.low, bump.high});
+    for (const OpacityTent& bump : volume.bumps) values.push_back({bump.low, bump.high});
     for (const TransferCurve& curve : volume.curves) {
         for (std::size_t i = 1; i < curve.points.size(); ++i) {
             const auto& [low, before] = curve.points[i - 1];

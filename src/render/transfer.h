@@ -12,7 +12,7 @@
 namespace isoatlas {
 
 /// Extinction per unit of length, and the colour of what it swallows, weighted with it.
-struct Matter {
+struct OpticalProperties {
     double extinction = 0;
     Vec3 glow{};  ///< extinction times colour
 };
@@ -28,7 +28,7 @@ public:
     }
     /// Mean between the places of two values, as where a value changes linearly from one to the other (Engel, Kraus, Ertl, 2001, without
     /// the attenuation inside of the piece). Exact to 1/4096 of the range.
-    [[nodiscard]] Matter mean(double a, double b) const {
+    [[nodiscard]] OpticalProperties mean(double a, double b) const {
         const double low = std::min(a, b), high = std::max(a, b);
         if (high < next_visible_[static_cast<std::int64_t>(low)]) return {};
         return mean_between(low, high);
@@ -43,7 +43,7 @@ private:
     static constexpr double kWidening = 0.5;  ///< places, of means between values too close to each other
     using Sums = std::array<double, 4>;       ///< extinction, glow
     void add(const TransferCurve& curve, double length_unit);
-    [[nodiscard]] Matter mean_between(double low, double high) const;
+    [[nodiscard]] OpticalProperties mean_between(double low, double high) const;
 
     double low_, places_per_value_;
     std::vector<double> next_visible_;  ///< of every place: the first one at or after it that something lies between it and the next

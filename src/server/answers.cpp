@@ -15,12 +15,12 @@ namespace {
 using JsonStream;
 
 void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
-    json.key(name).begin_array().value(bounds.least).value(bounds.most).end_array();
+    json.key(name).begin_array().value(bounds.min).value(bounds.max).end_array();
 }
 
 void put_object(JsonStream& json, const ActiveObject& object) {
     json.begin_object().key("id").value(object.id).key("tunnels").value(object.b1).key("cavities").value(object.b2);
-    put_bounds(json, "voxels", {object.voxels_least, object.voxels_most});
+    put_bounds(json, "voxels", {object.min_voxels, object.max_voxels});
     json.end_object();
 }
 
@@ -86,7 +86,7 @@ std::string measures_json(const Surface& surface, const ActiveObjects& active, d
             const ActiveObject& object = *topology.at(size.object);
             json.line().begin_object().key("id").value(size.object).key("area").value(size.area).key("volume").value(size.measure);
             json.key("tunnels").value(object.b1).key("cavities").value(object.b2).key("triangles").value(size.triangles);
-            put_bounds(json, "voxels", {object.voxels_least, object.voxels_most});
+            put_bounds(json, "voxels", {object.min_voxels, object.max_voxels});
             json.key("box").begin_array().value(size.low).value(size.high).end_array().end_object();
         }
         json.end_array();
@@ -109,10 +109,10 @@ std::string at_json(const AtVoxel& at) {
     });
 }
 
-std::string transfer_json(std::span<const TransferBump> bumps, const Calibration& calibration) {
+std::string transfer_json(std::span<const OpacityTent> bumps, const Calibration& calibration) {
     return document("transfer", [&](JsonStream& json) {
         json.key("bumps").begin_array();
-        for (const TransferBump& bump : bumps) {
+        for (const OpacityTent& bump : bumps) {
             json.line().begin_object().key("tau").value(calibration.reported(bump.tau));
             json.key("low").value(calibration.reported(bump.low)).key("high").value(calibration.reported(bump.high));
             json.key("ramp").value(bump.ramp).key("density").value(bump.density);
@@ -130,15 +130,15 @@ std::string error_json(const Error& error) {
     return document("error", [&](JsonStream& json) { put_error(json, error); });
 }
 
-std::string events_json(const Opening::State& state, const std::vector<Lines::Pending>& pending) {
+std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending) {
     std::string text = document("events", [&](JsonStream& json) {
         json.key("state").value(state.is_open ? "open" : state.failure ? "failed" : "building");
         if (!state.is_open && state.failure) put_error(json, *state.failure);
         if (!state.is_open && !state.failure) put_build(json, state.build);
         json.key("questions").begin_array();
-        for (const auto& [line, question] : pending) {
-            json.begin_object().key("client").value(question.client).key("line").value(line).key("place").value(question.place);
-            json.key("fraction").value(question.fraction).end_object();
+        for (const auto& [line, request] : pending) {
+            json.begin_object().key("client").value(request.client).key("line").value(line).key("place").value(request.place);
+            json.key("fraction").value(request.fraction).end_object();
         }
         json.end_array();
     });

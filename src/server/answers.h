@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/contents.h"
+#include "catalogue/page_contents.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/error.h"
 #include "isoatlas/render.h"
-#include "server/lines.h"
-#include "server/opening.h"
+#include "server/job_queues.h"
+#include "server/store_state.h"
 
 namespace isoatlas {
 
@@ -40,10 +40,10 @@ struct AtVoxel {
 };
 [[nodiscard]] std::string at_json(const AtVoxel& at);
 /// calibration: of the values of the bumps, which are stored ones.
-[[nodiscard]] std::string transfer_json(std::span<const TransferBump> bumps, const Calibration& calibration);
+[[nodiscard]] std::string transfer_json(std::span<const OpacityTent> bumps, const Calibration& calibration);
 [[nodiscard]] std::string address_json(const std::string& address);
 [[nodiscard]] std::string error_json(const Error& error);
 /// On one line. pending: of the client that listens.
-[[nodiscard]] std::string events_json(const Opening::State& state, const std::vector<Lines::Pending>& pending);
+[[nodiscard]] std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending);
 
 }  // namespace isoatlas

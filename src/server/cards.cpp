@@ -7,7 +7,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kPixels = 160;
-constexpr std::size_t kMostTriangles = 60'000;  ///< two a pixel
+constexpr std::size_t kMaxTriangles = 60'000;  ///< two a pixel
 
 std::string card_json(const std::string& name, const Turntable& picture) {
     return document("card", [&](JsonStream& json) {
@@ -23,17 +23,17 @@ std::string card_json(const std::string& name, const Turntable& picture) {
 
 }  // namespace
 
-std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question, Turns& turns,
+std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Request& request, JobQueue& queue,
                         const Context& context) {
     const std::string name = subject.name + ", frames " + std::to_string(frames);
     if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);
-    const std::unique_ptr<Turns::Turn> turn = turns.take(question.client, question.left);
+    const std::unique_ptr<JobQueue::Job> job = queue.acquire(request.client, request.is_disconnected);
     if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);  // another client has asked for it meanwhile
     Context own = context;
     own.threads = 1;  // surfaces that somebody waits for go first
-    own.cancelled = [&turn] { return turn->is_over(); };
+    own.cancelled = [&job] { return job->is_cancelled(); };
     const PageOptions options{.picture_size = kPixels, .frames = frames};
-    Surface surface = coarse_surface(surface_of(atlas, subject.dark, subject.entry, own), kMostTriangles);
+    Surface surface = coarse_surface(surface_of(atlas, subject.dark, subject.entry, own), kMaxTriangles);
     std::string answer = card_json(subject.name, draw_turntable(std::move(surface), subject.entry.colour, options, own));
     answers_.keep(name, answer);
     return answer;

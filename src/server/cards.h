@@ -5,10 +5,10 @@
 #include <string>
 
 #include "base/text_cache.h"
-#include "catalogue/contents.h"
+#include "catalogue/page_contents.h"
 #include "isoatlas/atlas.h"
-#include "server/question.h"
-#include "server/turns.h"
+#include "server/job_queue.h"
+#include "server/request.h"
 
 namespace isoatlas {
 
@@ -23,13 +23,13 @@ class Cards {
 public:
     /// docs/schema/server-card. frames: of the turntable, 1 to 64. turns: of those who draw, one at a time. Throws Error: cancelled,
     /// resource (too many wait). Cost: the first time Atlas::extract() and `frames` pictures; one thread.
-    [[nodiscard]] std::string json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Question& question,
-                                   Turns& turns, const Context& context);
+    [[nodiscard]] std::string json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Request& request,
+                                   JobQueue& queue, const Context& context);
 
 private:
-    static constexpr std::size_t kMostKept = 512;  ///< some 30 kB each
+    static constexpr std::size_t kMaxKept = 512;  ///< some 30 kB each
 
-    TextCache answers_{kMostKept};
+    TextCache answers_{kMaxKept};
 };
 
 }  // namespace isoatlas

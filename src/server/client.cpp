@@ -95,11 +95,11 @@ private:
     int socket_;
 };
 
-void get(const Place& place, const std::string& question, ResponseReader& answer) {
+void get(const Place& place, const std::string& request, ResponseReader& answer) {
     const std::string token = token_of(place);
     if (!is_plain(token)) throw Error(ErrorKind::usage, {.where = "the token", .what = "has a space or a letter that no token has"});
     const Socket socket(place.port);
-    const std::string request = "GET " + question + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(place.port) +
+    const std::string request = "GET " + request + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(place.port) +
                                 "\r\nAuthorization: Bearer " + token + "\r\nConnection: close\r\n\r\n";
     const bool sent = socket.peer().send(request);
     std::string bytes(kPiece, '\0');
@@ -128,7 +128,7 @@ void get(const Place& place, const std::string& question, ResponseReader& answer
 
 }  // namespace
 
-ServerAnswer ask_server(const std::string& address, const std::string& question) {
+ServerResponse ask_server(const std::string& address, const std::string& request) {
     const std::optional<Place> place = place_of(address);
     if (!place) {
         throw Error(ErrorKind::usage, {.where = address.substr(0, 100),
@@ -136,20 +136,20 @@ ServerAnswer ask_server(const std::string& address, const std::string& question)
                                        .expected = "http://127.0.0.1:PORT",
                                        .next = "give the address that `isoatlas view` printed, up to its port"});
     }
-    if (!question.starts_with('/') || question.starts_with("/api/events") || !is_plain(question)) {
-        throw Error(ErrorKind::usage, {.where = question.substr(0, 100),
+    if (!request.starts_with('/') || request.starts_with("/api/events") || !is_plain(request)) {
+        throw Error(ErrorKind::usage, {.where = request.substr(0, 100),
                                        .what = "is no question with an answer that ends",
                                        .expected = "a path such as '/api/objects?tau=100'",
                                        .next = "docs/server.md lists the questions"});
     }
     ResponseReader answer;
-    get(*place, question, answer);
+    get(*place, request, answer);
     if (answer.status() != 200) refuse(answer.status(), answer.body());
     return {answer.type(), std::move(answer.body())};
 }
 
-std::size_t ask_server(const std::string& address, const std::string& question, const std::string& path) {
-    const ServerAnswer answer = ask_server(address, question);
+std::size_t ask_server(const std::string& address, const std::string& request, const std::string& path) {
+    const ServerResponse answer = ask_server(address, request);
     AtomicFile file(path);
     file.write(answer.bytes);
     file.commit();

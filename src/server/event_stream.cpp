@@ -9,15 +9,15 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostStreams = 64;
+constexpr std::size_t kMaxStreams = 64;
 constexpr milliseconds kLook{250};        ///< how often one that waits asks whether somebody is still there
 constexpr milliseconds kApart{100};       ///< between two messages
 constexpr milliseconds kHeartbeat{5000};  ///< a comment at least so often: nobody in between gives the connection up
 
 }  // namespace
 
-EventStream::EventStream(EventStreams& streams, std::string client, Left left)
-    : streams_(streams), client_(std::move(client)), left_(std::move(left)) {}
+EventStream::EventStream(EventStreams& streams, std::string client, IsDisconnected is_disconnected)
+    : streams_(streams), client_(std::move(client)), is_disconnected_(std::move(is_disconnected)) {}
 
 EventStream::~EventStream() {
     bool last = false;
@@ -26,17 +26,17 @@ EventStream::~EventStream() {
         streams_.clients_.erase(streams_.clients_.find(client_));
         last = !streams_.clients_.contains(client_);
     }
-    if (last && !client_.empty()) streams_.lines_.leave(client_);
+    if (last && !client_.empty()) streams_.queues_.leave(client_);
 }
 
 std::string EventStream::state() const {
-    std::vector<Lines::Pending> pending;
-    if (!client_.empty()) pending = streams_.lines_.pending(client_);
-    return events_json(streams_.opening_.state(), pending);
+    std::vector<JobQueues::Pending> pending;
+    if (!client_.empty()) pending = streams_.queues_.pending(client_);
+    return events_json(streams_.store_state_.state(), pending);
 }
 
 std::string EventStream::next() {
-    while (!streams_.ended_ && !(left_ && left_())) {
+    while (!streams_.ended_ && !(is_disconnected_ && is_disconnected_())) {
         const auto now = Clock::now();
         const std::uint64_t count = streams_.changes_.count();
         if (now - last_ < kApart) {
@@ -61,13 +61,13 @@ std::string EventStream::next() {
     return {};
 }
 
-std::shared_ptr<EventStream> EventStreams::listen(const std::string& client, Left left) {
+std::shared_ptr<EventStream> EventStreams::listen(const std::string& client, IsDisconnected is_disconnected) {
     const std::lock_guard lock(mutex_);
-    if (clients_.size() >= kMostStreams)
+    if (clients_.size() >= kMaxStreams)
         throw Error(ErrorKind::resource,
                     {.what = "too many listen", .next = "close a page that shows this volume, then load this one again"});
     clients_.insert(client);
-    return std::shared_ptr<EventStream>(new EventStream(*this, client, std::move(left)));  // the constructor is private
+    return std::shared_ptr<EventStream>(new EventStream(*this, client, std::move(is_disconnected)));  // the constructor is private
 }
 
 void EventStreams::end() {

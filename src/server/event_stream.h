@@ -1,4 +1,4 @@
-// What a client hears while it listens: where the server is, and where its own questions are (text/event-stream).
+// What a client hears while it listens: where the server is, and where its own requests are (text/event-stream).
 #pragma once
 
 #include <atomic>
@@ -8,15 +8,15 @@
 #include <set>
 #include <string>
 
-#include "server/changes.h"
-#include "server/lines.h"
-#include "server/opening.h"
+#include "server/job_queues.h"
+#include "server/store_state.h"
+#include "server/version_counter.h"
 
 namespace isoatlas {
 
 class EventStreams;
 
-/// One client that listens. When the last stream of a client ends, so do its questions.
+/// One client that listens. When the last stream of a client ends, so do its requests.
 class EventStream {
 public:
     EventStream(const EventStream&) = delete;
@@ -29,12 +29,12 @@ public:
 
 private:
     friend class EventStreams;
-    EventStream(EventStreams& streams, std::string client, Left left);
+    EventStream(EventStreams& streams, std::string client, IsDisconnected is_disconnected);
     [[nodiscard]] std::string state() const;
 
     EventStreams& streams_;
     const std::string client_;
-    const Left left_;
+    const IsDisconnected is_disconnected_;
     std::string told_;  ///< the last message
     std::uint64_t seen_ = 0;
     std::chrono::steady_clock::time_point last_{};
@@ -43,19 +43,20 @@ private:
 /// All of a server.
 class EventStreams {
 public:
-    EventStreams(const Opening& opening, Lines& lines, Changes& changes) : opening_(opening), lines_(lines), changes_(changes) {}
+    EventStreams(const StoreState& store_state, JobQueues& lines, VersionCounter& changes)
+        : store_state_(store_state), queues_(lines), changes_(changes) {}
 
-    /// Throws Error{resource} when too many listen. client: without a lane; empty: it has no questions.
-    [[nodiscard]] std::shared_ptr<EventStream> listen(const std::string& client, Left left);
+    /// Throws Error{resource} when too many listen. client: without a lane; empty: it has no requests.
+    [[nodiscard]] std::shared_ptr<EventStream> listen(const std::string& client, IsDisconnected is_disconnected);
     /// Ends all streams, and those to come.
     void end();
 
 private:
     friend class EventStream;
 
-    const Opening& opening_;
-    Lines& lines_;
-    Changes& changes_;
+    const StoreState& store_state_;
+    JobQueues& queues_;
+    VersionCounter& changes_;
     std::atomic<bool> ended_ = false;
     std::mutex mutex_;
     std::multiset<std::string> clients_;

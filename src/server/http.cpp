@@ -1,4 +1,4 @@
-// HTTP around the service: one door for every question, so that nothing is matched, mounted or redirected by a library.
+// HTTP around the service: one door for every request, so that nothing is matched, mounted or redirected by a library.
 #include <algorithm>
 #include <atomic>
 #include <cctype>
@@ -7,9 +7,9 @@
 #include "base/private_file.h"
 #include "isoatlas/error.h"
 #include "isoatlas/server.h"
+#include "server/access_control.h"
 #include "server/answers.h"
 #include "server/coding.h"
-#include "server/door.h"
 #include "server/network.h"
 #include "server/response.h"
 #include "server/secret.h"
@@ -53,49 +53,49 @@ struct Server::Data {
     std::atomic<std::int64_t> on_its_way = 0;
     std::optional<PrivateFile> kept{};
     Network network;
-    Door door;
+    AccessControl access;
 
     Data(const ServerOptions& options, const Context& context)
         : token(checked_token(options.token)),
           service(token, context, options.memory),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
-          network(options.port, {.at_the_door = [this](const RequestHead& head) { return door.answer(head); },
-                                 .refusal = Door::refusal,
+          network(options.port, {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },
+                                 .refusal = AccessControl::refusal,
                                  .answer = [this](const RequestHead& head, const Peer& peer) { return answer(head, peer); }}),
-          door(network.port(), token) {}
+          access(network.port(), token) {}
 
-    /// Of somebody who may ask. True: another question may follow.
+    /// Of somebody who may ask. True: another request may follow.
     bool answer(const RequestHead& head, const Peer& peer) {
         Target target = target_of(head.target);
         if (target.path == "/") target.words.clear();
-        const Question question{target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }};
+        const Request request{target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }};
         try {
-            Answer answer = on_its_way > most_on_its_way      ? too_much()
-                            : question.path == "/api/address" ? new_address(question)
-                                                              : service.answer(question);
+            Response answer = on_its_way > most_on_its_way     ? too_much()
+                              : request.path == "/api/address" ? new_address(request)
+                                                               : service.answer(request);
             if (answer.events) return send_events(head, answer, peer);
             return send(head, std::move(answer), peer);
         } catch (const std::bad_alloc&) {  // nothing has been sent
-            (void)peer.send(Door::refusal(503));
+            (void)peer.send(AccessControl::refusal(503));
             return false;
         }
     }
 
-    static Answer refused(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
-    static Answer too_much() {
+    static Response refused(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
+    static Response too_much() {
         return refused(503, Error(ErrorKind::resource, {.what = "too much is on its way to clients", .next = "ask again later"}));
     }
 
-    Answer new_address(const Question& question) {
+    Response new_address(const Request& request) {
         try {
-            Words(question.words).refuse_others();
-            return {200, "application/json", address_json(door.address_for_one_use())};
+            QueryParameters(request.words).reject_unknown();
+            return {200, "application/json", address_json(access.address_for_one_use())};
         } catch (const Error& error) {
             return refused(error.kind() == ErrorKind::usage ? 400 : 503, error);
         }
     }
 
-    bool send(const RequestHead& head, Answer answer, const Peer& peer) {
+    bool send(const RequestHead& head, Response answer, const Peer& peer) {
         const std::string_view coding = answer.bytes.size() < kWorthCoding ? std::string_view() : coding_for(head.accept_encoding);
         if (!coding.empty()) answer.bytes = coded(answer.bytes, coding);
         ResponseHead response{answer.status, answer.type, answer.bytes.size()};
@@ -108,7 +108,7 @@ struct Server::Data {
         return peer.send(text_of(response), is_whole) && (!is_whole || peer.send(answer.bytes)) && head.keep_alive;
     }
 
-    static bool send_events(const RequestHead& head, const Answer& answer, const Peer& peer) {
+    static bool send_events(const RequestHead& head, const Response& answer, const Peer& peer) {
         const ResponseHead response{.type = answer.type, .length = {}, .is_old = head.is_old};
         if (!peer.send(text_of(response)) || head.method == "HEAD") return false;
         while (true) {
@@ -124,9 +124,9 @@ Server::Server(const ServerOptions& options, const Context& context) : data_(std
 Server::~Server() { stop(); }
 
 int Server::port() const { return data_->network.port(); }
-std::string Server::address() const { return data_->door.address(); }
+std::string Server::address() const { return data_->access.address(); }
 const std::string& Server::token() const { return data_->token; }
-std::string Server::address_for_one_use() { return data_->door.address_for_one_use(); }
+std::string Server::address_for_one_use() { return data_->access.address_for_one_use(); }
 void Server::keep_token() { data_->kept.emplace(token_file(port()), data_->token + "\n"); }
 
 void Server::run() { data_->network.run(); }
@@ -136,14 +136,14 @@ void Server::stop() {
     data_->network.stop();
 }
 
-void Server::open(const Atlas& atlas) { data_->service.opening().open(atlas); }
+void Server::open(const Atlas& atlas) { data_->service.store_state().open(atlas); }
 void Server::prepare(const Context& context) {
     try {
         data_->service.prepare(context);
     } catch (const Error&) {  // who asks is told
     }
 }
-void Server::tell(const BuildState& state) { data_->service.opening().tell(state); }
-void Server::fail(const Error& error) { data_->service.opening().fail(error); }
+void Server::report_progress(const BuildState& state) { data_->service.store_state().report_progress(state); }
+void Server::fail(const Error& error) { data_->service.store_state().fail(error); }
 
 }  // namespace isoatlas

@@ -24,7 +24,7 @@ using boost::system::error_code;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kTick{200};  ///< how often deadlines are looked at
-constexpr std::size_t kMostDrained = 1 << 16;    ///< bytes of a request that nobody reads
+constexpr std::size_t kMaxDrained = 1 << 16;     ///< bytes of a request that nobody reads
 
 struct Connection;
 using Connected = std::list<std::shared_ptr<Connection>>;
@@ -113,7 +113,7 @@ private:
                 return;
             }
             const ConnectionPointer connection = std::make_shared<Connection>(std::move(socket));
-            if (std::ssize(strangers_) >= kMostStrangers) cut_off_oldest(strangers_);
+            if (std::ssize(strangers_) >= kMaxStrangers) cut_off_oldest(strangers_);
             connection->place = strangers_.insert(strangers_.end(), connection);
             connection->list = &strangers_;
             connection->until = Clock::now() + kHeadTime;
@@ -170,7 +170,7 @@ private:
             return understand(connection);
         }
         connection->drained += count;
-        if (connection->drained > kMostDrained) return drop(*connection);
+        if (connection->drained > kMaxDrained) return drop(*connection);
         wait(connection);
     }
 
@@ -182,7 +182,7 @@ private:
         const RequestHead head = connection->reader->head();
         connection->reader.reset();
         if (const std::optional<std::string> answer = answers_.at_the_door(head)) return refuse(connection, *answer);
-        if (std::ssize(busy_) >= kMostAtOnce) return refuse(connection, answers_.refusal(503));
+        if (std::ssize(busy_) >= kMaxAtOnce) return refuse(connection, answers_.refusal(503));
         move(*connection, busy_);
         if (!workers_.post([this, connection, head] { answer(connection, head); })) {
             move(*connection, strangers_);
@@ -229,7 +229,7 @@ private:
 
     void answered(const ConnectionPointer& connection, bool goes_on) {
         if (!goes_on) return leave(connection);
-        if (std::ssize(idle_) >= kMostIdle) cut_off_oldest(idle_);
+        if (std::ssize(idle_) >= kMaxIdle) cut_off_oldest(idle_);
         move(*connection, idle_);
         connection->until = Clock::now() + (connection->bytes.empty() ? kIdleTime : kHeadTime);
         if (connection->bytes.empty()) return wait(connection);
@@ -244,7 +244,7 @@ private:
     std::atomic<bool> ended_ = false;
     Connected strangers_, idle_, busy_;  ///< in the order in which they came there
     std::array<char, kLongestHead> scratch_{};
-    Workers workers_{kMostAtOnce};  ///< the last member: its threads end before the others
+    Workers workers_{kMaxAtOnce};  ///< the last member: its threads end before the others
 };
 
 Network::Network(int port, Answers answers) : connections_(std::make_unique<Connections>(port, std::move(answers))) {}

@@ -1,9 +1,9 @@
 // Connections: strangers wait at the door, whoever may ask is answered by a thread.
 //
 // One thread accepts, reads heads of requests and watches deadlines; it never waits for a client. A connection whose request has not yet
-// been let in belongs to a stranger: there are at most kMostStrangers, each with a head of kLongestHead bytes and kHeadTime for all of it;
+// been let in belongs to a stranger: there are at most kMaxStrangers, each with a head of kLongestHead bytes and kHeadTime for all of it;
 // when another one comes, the oldest is cut off. So whoever holds all of them does not keep others out. What is let in is answered by a
-// thread of its own, at most kMostAtOnce at a time. Between two requests a connection keeps its place for a while, apart from the
+// thread of its own, at most kMaxAtOnce at a time. Between two requests a connection keeps its place for a while, apart from the
 // strangers.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace isoatlas {
 
-constexpr int kMostAtOnce = 160, kMostStrangers = 256, kMostIdle = 160;
+constexpr int kMaxAtOnce = 160, kMaxStrangers = 256, kMaxIdle = 160;
 constexpr std::chrono::seconds kHeadTime{5}, kIdleTime{30}, kLeavingTime{1};
 
 class Network {

@@ -30,10 +30,10 @@ bool Peer::send(std::string_view bytes, bool more) const {
     return true;
 }
 
-std::ptrdiff_t Peer::receive(char* bytes, std::size_t most, int milliseconds) const {
+std::ptrdiff_t Peer::receive(char* bytes, std::size_t max, int milliseconds) const {
     while (true) {
         if (!waits_for(socket_, POLLIN, milliseconds)) return -1;
-        const ssize_t count = ::recv(socket_, bytes, most, MSG_DONTWAIT);
+        const ssize_t count = ::recv(socket_, bytes, max, MSG_DONTWAIT);
         if (count >= 0 || (errno != EINTR && errno != EAGAIN)) return count;
     }
 }

@@ -14,7 +14,7 @@ public:
     /// All bytes. False: the client has gone, or has taken nothing for ten seconds. more: others follow at once.
     [[nodiscard]] bool send(std::string_view bytes, bool more = false) const;
     /// At most so many bytes of what has come; 0: the other end is closed, negative: nothing came in time, or an error.
-    [[nodiscard]] std::ptrdiff_t receive(char* bytes, std::size_t most, int milliseconds) const;
+    [[nodiscard]] std::ptrdiff_t receive(char* bytes, std::size_t max, int milliseconds) const;
     /// Has it closed the connection, or its own half of it?
     [[nodiscard]] bool is_gone() const;
 

@@ -33,7 +33,7 @@ private:
         head.is_old = version < 11;
     }
     void on_field_impl(http::field name, string_view text, string_view value, error_code& error) override {
-        if (++fields_ > kMostFields) {
+        if (++fields_ > kMaxFields) {
             error = http::error::header_limit;
             return;
         }

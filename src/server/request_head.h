@@ -1,4 +1,4 @@
-// A question as HTTP carries it, without its body: read byte for byte from anybody, in bounded memory. Only what the server looks at is
+// A request as HTTP carries it, without its body: read byte for byte from anybody, in bounded memory. Only what the server looks at is
 // kept.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace isoatlas {
 
 /// Bytes of a request line and header fields in all, and the number of fields.
 constexpr std::size_t kLongestHead = 16384;
-constexpr int kMostFields = 100;
+constexpr int kMaxFields = 100;
 
 struct RequestHead {
     std::string method, target;

@@ -3,18 +3,18 @@
 #include <algorithm>
 
 #include "isoatlas/error.h"
-#include "isoatlas/holders.h"
 #include "isoatlas/isovalue.h"
+#include "isoatlas/locate.h"
 #include "server/answers.h"
+#include "server/query_parameters.h"
 #include "server/wire_samples.h"
-#include "server/words.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kSliceSamples = 1 << 20, kMostSliceSamples = 1 << 22;
-constexpr std::int64_t kVolumeValues = 1 << 21, kMostVolumeValues = 1 << 25;
-constexpr std::size_t kMostHolders = 256;
+constexpr std::int64_t kSliceSamples = 1 << 20, kMaxSliceSamples = 1 << 22;
+constexpr std::int64_t kVolumeValues = 1 << 21, kMaxVolumeValues = 1 << 25;
+constexpr std::size_t kMaxLocated = 256;
 
 const char* const kBytes = "application/octet-stream";
 
@@ -28,25 +28,25 @@ void require_volume(const Atlas& atlas) {
 }
 
 /// Does an object of one voxel hold another one at an isovalue?
-bool holds(const Atlas& atlas, const Holders& sample, const NumberAt& object, const Context& context) {
+bool holds(const Atlas& atlas, const Locator& sample, const NumberAt& object, const Context& context) {
     const double tau = stored_isovalue(atlas.info(), object.at);
     const std::optional<std::int64_t> own = sample.object(tau);
-    return own && (*own == object.number || own == Holders(atlas, object.number, context).object(tau));
+    return own && (*own == object.number || own == Locator(atlas, object.number, context).object(tau));
 }
 
 }  // namespace
 
-Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context) {
+Response slice_answer(const Atlas& atlas, const Request& request, const Context& context) {
     require_volume(atlas);
-    Words words(question.words);
+    QueryParameters words(request.words);
     const std::optional<std::int64_t> axis = words.whole("axis", 0, 2);
     if (!axis) missing("axis", "0, 1 or 2");
     SampleBox box{{0, 0, 0}, atlas.info().extent.size};
     const std::int64_t size = box.end[*axis];
     const std::optional<std::int64_t> index = words.whole("index", 0, size - 1);
     if (!index) missing("index", "0 to " + std::to_string(size - 1));
-    const std::int64_t most = words.whole("most", 1, kMostSliceSamples).value_or(kSliceSamples);
-    words.refuse_others();
+    const std::int64_t max = words.whole("most", 1, kMaxSliceSamples).value_or(kSliceSamples);
+    words.reject_unknown();
     box.begin[*axis] = *index, box.end[*axis] = *index + 1;
     std::int64_t step = 1;
     const auto count = [&] {
@@ -54,31 +54,31 @@ Answer slice_answer(const Atlas& atlas, const Question& question, const Context&
         for (int a = 0; a < 3; ++a) samples *= (box.end[a] - box.begin[a] + step - 1) / step;
         return samples;
     };
-    while (count() > most) ++step;
+    while (count() > max) ++step;
     return {200, kBytes, wire_slice(atlas.samples(box, step, context), static_cast<int>(*axis), step), {}};
 }
 
-Answer volume_answer(const Atlas& atlas, const Question& question, const Context& context) {
+Response volume_answer(const Atlas& atlas, const Request& request, const Context& context) {
     require_volume(atlas);
-    Words words(question.words);
-    const std::int64_t most = words.whole("most", 1, kMostVolumeValues).value_or(kVolumeValues);
-    words.refuse_others();
-    return {200, kBytes, wire_volume(atlas.coarse(most, context), atlas.range(), atlas.info().calibration), {}};
+    QueryParameters words(request.words);
+    const std::int64_t max = words.whole("most", 1, kMaxVolumeValues).value_or(kVolumeValues);
+    words.reject_unknown();
+    return {200, kBytes, wire_volume(atlas.coarse(max, context), atlas.range(), atlas.info().calibration), {}};
 }
 
-Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question, const Context& context) {
+Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Request& request, const Context& context) {
     const VolumeInfo& info = atlas.info();
     const Extent& extent = info.extent;
-    Words words(question.words);
+    QueryParameters words(request.words);
     const std::vector<std::int64_t> at = words.list("voxel", 0, *std::ranges::max_element(extent.size) - 1, 3);
     if (at.size() != 3) missing("voxel", "x,y,z: three whole numbers");
     for (std::size_t a = 0; a < 3; ++a) {
         if (at[a] >= extent.size[a]) missing("voxel", "less than " + std::to_string(extent.size[a]) + " along axis " + std::to_string(a));
     }
-    const std::vector<NumberAt> objects = words.list_at("object", 0, extent.voxels() - 1, kMostHolders);
-    const std::vector<NumberAt> contours = words.list_at("contour", 0, extent.voxels() - 1, kMostHolders);
-    words.refuse_others();
-    const Holders sample(atlas, extent.index(at[0], at[1], at[2]), context);
+    const std::vector<NumberAt> objects = words.list_at("object", 0, extent.voxels() - 1, kMaxLocated);
+    const std::vector<NumberAt> contours = words.list_at("contour", 0, extent.voxels() - 1, kMaxLocated);
+    words.reject_unknown();
+    const Locator sample(atlas, extent.index(at[0], at[1], at[2]), context);
     AtVoxel found{.voxel = {at[0], at[1], at[2]}, .position = {}, .value = info.calibration.reported(sample.value())};
     found.position = to_physical(info.geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
     for (const NumberAt& object : objects) found.objects.push_back(holds(atlas, sample, object, context));

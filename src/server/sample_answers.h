@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "isoatlas/atlas.h"
-#include "server/question.h"
+#include "server/request.h"
 
 namespace isoatlas {
 
@@ -18,9 +18,9 @@ struct NamedEntry {
 
 /// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store), cancelled. entries: in the order of
 /// /api/atlas.
-[[nodiscard]] Answer slice_answer(const Atlas& atlas, const Question& question, const Context& context);
-[[nodiscard]] Answer volume_answer(const Atlas& atlas, const Question& question, const Context& context);
-[[nodiscard]] Answer at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Question& question,
-                               const Context& context);
+[[nodiscard]] Response slice_answer(const Atlas& atlas, const Request& request, const Context& context);
+[[nodiscard]] Response volume_answer(const Atlas& atlas, const Request& request, const Context& context);
+[[nodiscard]] Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Request& request,
+                                 const Context& context);
 
 }  // namespace isoatlas

@@ -12,7 +12,7 @@
 #include "isoatlas/output.h"
 #include "page/template.h"
 #include "server/answers.h"
-#include "server/branches.h"
+#include "server/branch_answers.h"
 #include "server/file_bytes.h"
 #include "server/sample_answers.h"
 #include "server/secret.h"
@@ -21,15 +21,15 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMostListed = 100000, kMostTriangles = 100'000'000, kMostFrames = 16, kMostBranches = std::int64_t{1} << 40;
+constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
 constexpr int kAtOnce = 2;                                      ///< answers of size
 constexpr std::int64_t kFirstTriangles = 20'000;                ///< what pages ask for first (web/src/viewer/ask/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
-constexpr std::size_t kMostObjects = 256;
+constexpr std::size_t kMaxObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
 
 /// What every page shows first; null: nothing, or a dark object.
-const NamedEntry* first_of(const Known& known) {
+const NamedEntry* first_of(const StoreCatalogue& known) {
     return known.entries.empty() || known.entries.front().dark ? nullptr : &known.entries.front();
 }
 
@@ -43,11 +43,11 @@ int status_of(ErrorKind kind) {
     }
 }
 
-Answer refusal(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
-Answer json_answer(std::string text) { return {200, "application/json", std::move(text)}; }
-Answer file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
+Response refusal(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
+Response json_answer(std::string text) { return {200, "application/json", std::move(text)}; }
+Response file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
 
-double required_tau(Words& words) {
+double required_tau(QueryParameters& words) {
     const std::optional<double> tau = words.number("tau");
     if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "the isovalue is missing", .next = "add tau=NUMBER"});
     return *tau;
@@ -61,22 +61,22 @@ Service::Service(std::string token, const Context& context, std::int64_t memory)
     : token_(std::move(token)),
       context_(context),
       memory_((memory > 0 ? memory : available_memory() / 4) / kAtOnce),
-      opening_(changes_),
-      lines_(changes_),
-      events_(opening_, lines_, changes_) {
+      store_state_(changes_),
+      queues_(changes_),
+      events_(store_state_, queues_, changes_) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
 }
 
 void Service::end() {
     ended_ = true;
-    lines_.end();
+    queues_.end();
     events_.end();
 }
 
-Answer Service::answer(const Question& question) {
+Response Service::answer(const Request& request) {
     try {
-        return answer_known(question);
+        return answer_known(request);
     } catch (const Error& error) {
         return refusal(status_of(error.kind()), error);
     } catch (const std::bad_alloc&) {
@@ -86,66 +86,66 @@ Answer Service::answer(const Question& question) {
     }
 }
 
-Answer Service::answer_known(const Question& question) {
-    if (question.path == "/") {
+Response Service::answer_known(const Request& request) {
+    if (request.path == "/") {
         if (viewer_template().empty())
             throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "ask /api/atlas"});
         return {200, "text/html; charset=utf-8", std::string(viewer_template())};
     }
-    if (!is_secret(question.token, token_)) {
+    if (!is_secret(request.token, token_)) {
         return refusal(
             403, Error(ErrorKind::usage, {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"}));
     }
-    if (question.path == "/api/events") return events_answer(question);
-    if (question.path == "/api/atlas") {
-        Words(question.words).refuse_others();
-        return json_answer(known(question).atlas);
+    if (request.path == "/api/events") return events_answer(request);
+    if (request.path == "/api/atlas") {
+        QueryParameters(request.words).reject_unknown();
+        return json_answer(known(request).atlas);
     }
-    if (question.path == "/api/preview") return preview_answer(question);
-    if (question.path == "/api/objects") return objects_answer(question);
-    if (question.path == "/api/measures") return measures_answer(question);
-    if (question.path == "/api/branches") return branches_answer(question);
-    if (question.path == "/api/card") return card_answer(question);
-    if (question.path == "/api/surface") return surface_answer(question);
-    if (question.path == "/api/label") return label_answer(question);
-    if (question.path == "/api/at") return at_answer(question);
-    if (question.path == "/api/transfer") {
-        Words(question.words).refuse_others();
-        return json_answer(known(question).transfer);
+    if (request.path == "/api/preview") return preview_answer(request);
+    if (request.path == "/api/objects") return objects_answer(request);
+    if (request.path == "/api/measures") return measures_answer(request);
+    if (request.path == "/api/branches") return branches_answer(request);
+    if (request.path == "/api/card") return card_answer(request);
+    if (request.path == "/api/surface") return surface_answer(request);
+    if (request.path == "/api/label") return label_answer(request);
+    if (request.path == "/api/at") return at_answer(request);
+    if (request.path == "/api/transfer") {
+        QueryParameters(request.words).reject_unknown();
+        return json_answer(known(request).transfer);
     }
-    if (question.path == "/api/slice") return samples_answer(question, slice_answer);
-    if (question.path == "/api/volume") return samples_answer(question, volume_answer);
-    throw Error(ErrorKind::not_found, {.where = question.path.substr(0, 100),
+    if (request.path == "/api/slice") return samples_answer(request, slice_answer);
+    if (request.path == "/api/volume") return samples_answer(request, volume_answer);
+    throw Error(ErrorKind::not_found, {.where = request.path.substr(0, 100),
                                        .what = "there is nothing here",
                                        .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
                                                    "label, slice, volume, at, transfer, address",
                                        .next = "docs/server.md lists the questions"});
 }
 
-Answer Service::samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&)) {
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::samples, question);
-    return make(atlas(), question, context_of(*turn));
+Response Service::samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&)) {
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
+    return make(atlas(), request, context_of(*job));
 }
 
-Answer Service::at_answer(const Question& question) {
-    const Known& known = this->known(question);
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::samples, question);
-    return at_answer(atlas(), known.entries, question, context_of(*turn));
+Response Service::at_answer(const Request& request) {
+    const StoreCatalogue& known = this->known(request);
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
+    return at_answer(atlas(), known.entries, request, context_of(*job));
 }
 
-std::unique_ptr<Turns::Turn> Service::turn_in(Line line, const Question& question) {
-    return lines_.of(line).take(question.client, question.left);
+std::unique_ptr<JobQueue::Job> Service::acquire_job(QueueClass line, const Request& request) {
+    return queues_.of(line).acquire(request.client, request.is_disconnected);
 }
 
-const Known& Service::known(const Question& question) {
-    if (const Known* there = known_.there()) return *there;
+const StoreCatalogue& Service::known(const Request& request) {
+    if (const StoreCatalogue* there = known_.there()) return *there;
     (void)atlas();  // refuses before there is one
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::atlas, question);
-    return known(context_of(*turn));
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::atlas, request);
+    return known(context_of(*job));
 }
 
-const Known& Service::known(const Context& context) {
-    return known_.get(context, [&atlas = atlas()](const Context& shared) { return know(atlas, shared); });
+const StoreCatalogue& Service::known(const Context& context) {
+    return known_.get(context, [&atlas = atlas()](const Context& shared) { return load_catalogue(atlas, shared); });
 }
 
 void Service::prepare(const Context& context) {
@@ -159,73 +159,73 @@ void Service::prepare(const Context& context) {
     (void)first_.get(own, [&](const Context& shared) { return wire(extract(first->tau, options, shared), kFirstTriangles, shared); });
 }
 
-bool Service::is_first(double tau, const ExtractOptions& options, std::int64_t most) const {
-    const Known* known = known_.there();
+bool Service::is_first(double tau, const ExtractOptions& options, std::int64_t max) const {
+    const StoreCatalogue* known = known_.there();
     const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
-    if (first == nullptr || most != kFirstTriangles) return false;
+    if (first == nullptr || max != kFirstTriangles) return false;
     const bool is_alone = options.objects == std::vector{first->id} && options.contours.empty() && options.shell == ShellChoice::all;
     return is_alone && tau == first->tau && !options.ids;
 }
 
-Answer Service::events_answer(const Question& question) {
-    Words(question.words).refuse_others();
-    Answer answer{200, "text/event-stream"};
-    answer.events = events_.listen(question.client, question.left);
+Response Service::events_answer(const Request& request) {
+    QueryParameters(request.words).reject_unknown();
+    Response answer{200, "text/event-stream"};
+    answer.events = events_.listen(request.client, request.is_disconnected);
     return answer;
 }
 
-Answer Service::preview_answer(const Question& question) {
-    Words words(question.words);
+Response Service::preview_answer(const Request& request) {
+    QueryParameters words(request.words);
     const double tau = required_tau(words);
     NamedObject named{words.whole("object", 0, atlas().info().extent.voxels() - 1)};
-    words.refuse_others();
-    (void)known(question);
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
+    words.reject_unknown();
+    (void)known(request);
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
     const double stored = stored_tau(atlas(), tau);
     if (named.id) {
-        const std::vector<ActiveObject> objects = atlas().active(stored, false, context_of(*turn)).objects;
+        const std::vector<ActiveObject> objects = atlas().active(stored, false, context_of(*job)).objects;
         const auto found = std::ranges::find(objects, *named.id, &ActiveObject::id);
         if (found != objects.end()) named.object = *found;
     }
-    return json_answer(preview_json(atlas().preview(stored, context_of(*turn)), tau, named));
+    return json_answer(preview_json(atlas().preview(stored, context_of(*job)), tau, named));
 }
 
-Answer Service::objects_answer(const Question& question) {
-    Words words(question.words);
+Response Service::objects_answer(const Request& request) {
+    QueryParameters words(request.words);
     const double tau = required_tau(words);
-    const std::int64_t top = words.whole("top", 1, kMostListed).value_or(1000);
-    words.refuse_others();
-    (void)known(question);
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
-    return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false, context_of(*turn)), tau, top));
+    const std::int64_t top = words.whole("top", 1, kMaxListed).value_or(1000);
+    words.reject_unknown();
+    (void)known(request);
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
+    return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false, context_of(*job)), tau, top));
 }
 
-Answer Service::measures_answer(const Question& question) {
+Response Service::measures_answer(const Request& request) {
     const Atlas& atlas = atlas_of_volume();
-    Words words(question.words);
+    QueryParameters words(request.words);
     const double tau = required_tau(words);
     const std::vector<std::int64_t> objects = voxels(words, "object");
-    words.refuse_others();
+    words.reject_unknown();
     if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
-    (void)known(question);  // the trees
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
+    (void)known(request);  // the trees
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     ExtractOptions options;
     options.objects = objects;
     options.normals = false;
-    const Surface surface = extract(stored_tau(atlas, tau), options, context_of(*turn));
-    return json_answer(measures_json(surface, atlas.active(surface.tau, false, context_of(*turn)), tau));
+    const Surface surface = extract(stored_tau(atlas, tau), options, context_of(*job));
+    return json_answer(measures_json(surface, atlas.active(surface.tau, false, context_of(*job)), tau));
 }
 
-Answer Service::branches_answer(const Question& question) {
-    Words words(question.words);
+Response Service::branches_answer(const Request& request) {
+    QueryParameters words(request.words);
     const BranchesWanted wanted = branches_wanted(words, atlas().info().calibration);
-    const Known& known = this->known(question);
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::trees, question);
-    return json_answer(branches_json(atlas(), known.hierarchy, wanted, context_of(*turn)));
+    const StoreCatalogue& known = this->known(request);
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
+    return json_answer(branches_json(atlas(), known.hierarchy, wanted, context_of(*job)));
 }
 
-CardSubject Service::card_subject(Words& words, const Known& known) const {
-    const std::optional<std::int64_t> entry = words.whole("entry", 0, kMostListed), branch = words.whole("branch", 0, kMostBranches);
+CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& known) const {
+    const std::optional<std::int64_t> entry = words.whole("entry", 0, kMaxListed), branch = words.whole("branch", 0, kMaxBranches);
     if (entry.has_value() == branch.has_value())
         throw Error(ErrorKind::usage,
                     {.where = "entry", .what = "which object is meant is not said once", .next = "add entry=N or branch=RANK"});
@@ -244,18 +244,18 @@ CardSubject Service::card_subject(Words& words, const Known& known) const {
     return {"entry " + std::to_string(*entry), known.contents.branches[static_cast<std::size_t>(drawn.branch)].dark, drawn};
 }
 
-Answer Service::card_answer(const Question& question) {
+Response Service::card_answer(const Request& request) {
     const Atlas& atlas = atlas_of_volume();
-    Words words(question.words);
-    const CardSubject subject = card_subject(words, known(question));
-    const std::int64_t frames = words.whole("frames", 1, kMostFrames).value_or(kMostFrames);
-    words.refuse_others();
-    return json_answer(cards_.json(atlas, subject, frames, question, lines_.of(Line::cards), context_));
+    QueryParameters words(request.words);
+    const CardSubject subject = card_subject(words, known(request));
+    const std::int64_t frames = words.whole("frames", 1, kMaxFrames).value_or(kMaxFrames);
+    words.reject_unknown();
+    return json_answer(cards_.json(atlas, subject, frames, request, queues_.of(QueueClass::cards), context_));
 }
 
-Answer Service::surface_answer(const Question& question) {
+Response Service::surface_answer(const Request& request) {
     const Atlas& atlas = atlas_of_volume();
-    Words words(question.words);
+    QueryParameters words(request.words);
     const double tau = required_tau(words);
     ExtractOptions options;
     options.objects = voxels(words, "object");
@@ -264,37 +264,37 @@ Answer Service::surface_answer(const Question& question) {
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
     options.ids = format.has_value();
-    const std::int64_t most = words.whole("most", 1, kMostTriangles).value_or(kMostTriangles);
-    words.refuse_others();
+    const std::int64_t max = words.whole("most", 1, kMaxTriangles).value_or(kMaxTriangles);
+    words.reject_unknown();
 
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
-    const Context context = context_of(*turn);
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
+    const Context context = context_of(*job);
     const double stored = stored_tau(atlas, tau);
     if (format) {
         const Surface surface = extract(stored, options, context);
         return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }, context));
     }
-    const auto make = [&](const Context& own) { return wire(extract(stored, options, own), most, own); };
-    WireMesh mesh = is_first(stored, options, most) ? first_.get(context, make) : make(context);
-    Answer answer = file_answer(std::move(mesh.bytes));
+    const auto make = [&](const Context& own) { return wire(extract(stored, options, own), max, own); };
+    WireMesh mesh = is_first(stored, options, max) ? first_.get(context, make) : make(context);
+    Response answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
     return answer;
 }
 
-Answer Service::label_answer(const Question& question) {
+Response Service::label_answer(const Request& request) {
     const Atlas& atlas = this->atlas();
-    Words words(question.words);
+    QueryParameters words(request.words);
     const double tau = required_tau(words);
     const std::vector<std::int64_t> objects = voxels(words, "object");
     const std::string format = words.choice("format", {"nrrd", "nii", "nii.gz", "tif"}).value_or("nrrd");
-    words.refuse_others();
+    words.reject_unknown();
     if (atlas.info().extent.voxels() > memory_ / kLabelBytes) {
         throw Error(ErrorKind::resource, {.what = "the labels of so many voxels are more than this server may hold",
                                           .next = "isoatlas label writes them; or start the viewer with more --memory"});
     }
-    const std::unique_ptr<Turns::Turn> turn = turn_in(Line::surfaces, question);
-    const Context context = context_of(*turn);
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
+    const Context context = context_of(*job);
     const Cut cut = atlas.cut(stored_tau(atlas, tau), {.label = true}, context);
     const LabelOrigin origin{.interpolant = cut.interpolant, .tunnel_height = cut.tunnel_height, .tau = cut.tau};
     stop_if_cancelled(context);
@@ -310,25 +310,27 @@ const Atlas& Service::atlas_of_volume() const {
     throw Error(ErrorKind::unsupported, {.what = "the contours of an image are no surface", .next = "isoatlas extract writes them"});
 }
 
-std::vector<std::int64_t> Service::voxels(Words& words, std::string_view name) const {
-    return words.list(name, 0, atlas().info().extent.voxels() - 1, kMostObjects);
+std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name) const {
+    return words.list(name, 0, atlas().info().extent.voxels() - 1, kMaxObjects);
 }
 
-Context Service::context_of(Turns::Turn& turn) const {
+Context Service::context_of(JobQueue::Job& job) const {
     Context context = context_;
-    context.cancelled = [&turn] { return turn.is_over(); };
-    context.progress = [&turn](const Progress& progress) { turn.tell((progress.phase_index + progress.fraction) / progress.phase_count); };
+    context.cancelled = [&job] { return job.is_cancelled(); };
+    context.progress = [&job](const Progress& progress) {
+        job.report_progress((progress.phase_index + progress.fraction) / progress.phase_count);
+    };
     return context;
 }
 
 Surface Service::extract(double tau, ExtractOptions options, const Context& context) const {
-    options.most_triangles = std::min(memory_ / kTriangleBytes, kMostTriangles);
+    options.max_triangles = std::min(memory_ / kTriangleBytes, kMaxTriangles);
     return atlas().extract(tau, options, context);
 }
 
-WireMesh Service::wire(const Surface& surface, std::int64_t most, const Context& context) const {
+WireMesh Service::wire(const Surface& surface, std::int64_t max, const Context& context) const {
     const double spacing = std::ranges::min(atlas().info().geometry.spacing);
-    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .most_triangles = most}, context);
+    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .max_triangles = max}, context);
 }
 
 }  // namespace isoatlas

@@ -1,11 +1,11 @@
-// What the server knows: answers to the questions of a viewer, from a store. Any question is safe; refusals are answers.
+// What the server knows: answers to the requests of a viewer, from a store. Any request is safe; refusals are answers.
 //
-//   /api/events                             where the server is, and where the questions of this client are: a stream that goes on
+//   /api/events                             where the server is, and where the requests of this client are: a stream that goes on
 //   /api/atlas                              what a page shows, without pictures: docs/schema/page.schema.json
 //   /api/preview?tau=T[&object=ID]          what the surface at T is and costs, before it is made; what object ID is there
 //   /api/objects?tau=T[&top=N]              the objects that are there at T, the largest first
 //   /api/measures?tau=T&object=ID,...       how large these objects are, in physical units
-//   /api/branches?top=N[&persistence=H...]  all bright objects by rank, or those that a selection keeps (server/branches.h)
+//   /api/branches?top=N[&persistence=H...]  all bright objects by rank, or those that a selection keeps (server/branch_answers.h)
 //   /api/card?entry=I|branch=R[&frames=N]   a picture of one (server/cards.h)
 //   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&most=N]   a mesh (server/wire_mesh.h)
 //   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
@@ -15,8 +15,8 @@
 //   /api/at?voxel=X,Y,Z[&object=ID@T,...][&contour=ID@T,...]   a sample, and what holds it
 //   /api/transfer                           which values the tree proposes to see as matter
 //
-// tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; who gets as far: server/door.h, which
-// answers /open and /enter; server/http.cpp answers /api/address.
+// tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; who gets as far:
+// server/access_control.h, which answers /open and /enter; server/http.cpp answers /api/address.
 #pragma once
 
 #include <atomic>
@@ -25,15 +25,15 @@
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
 #include "server/cards.h"
-#include "server/changes.h"
 #include "server/event_stream.h"
-#include "server/known.h"
-#include "server/lines.h"
-#include "server/opening.h"
-#include "server/question.h"
-#include "server/shared.h"
+#include "server/job_queues.h"
+#include "server/query_parameters.h"
+#include "server/request.h"
+#include "server/shared_once.h"
+#include "server/store_catalogue.h"
+#include "server/store_state.h"
+#include "server/version_counter.h"
 #include "server/wire_mesh.h"
-#include "server/words.h"
 
 namespace isoatlas {
 
@@ -43,57 +43,57 @@ public:
     Service(std::string token, const Context& context, std::int64_t memory = 0);
 
     /// The store that answers come from, or where it stands; nothing is answered before.
-    [[nodiscard]] Opening& opening() { return opening_; }
-    /// Finds what every page asks first, and the surface that it shows first, on this thread. Throws Error: as Opening::atlas(), input
+    [[nodiscard]] StoreState& store_state() { return store_state_; }
+    /// Finds what every page asks first, and the surface that it shows first, on this thread. Throws Error: as StoreState::atlas(), input
     /// (damaged store), cancelled.
     void prepare(const Context& context);
     /// Never throws but for want of memory. From many threads.
-    [[nodiscard]] Answer answer(const Question& question);
+    [[nodiscard]] Response answer(const Request& request);
     /// Ends what is being answered.
     void end();
 
 private:
-    [[nodiscard]] Answer answer_known(const Question& question);
-    [[nodiscard]] Answer events_answer(const Question& question);
-    [[nodiscard]] Answer preview_answer(const Question& question);
-    [[nodiscard]] Answer objects_answer(const Question& question);
-    [[nodiscard]] Answer measures_answer(const Question& question);
-    [[nodiscard]] Answer branches_answer(const Question& question);
-    [[nodiscard]] Answer at_answer(const Question& question);
-    [[nodiscard]] Answer card_answer(const Question& question);
-    [[nodiscard]] Answer surface_answer(const Question& question);
-    [[nodiscard]] Answer label_answer(const Question& question);
+    [[nodiscard]] Response answer_known(const Request& request);
+    [[nodiscard]] Response events_answer(const Request& request);
+    [[nodiscard]] Response preview_answer(const Request& request);
+    [[nodiscard]] Response objects_answer(const Request& request);
+    [[nodiscard]] Response measures_answer(const Request& request);
+    [[nodiscard]] Response branches_answer(const Request& request);
+    [[nodiscard]] Response at_answer(const Request& request);
+    [[nodiscard]] Response card_answer(const Request& request);
+    [[nodiscard]] Response surface_answer(const Request& request);
+    [[nodiscard]] Response label_answer(const Request& request);
     /// Waits until it is found, in no line: all wait for the same.
-    [[nodiscard]] const Known& known(const Question& question);
-    [[nodiscard]] const Known& known(const Context& context);
-    [[nodiscard]] CardSubject card_subject(Words& words, const Known& known) const;
+    [[nodiscard]] const StoreCatalogue& known(const Request& request);
+    [[nodiscard]] const StoreCatalogue& known(const Context& context);
+    [[nodiscard]] CardSubject card_subject(QueryParameters& words, const StoreCatalogue& known) const;
     /// Waits for its turn.
-    [[nodiscard]] std::unique_ptr<Turns::Turn> turn_in(Line line, const Question& question);
+    [[nodiscard]] std::unique_ptr<JobQueue::Job> acquire_job(QueueClass line, const Request& request);
     /// When it is its turn.
-    [[nodiscard]] Answer samples_answer(const Question& question, Answer (*make)(const Atlas&, const Question&, const Context&));
+    [[nodiscard]] Response samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&));
 
-    [[nodiscard]] const Atlas& atlas() const { return opening_.atlas(); }
+    [[nodiscard]] const Atlas& atlas() const { return store_state_.atlas(); }
     /// Throws Error{unsupported} for an image.
     [[nodiscard]] const Atlas& atlas_of_volume() const;
-    [[nodiscard]] std::vector<std::int64_t> voxels(Words& words, std::string_view name) const;
+    [[nodiscard]] std::vector<std::int64_t> voxels(QueryParameters& words, std::string_view name) const;
     /// Of a long call for who holds the turn.
-    [[nodiscard]] Context context_of(Turns::Turn& turn) const;
+    [[nodiscard]] Context context_of(JobQueue::Job& job) const;
     /// Refuses what would take more memory than one answer may.
     [[nodiscard]] Surface extract(double tau, ExtractOptions options, const Context& context) const;
-    [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t most, const Context& context) const;
+    [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
     /// Is it the surface that every page shows first?
-    [[nodiscard]] bool is_first(double tau, const ExtractOptions& options, std::int64_t most) const;
+    [[nodiscard]] bool is_first(double tau, const ExtractOptions& options, std::int64_t max) const;
 
     const std::string token_;
     Context context_;
     const std::int64_t memory_;  ///< of one answer
-    Changes changes_;
-    Opening opening_;
-    Lines lines_;
+    VersionCounter changes_;
+    StoreState store_state_;
+    JobQueues queues_;
     EventStreams events_;
     Cards cards_;
-    Shared<Known> known_;
-    Shared<WireMesh> first_;  ///< coarse: some ten kilobytes
+    SharedOnce<StoreCatalogue> known_;
+    SharedOnce<WireMesh> first_;  ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;
 };
 

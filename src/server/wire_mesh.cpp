@@ -83,21 +83,21 @@ std::vector<unsigned> corners_of(const Surface& surface, int threads) {
 }
 
 /// At most so many triangles, where clusters of points become one.
-std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vector<WirePoint>& points, std::size_t most) {
+std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vector<WirePoint>& points, std::size_t max) {
     std::vector<float> positions;
     positions.reserve(3 * points.size());
     for (const WirePoint& point : points) positions.insert(positions.end(), point.position.begin(), point.position.end());
-    return fewer_triangles(corners, positions, most);
+    return fewer_triangles(corners, positions, max);
 }
 
 /// A part of the triangles in strips. Their points have near numbers: memory is for those alone.
 void put_in_strips(std::span<unsigned> corners) {
-    const auto [least, most] = std::ranges::minmax(corners);
+    const auto [min, max] = std::ranges::minmax(corners);
     std::vector<unsigned> near(corners.size());
-    std::ranges::transform(corners, near.begin(), [first = least](unsigned corner) { return corner - first; });
+    std::ranges::transform(corners, near.begin(), [first = min](unsigned corner) { return corner - first; });
     std::vector<unsigned> strips(corners.size());
-    meshopt_optimizeVertexCacheStrip(strips.data(), near.data(), near.size(), std::size_t{most} - least + 1);
-    std::ranges::transform(strips, corners.begin(), [first = least](unsigned corner) { return corner + first; });
+    meshopt_optimizeVertexCacheStrip(strips.data(), near.data(), near.size(), std::size_t{max} - min + 1);
+    std::ranges::transform(strips, corners.begin(), [first = min](unsigned corner) { return corner + first; });
 }
 
 /// Triangles in strips, points in the order in which they come first: neighbours have near numbers, so both pack well.
@@ -160,9 +160,9 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Con
     std::vector<WirePoint> points = quantised(surface, header, context.threads);
     std::vector<unsigned> corners = corners_of(surface, context.threads);
     WireMesh mesh;
-    mesh.coarse = options.most_triangles > 0 && surface.triangles.size() > static_cast<std::size_t>(options.most_triangles);
+    mesh.coarse = options.max_triangles > 0 && surface.triangles.size() > static_cast<std::size_t>(options.max_triangles);
     stop_if_cancelled(context);
-    if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.most_triangles));
+    if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.max_triangles));
     put_in_order(corners, points, context);
     stop_if_cancelled(context);
     mesh.points = static_cast<std::int64_t>(points.size());

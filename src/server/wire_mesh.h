@@ -20,8 +20,8 @@
 namespace isoatlas {
 
 struct WireOptions {
-    double step = 0;                  ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
-    std::int64_t most_triangles = 0;  ///< fewer by clustering points where there are more; 0: as many as there are
+    double step = 0;                 ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
+    std::int64_t max_triangles = 0;  ///< fewer by clustering points where there are more; 0: as many as there are
 };
 
 struct WireMesh {

@@ -133,27 +133,27 @@ IoCounters BrickReader<T>::cost_of(std::vector<std::int64_t> bricks) const {
 
 // A part may need more reads than the whole, at most one for each brick; and no byte that lies in no gap of the whole.
 template <class T>
-IoCounters BrickReader<T>::most_of_part(std::vector<std::int64_t> bricks) const {
+IoCounters BrickReader<T>::max_of_part(std::vector<std::int64_t> bricks) const {
     sort_by_offset(bricks);
-    IoCounters most = count(bricks, extents_of(bricks, std::numeric_limits<std::int64_t>::max()));
-    most.extents = std::count_if(bricks.begin(), bricks.end(), [this](std::int64_t brick) { return bytes_of(brick) > 0; });
-    return most;
+    IoCounters max = count(bricks, extents_of(bricks, std::numeric_limits<std::int64_t>::max()));
+    max.extents = std::count_if(bricks.begin(), bricks.end(), [this](std::int64_t brick) { return bytes_of(brick) > 0; });
+    return max;
 }
 
 // A disk that is asked for many things at a time is several times faster than one that is asked for one after the other, and brings
 // nothing that lies between them. Nothing is said while everything is in memory.
 template <class T>
-void BrickReader<T>::expect(std::span<const Extent> extents, std::size_t first, Expected& expected) const {
+void BrickReader<T>::prefetch(std::span<const Extent> extents, std::size_t first, Prefetched& prefetched) const {
     const std::size_t end = std::min(first + kExpectedReads, extents.size());
     const std::int64_t end_byte = extents[first].begin + kExpectedBytes;
     std::int64_t begin = 0, reached = 0;  // of what is asked for next, nothing as yet
     const auto ask = [&] {
-        if (reached > begin) store_.expect(data_, begin, reached - begin);
+        if (reached > begin) store_.prefetch(data_, begin, reached - begin);
         begin = reached = 0;
     };
     for (std::size_t i = first; i < end && extents[i].begin < end_byte; ++i) {
         if (extents[i].end == extents[i].begin) continue;  // bricks of one value have no bytes
-        const bool is_asked = expected[i].exchange(true, std::memory_order_relaxed);
+        const bool is_asked = prefetched[i].exchange(true, std::memory_order_relaxed);
         if (is_asked || extents[i].begin - reached > kExpectedGap) ask();
         if (is_asked) continue;
         if (reached == begin) begin = extents[i].begin;
@@ -169,13 +169,13 @@ IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, const Context&
     const std::vector<Extent> extents = extents_of(bricks, kLongest);
     const IoCounters counters = count(bricks, extents);
     const CallerLooks look(context);
-    Expected expected(extents.size());
+    Prefetched prefetched(extents.size());
     for_each_block(context.threads, static_cast<std::int64_t>(extents.size()), [&](std::int64_t e) {
         look();
         const Extent& extent = extents[static_cast<std::size_t>(e)];
         std::vector<std::byte> bytes(static_cast<std::size_t>(extent.end - extent.begin));
         if (!bytes.empty() && !store_.read_if_present(data_, extent.begin, bytes)) {
-            expect(extents, static_cast<std::size_t>(e), expected);
+            prefetch(extents, static_cast<std::size_t>(e), prefetched);
             store_.read_unchecked(data_, extent.begin, bytes);
         }
         for (std::size_t i = extent.first; i < extent.last; ++i) {

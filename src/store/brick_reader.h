@@ -34,7 +34,7 @@ public:
     /// What read() of a list costs.
     [[nodiscard]] IoCounters cost_of(std::vector<std::int64_t> bricks) const;
     /// The most that read() of a part of the list costs.
-    [[nodiscard]] IoCounters most_of_part(std::vector<std::int64_t> bricks) const;
+    [[nodiscard]] IoCounters max_of_part(std::vector<std::int64_t> bricks) const;
     /// Voxels of the highest and the lowest sample of a brick; ties as in the total order (field/order.h).
     [[nodiscard]] std::int64_t highest_voxel(std::int64_t brick) const {
         return voxel_at(brick, highest_[static_cast<std::size_t>(brick)]);
@@ -59,9 +59,9 @@ private:
         std::int64_t begin, end;  ///< bytes in volume/data
     };
     /// Which extents has the disk been asked for?
-    using Expected = std::vector<std::atomic<bool>>;
+    using Prefetched = std::vector<std::atomic<bool>>;
     /// A read has to wait: asks for its bytes and those of the next ones.
-    void expect(std::span<const Extent> extents, std::size_t first, Expected& expected) const;
+    void prefetch(std::span<const Extent> extents, std::size_t first, Prefetched& prefetched) const;
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
     void check_places() const;
     [[nodiscard]] std::vector<std::int64_t> all_bricks() const;

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMostContents = std::int64_t{1} << 28;  // a header that claims more is damaged
+constexpr std::int64_t kMaxContents = std::int64_t{1} << 28;  // a header that claims more is damaged
 
 struct RawHeader {
     char magic[16];
@@ -78,7 +78,7 @@ void Container::read_header() {
     if (!begins_like_a_store(std::span(beginning).first(got))) {
         throw Error(ErrorKind::input, {.file = path_,
                                        .what = "is no isoatlas store",
-                                       .expected = "a file that `isoatlas build` has finished",
+                                       .prefetched = "a file that `isoatlas build` has finished",
                                        .next = "build one: isoatlas build VOLUME -o FILE.atlas"});
     }
     RawHeader raw;
@@ -91,7 +91,7 @@ void Container::read_header() {
         damaged("header", "the file has " + std::to_string(file_size_) + " bytes and should have " + std::to_string(raw.file_size));
     }
     const auto offset = static_cast<std::int64_t>(raw.contents_offset), size = static_cast<std::int64_t>(raw.contents_bytes);
-    if (size < 0 || size > kMostContents || offset < kHeaderBytes || offset > file_size_ - size)
+    if (size < 0 || size > kMaxContents || offset < kHeaderBytes || offset > file_size_ - size)
         damaged("header", "the contents lie outside the file");
     header_ = {file_size_, offset, size, raw.contents_checksum};
     const bool has_frame = check_frame();

@@ -53,7 +53,7 @@ public:
     /// read_unchecked() of bytes that are in memory; false: they would have to be waited for.
     [[nodiscard]] bool read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
     /// Says that bytes of an array will be read soon.
-    void expect(const StoredArray& array, std::int64_t first, std::int64_t bytes) const { file_->expect(array.offset + first, bytes); }
+    void prefetch(const StoredArray& array, std::int64_t first, std::int64_t bytes) const { file_->prefetch(array.offset + first, bytes); }
 
     /// The JSON text of the contents as it lies in the file.
     [[nodiscard]] std::string contents_text() const;

@@ -127,10 +127,10 @@ bool is_sound(const StoredArray& array, std::int64_t file_size) {
     const std::int64_t size = size_of_type(array.type);
     if (size == 0 || array.block < 0 || array.shape.empty()) return false;
     if (array.chunk < 0 || array.chunk > kLargestChunk || (array.chunk > 0 && array.block != array.chunk * size)) return false;
-    const std::int64_t most = array.chunk == 0 ? file_size : file_size * kBestCompression;
+    const std::int64_t max = array.chunk == 0 ? file_size : file_size * kBestCompression;
     std::int64_t bytes = size;
     for (const std::int64_t n : array.shape) {
-        if (n < 0 || (n > 0 && bytes > most / n)) return false;
+        if (n < 0 || (n > 0 && bytes > max / n)) return false;
         bytes *= n;
     }
     return lies_inside(array.offset, array.chunk == 0 ? bytes : 0, file_size) &&

@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <span>
 
-#include "critical/parted_set.h"
+#include "critical/partitioned_set.h"
 #include "isoatlas/context.h"
 
 namespace isoatlas {
 
 /// ContourTree::other of all elements and the outside, in the order of ranks. part_of: per element in the order of ranks, its part. The set
 /// is consumed. Reports progress of "trees". Memory at random: what reduce_part() needs for a part (as many at once as there are threads),
-/// the names and the runs of survivors (tree/runs.h). Cost: O(n alpha).
+/// the names and the runs of survivors (tree/arcs_by_runs.h). Cost: O(n alpha).
 template <class Id>
-[[nodiscard]] BigVector<Id> contour_arcs(PartedSet<Id> set, std::span<const std::uint16_t> part_of, const Context& context);
+[[nodiscard]] BigVector<Id> contour_arcs(PartitionedSet<Id> set, std::span<const std::uint16_t> part_of, const Context& context);
 
 }  // namespace isoatlas

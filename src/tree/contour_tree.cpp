@@ -30,9 +30,9 @@ struct ShrinkingTree {
     /// Fills in the children. Returns how many each node has.
     [[nodiscard]] BigVector<std::uint8_t> gather_children() {
         BigVector<std::uint8_t> count = filled<std::uint8_t>(node.size(), std::uint8_t{0});
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t x = 0; x < node.size(); ++x) {
-            memory.step(PacedCheck::kTouch);
+            memory.step(BudgetPoll::kTouch);
             if (x + kAhead < node.size()) __builtin_prefetch(&node[parent(x + kAhead)], 1);
             if (is_root(x)) continue;
             node[parent(x)].*Children ^= static_cast<Id>(x);
@@ -96,12 +96,12 @@ ContourTree<Id> contour_tree(std::span<const Id> join_parents, BigVector<Id> spl
     }
 
     std::size_t arcs = 0;
-    PacedCheck memory;
+    BudgetPoll memory;
     const std::size_t outside = nodes - 1;
     for (std::size_t seed = 0; seed < outside; ++seed) {
         // Follow the chain of leaves that this one uncovers; earlier seeds that become leaves are taken by the chain itself.
         for (std::size_t x = seed; x != outside && (count[x] == kUpperLeaf || count[x] == kLowerLeaf);) {
-            memory.step(4 * PacedCheck::kTouch);
+            memory.step(4 * BudgetPoll::kTouch);
             const bool upper = count[x] == kUpperLeaf;
             const Id y = upper ? remove<Id>(x, join, split) : remove<Id>(x, split, join);
             tree.other[x] = y;

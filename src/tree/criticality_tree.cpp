@@ -23,16 +23,16 @@ BigVector<Id> number_events(std::span<const Id> bottom, std::span<const Id> leve
     constexpr Id kKept = kNone<Id> - 1;  // to be numbered
     BigVector<Id> event = filled<Id>(n, kNone<Id>);
     std::size_t events = 0;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = 0; i < n; ++i) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         if (level[i] != static_cast<Id>(i) || kind[i] == LevelKind::trivial) continue;
         events += event[bottom[i]] == kNone<Id>;
         event[bottom[i]] = kKept;
     }
     tree.top.reserve(events);
     for (std::size_t i = 0; i < n; ++i) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         Id& number = event[bottom[i]];
         if (number != kKept) continue;
         number = static_cast<Id>(tree.top.size());
@@ -47,9 +47,9 @@ void gather_kinds(const CriticalityTree<Id>& tree, std::span<const Id> level, st
                   EventMeasures<Id>& measures) {
     std::vector<bool> seen(tree.size(), false);
     measures.kind.resize(tree.size());
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t r = 0; r < level.size(); ++r) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         if (level[r] != static_cast<Id>(r) || kind[r] == LevelKind::trivial) continue;
         const std::size_t e = tree.event_of_element[r];
         const auto own = static_cast<Criticality>(kind[r]);
@@ -67,9 +67,9 @@ void link_events(std::span<const Id> join, std::span<const Id> bottom, BigVector
     for (std::size_t i = 0; i < n; ++i) kept[i] = event[i] != kNone<Id>;
     tree.parent.resize(tree.size());
     for (std::size_t e = 0; e < tree.size(); ++e) tree.parent[e] = static_cast<Id>(e);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = 0; i < n; ++i) {
-        memory.step(3 * PacedCheck::kTouch);
+        memory.step(3 * BudgetPoll::kTouch);
         if (i + kAhead < n && join[i + kAhead] < n) {  // most groups have one element
             __builtin_prefetch(&bottom[join[i + kAhead]]);
             __builtin_prefetch(&event[join[i + kAhead]], 1);
@@ -91,9 +91,9 @@ template <class Id>
 BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> value) {
     const std::size_t n = value.size();
     BigVector<Id> bottom(n);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = n; i-- > 0;) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         const std::size_t next = join[i];
         bottom[i] = next < n && value[next] == value[i] ? bottom[next] : static_cast<Id>(i);
     }
@@ -107,9 +107,9 @@ CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> jo
     BigVector<Id>& bottom = group;
     BigVector<Id> event = number_events<Id>(bottom, level, kind, tree);
     link_events<Id>(join, bottom, event, tree);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (Id& b : bottom) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         b = event[b];
     }
     tree.event_of_element = std::move(bottom);
@@ -123,9 +123,9 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     using Signed = std::make_signed_t<Id>;
     const std::size_t n = level.size(), events = tree.size();
     const auto sum_over_objects = [&](auto& count) {
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t e = 0; e < events; ++e) {
-            memory.step(PacedCheck::kTouch);
+            memory.step(BudgetPoll::kTouch);
             if (!tree.is_root(e)) count[tree.parent[e]] += count[e];
         }
     };
@@ -134,9 +134,9 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     const auto count_contours = [&] {
         fill_fresh(measures.lows_out, events, Id{0});
         fill_fresh(measures.contours, events, Id{0});
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t i = 0; i < n; ++i) {
-            memory.step(3 * PacedCheck::kTouch);
+            memory.step(3 * BudgetPoll::kTouch);
             const Id e = tree.event_of_element[i];
             measures.contours[e] += static_cast<Id>(contours.below(i) - contours.above(i));  // wraps around and back
             const bool joins = level[i] != static_cast<Id>(i);                               // by an arc of no length
@@ -147,9 +147,9 @@ EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourT
     const auto sum_chi = [&] {
         gather_kinds<Id>(tree, level, kind, measures);
         fill_fresh(measures.delta_chi, events, Signed{0});
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t i = 0; i < n; ++i) {
-            memory.step(PacedCheck::kTouch);
+            memory.step(BudgetPoll::kTouch);
             measures.delta_chi[tree.event_of_element[i]] += static_cast<Signed>(delta_chi[i]);
         }
         measures.chi.resize(events);

@@ -13,9 +13,9 @@ template <class Id>
 BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value) {
     const std::size_t n = value.size();
     UnionFind<Id> sets(n);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t x = 0; x <= n; ++x) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         if (tree.has_arc(x) && !has_length(tree, value, x)) sets.join(tree.upper(x), tree.lower(x));
     }
     return std::move(sets).roots();
@@ -63,7 +63,7 @@ BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id
         }
     }
     BigVector<LevelKind> kind(n);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = 0; i < n; ++i) {
         memory.step();
         kind[i] = kinds[8 * tree.degree[i] + 4 + change_of(i)];
@@ -75,7 +75,7 @@ BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id
         if (end == first + 1) continue;
         fill_fresh(balance, end - first, Balance<Id>{0, 0, 0});
         for (std::size_t i = first; i < end; ++i) {
-            memory.step(PacedCheck::kTouch);
+            memory.step(BudgetPoll::kTouch);
             Balance<Id>& of = balance[level[i] - first];
             of += balance_of(i);
             if (level[i] != static_cast<Id>(i)) --of.k, --of.m;

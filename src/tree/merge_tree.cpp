@@ -17,7 +17,7 @@ template <class Id>
 class Sweep {
 public:
     Sweep(std::size_t extrema, BigVector<Id>& parent) : parent_(parent) {
-        const KeepInMemory keep;
+        const PinInMemory keep;
         components_.resize(extrema);
     }
 
@@ -67,7 +67,7 @@ template <class Id, class Count, class Names>
 BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
     BigVector<Id> parent = filled<Id>(n + 1, static_cast<Id>(n));
     Sweep<Id> sweep(extrema, parent);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = 0; i < n; ++i) {
         memory.step();
         sweep.meet(count(i), names(i), static_cast<Id>(i));
@@ -80,7 +80,7 @@ BigVector<Id> sweep_up(std::size_t n, std::size_t extrema, const Count& count, c
     BigVector<Id> parent = filled<Id>(n + 1, Id{0});
     Sweep<Id> sweep(extrema, parent);
     sweep.start(Id{0}, static_cast<Id>(n));  // the outside
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t i = n; i-- > 0;) {
         memory.step();
         sweep.meet(count(i), names(i), static_cast<Id>(i));
@@ -105,24 +105,24 @@ BigVector<Id> split_tree(const CriticalSet<Id>& set) {
 }
 
 template <class Id>
-BigVector<Id> join_tree(const NamedSet<Id>& set) {
+BigVector<Id> join_tree(const RepresentedSet<Id>& set) {
     return sweep_down<Id>(
         set.size(), set.maxima, [&](std::size_t i) { return branches_above(set.branches[i]); },
-        [&](std::size_t i) { return set.ends[i].above; });
+        [&](std::size_t i) { return set.representatives[i].above; });
 }
 
 template <class Id>
-BigVector<Id> split_tree(const NamedSet<Id>& set) {
+BigVector<Id> split_tree(const RepresentedSet<Id>& set) {
     return sweep_up<Id>(
         set.size(), set.minima + 1, [&](std::size_t i) { return branches_below(set.branches[i]); },
-        [&](std::size_t i) { return set.ends[i].below; });
+        [&](std::size_t i) { return set.representatives[i].below; });
 }
 
-#define ISOATLAS_MERGE_TREE(Id)                                \
-    template BigVector<Id> join_tree(const CriticalSet<Id>&);  \
-    template BigVector<Id> split_tree(const CriticalSet<Id>&); \
-    template BigVector<Id> join_tree(const NamedSet<Id>&);     \
-    template BigVector<Id> split_tree(const NamedSet<Id>&);
+#define ISOATLAS_MERGE_TREE(Id)                                  \
+    template BigVector<Id> join_tree(const CriticalSet<Id>&);    \
+    template BigVector<Id> split_tree(const CriticalSet<Id>&);   \
+    template BigVector<Id> join_tree(const RepresentedSet<Id>&); \
+    template BigVector<Id> split_tree(const RepresentedSet<Id>&);
 ISOATLAS_MERGE_TREE(std::uint32_t)
 ISOATLAS_MERGE_TREE(std::uint64_t)
 #undef ISOATLAS_MERGE_TREE

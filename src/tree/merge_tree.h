@@ -8,7 +8,7 @@
 #pragma once
 
 #include "critical/critical_set.h"
-#include "critical/parted_set.h"
+#include "critical/partitioned_set.h"
 
 namespace isoatlas {
 
@@ -22,8 +22,8 @@ BigVector<Id> split_tree(const CriticalSet<Id>& critical);
 
 /// The same of elements that are not extrema of a field, but have names for what meets at them.
 template <class Id>
-BigVector<Id> join_tree(const NamedSet<Id>& set);
+BigVector<Id> join_tree(const RepresentedSet<Id>& set);
 template <class Id>
-BigVector<Id> split_tree(const NamedSet<Id>& set);
+BigVector<Id> split_tree(const RepresentedSet<Id>& set);
 
 }  // namespace isoatlas

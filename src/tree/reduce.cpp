@@ -6,8 +6,8 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
-#include "tree/components.h"
 #include "tree/local_numbers.h"
+#include "tree/marked_sets.h"
 
 namespace isoatlas {
 namespace {
@@ -21,11 +21,14 @@ constexpr int kOpen = 3;  // stands for the branches of an open extremum: it is 
 template <class Id>
 class Side {
 public:
-    using Names = std::array<Id, 2> Ends<Id>::*;
+    using Names = std::array<Id, 2> Representatives<Id>::*;
 
     /// The names in ends become numbers within the part, until rename(). first, end: of its own extrema.
-    Side(std::span<PartedElement<Id>> elements, bool down, Id first, Id end)
-        : elements_(elements), down_(down), names_(down ? &Ends<Id>::above : &Ends<Id>::below), numbers_(number(first, end)) {}
+    Side(std::span<PartitionedElement<Id>> elements, bool down, Id first, Id end)
+        : elements_(elements),
+          down_(down),
+          names_(down ? &Representatives<Id>::above : &Representatives<Id>::below),
+          numbers_(number(first, end)) {}
 
     /// The next element of the part that the component just behind an element meets: right where the component is closed. In left, two
     /// branches of one component become one. Two open components may be one elsewhere, but nothing is removed from these.
@@ -80,7 +83,7 @@ public:
 
 private:
     [[nodiscard]] std::size_t at(std::size_t step) const { return down_ ? step : elements_.size() - 1 - step; }
-    [[nodiscard]] std::array<Id, 2>& names(std::size_t x) { return elements_[x].ends.*names_; }
+    [[nodiscard]] std::array<Id, 2>& names(std::size_t x) { return elements_[x].representatives.*names_; }
     [[nodiscard]] int side_of(std::uint8_t left) const { return down_ ? branches_above(left) : branches_below(left); }
     [[nodiscard]] int branches(std::size_t x) const { return side_of(elements_[x].branches); }
     void set_branches(std::uint8_t& of, int count) const {
@@ -89,23 +92,23 @@ private:
 
     [[nodiscard]] LocalNumbers<Id> number(Id first, Id end) {
         std::vector<Id> foreign;
-        for (const PartedElement<Id>& element : elements_) {
-            for (const Id name : element.ends.*names_) {
+        for (const PartitionedElement<Id>& element : elements_) {
+            for (const Id name : element.representatives.*names_) {
                 if (name < first || name >= end) foreign.push_back(name);
             }
         }
         LocalNumbers<Id> numbers(first, end, std::move(foreign));
-        for (PartedElement<Id>& element : elements_) {
-            for (Id& name : element.ends.*names_) name = numbers.local(name);
+        for (PartitionedElement<Id>& element : elements_) {
+            for (Id& name : element.representatives.*names_) name = numbers.local(name);
         }
         return numbers;
     }
 
-    std::span<PartedElement<Id>> elements_;
+    std::span<PartitionedElement<Id>> elements_;
     bool down_;
     Names names_;
     LocalNumbers<Id> numbers_;
-    Components<Id> components_;  // marks: first the last element, then the name
+    MarkedSets<Id> components_;  // marks: first the last element, then the name
 };
 
 constexpr std::uint8_t kOneAbove = branches_of(1, 0), kOneBelow = branches_of(0, 1);
@@ -135,7 +138,7 @@ void peel(std::span<Id> join, std::span<Id> split, std::span<std::uint8_t> left,
 }  // namespace
 
 template <class Id>
-OpenExtrema open_extrema(const PartedSet<Id>& set, int threads) {
+OpenExtrema open_extrema(const PartitionedSet<Id>& set, int threads) {
     OpenExtrema open{BitRanks(set.first_maximum.back()), BitRanks(set.first_minimum.back())};
     for_each_block(threads, static_cast<std::int64_t>(set.parts()), [&](std::int64_t part) {
         const auto mark = [part](BitRanks& bits, const std::vector<Id>& first, const std::array<Id, 2>& names) {
@@ -143,22 +146,22 @@ OpenExtrema open_extrema(const PartedSet<Id>& set, int threads) {
                 if (name < first[part] || name >= first[part + 1]) bits.add(name);
             }
         };
-        for (const PartedElement<Id>& element : set.of(part, set.elements)) {
-            mark(open.maxima, set.first_maximum, element.ends.above);
-            mark(open.minima, set.first_minimum, element.ends.below);
+        for (const PartitionedElement<Id>& element : set.of(part, set.elements)) {
+            mark(open.maxima, set.first_maximum, element.representatives.above);
+            mark(open.minima, set.first_minimum, element.representatives.below);
         }
     });
     return open;
 }
 
 template <class Id>
-void reduce_part(const PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<PartedElement<Id>> elements,
+void reduce_part(const PartitionedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<PartitionedElement<Id>> elements,
                  std::span<Id> arc) {
     Side<Id> above(elements, true, set.first_maximum[part], set.first_maximum[part + 1]);
     Side<Id> below(elements, false, set.first_minimum[part], set.first_minimum[part + 1]);
     std::vector<std::uint8_t> left;
     left.reserve(elements.size());
-    for (const PartedElement<Id>& element : elements) left.push_back(element.branches);
+    for (const PartitionedElement<Id>& element : elements) left.push_back(element.branches);
     {
         std::vector<Id> join = above.parents(open.maxima, left), split = below.parents(open.minima, left);
         peel<Id>(join, split, left, arc);
@@ -170,11 +173,11 @@ void reduce_part(const PartedSet<Id>& set, std::size_t part, const OpenExtrema& 
     }
 }
 
-template OpenExtrema open_extrema(const PartedSet<std::uint32_t>&, int);
-template OpenExtrema open_extrema(const PartedSet<std::uint64_t>&, int);
-template void reduce_part(const PartedSet<std::uint32_t>&, std::size_t, const OpenExtrema&, std::span<PartedElement<std::uint32_t>>,
-                          std::span<std::uint32_t>);
-template void reduce_part(const PartedSet<std::uint64_t>&, std::size_t, const OpenExtrema&, std::span<PartedElement<std::uint64_t>>,
-                          std::span<std::uint64_t>);
+template OpenExtrema open_extrema(const PartitionedSet<std::uint32_t>&, int);
+template OpenExtrema open_extrema(const PartitionedSet<std::uint64_t>&, int);
+template void reduce_part(const PartitionedSet<std::uint32_t>&, std::size_t, const OpenExtrema&,
+                          std::span<PartitionedElement<std::uint32_t>>, std::span<std::uint32_t>);
+template void reduce_part(const PartitionedSet<std::uint64_t>&, std::size_t, const OpenExtrema&,
+                          std::span<PartitionedElement<std::uint64_t>>, std::span<std::uint64_t>);
 
 }  // namespace isoatlas

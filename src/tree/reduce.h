@@ -15,7 +15,7 @@
 #include <span>
 
 #include "base/bit_ranks.h"
-#include "critical/parted_set.h"
+#include "critical/partitioned_set.h"
 
 namespace isoatlas {
 
@@ -24,14 +24,14 @@ struct OpenExtrema {
     BitRanks maxima, minima;
 };
 template <class Id>
-[[nodiscard]] OpenExtrema open_extrema(const PartedSet<Id>& set, int threads);
+[[nodiscard]] OpenExtrema open_extrema(const PartitionedSet<Id>& set, int threads);
 
-/// Reduces one part: elements, which belong to the set or are a copy of what does. Branches of what is removed become kRemoved; arc, per
-/// element of the part: the element (by its place in the part) at the other end of its arc towards the outside; arcs of survivors are left
-/// alone. Branches and ends of survivors become those that are left, each with the name of a survivor that is a leaf; a leaf names itself.
-/// Cost: O(n alpha) time; 25 bytes an element and 24 an extremum while it runs, for 32-bit ids.
+/// Reduces one part: elements, which belong to the set or are a copy of what does. Branches of what is removed become kRemoved;
+/// arc, per element of the part: the element (by its place in the part) at the other end of its arc towards the outside; arcs of survivors
+/// are left alone. Branches and ends of survivors become those that are left, each with the name of a survivor that is a leaf; a
+/// leaf names itself. Cost: O(n alpha) time; 25 bytes an element and 24 an extremum while it runs, for 32-bit ids.
 template <class Id>
-void reduce_part(const PartedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<PartedElement<Id>> elements,
+void reduce_part(const PartitionedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<PartitionedElement<Id>> elements,
                  std::span<Id> arc);
 
 }  // namespace isoatlas

@@ -7,21 +7,21 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::uint8_t kMostArcs = 2;  // above, and below
+constexpr std::uint8_t kMaxArcs = 2;  // above, and below
 
 /// Counts arcs above and below. Returns false when an id is out of range or an element has too many arcs.
 template <class Id>
 bool count_arcs(ContourTree<Id>& tree) {
     const std::size_t nodes = tree.nodes();
     fill_fresh(tree.degree, nodes, std::uint8_t{0});
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t x = 0; x < nodes; ++x) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         if (tree.other[x] >= nodes) return false;
         if (!tree.has_arc(x)) continue;
         std::uint8_t& below_upper = tree.degree[tree.upper(x)];
         std::uint8_t& above_lower = tree.degree[tree.lower(x)];
-        if (below_upper >> 2 == kMostArcs || (above_lower & 3) == kMostArcs) return false;
+        if (below_upper >> 2 == kMaxArcs || (above_lower & 3) == kMaxArcs) return false;
         below_upper = static_cast<std::uint8_t>(below_upper + 4);
         above_lower = static_cast<std::uint8_t>(above_lower + 1);
     }
@@ -44,11 +44,11 @@ bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> d
     BigVector<std::uint8_t> waits_for(nodes);  // arcs that are not finished, its own included
     for (std::size_t x = 0; x < nodes; ++x) waits_for[x] = static_cast<std::uint8_t>(tree.above(x) + tree.below(x));
     std::size_t finished = 0;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t seed = 0; seed + 1 < nodes; ++seed) {
         memory.step();
         for (std::size_t x = seed; x + 1 < nodes && waits_for[x] == 1;) {
-            memory.step(3 * PacedCheck::kTouch);
+            memory.step(3 * BudgetPoll::kTouch);
             const std::size_t y = tree.other[x];
             if (y == x) return false;
             if (y < x) tree.half_chi[x] = static_cast<Signed>(-tree.half_chi[x]);
@@ -66,18 +66,18 @@ bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> d
 template <class Id>
 BigVector<Id> join_tree_of(const ContourTree<Id>& tree) {
     const std::size_t nodes = tree.nodes();
-    BigVector<std::array<Id, kMostArcs>> above(nodes);
+    BigVector<std::array<Id, kMaxArcs>> above(nodes);
     for (std::size_t x = 0; x < nodes; ++x) above[x] = {static_cast<Id>(x), static_cast<Id>(x)};
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t x = 0; x < nodes; ++x) {
         if (!tree.has_arc(x)) continue;
-        memory.step(PacedCheck::kTouch);
-        std::array<Id, kMostArcs>& neighbours = above[tree.lower(x)];
+        memory.step(BudgetPoll::kTouch);
+        std::array<Id, kMaxArcs>& neighbours = above[tree.lower(x)];
         neighbours[neighbours[0] == tree.lower(x) ? 0 : 1] = tree.upper(x);
     }
     BigVector<Id> parent(nodes), root(nodes);
     for (std::size_t x = 0; x < nodes; ++x) {
-        memory.step(4 * PacedCheck::kTouch);
+        memory.step(4 * BudgetPoll::kTouch);
         parent[x] = root[x] = static_cast<Id>(x);
         for (Id r : above[x]) {
             while (root[r] != r) {

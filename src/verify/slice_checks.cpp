@@ -82,8 +82,8 @@ TreeAtLevels::TreeAtLevels(const Analysis& analysis, const std::vector<double>& 
         const auto begin = std::upper_bound(isovalues.begin(), isovalues.end(), event.zone.tau_low);
         const auto end = std::upper_bound(begin, isovalues.end(), event.zone.tau_high);
         if (begin == end) return;
-        const std::int64_t most = event.object_voxels, least = most - event.zone.voxels;
-        Object object{id, event.chi, event.b1, event.b2, least, most, {}};
+        const std::int64_t max = event.object_voxels, min = max - event.zone.voxels;
+        Object object{id, event.chi, event.b1, event.b2, min, max, {}};
         for (const GenusCount& entry : histogram)
             object.genera.insert(object.genera.end(), static_cast<std::size_t>(entry.count), entry.genus);
         for (auto tau = begin; tau != end; ++tau) objects_[static_cast<std::size_t>(tau - isovalues.begin())].push_back(object);
@@ -123,7 +123,7 @@ void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, st
         taken[static_cast<std::size_t>(found - objects.begin())] = true;
         if (found->chi != object.chi || found->b1 != object.b1 || found->b2 != object.b2)
             check.fail(name + " has other Betti numbers in the tree");
-        if (found->most_voxels > 0 && (object.voxels < found->least_voxels || object.voxels > found->most_voxels))
+        if (found->max_voxels > 0 && (object.voxels < found->min_voxels || object.voxels > found->max_voxels))
             check.fail(name + " has more or fewer voxels than in the tree");
         if (found->genera != genera_of(cut, object)) check.fail(name + " has contours of other genera in the tree");
     }

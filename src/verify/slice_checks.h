@@ -25,8 +25,8 @@ class TreeAtLevels {
 public:
     struct Object {
         std::int64_t event, chi, b1, b2;
-        std::int64_t least_voxels, most_voxels;  ///< at the ends of its zone; 0, 0: not counted
-        std::vector<std::int64_t> genera;        ///< sorted
+        std::int64_t min_voxels, max_voxels;  ///< at the ends of its zone; 0, 0: not counted
+        std::vector<std::int64_t> genera;     ///< sorted
     };
     TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues);
 

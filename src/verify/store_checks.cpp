@@ -26,8 +26,8 @@ std::array<double, 2> range_of(const Volume& volume, const Box& box) {
             for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
                 const auto row =
                     samples.subspan(static_cast<std::size_t>(extent.index(box.begin[0], y, z)), static_cast<std::size_t>(box.size(0)));
-                const auto [least, most] = std::ranges::minmax(row);
-                low = std::min(low, least), high = std::max(high, most);
+                const auto [min, max] = std::ranges::minmax(row);
+                low = std::min(low, min), high = std::max(high, max);
             }
         }
         return std::array<double, 2>{static_cast<double>(low), static_cast<double>(high)};

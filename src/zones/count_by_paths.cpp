@@ -19,14 +19,14 @@ template <class Id>
 BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Extent& extent) {
     const auto is_maximum = [](ElementCode element) { return element.h0() == 0; };
     BitRanks maxima(static_cast<std::size_t>(extent.voxels()));
-    PacedCheck memory;
+    BudgetPoll memory;
     for (const std::uint64_t bits : code) {
-        memory.step(PacedCheck::kTouch / 4);
+        memory.step(BudgetPoll::kTouch / 4);
         if (const ElementCode element{bits}; is_maximum(element)) maxima.add(static_cast<std::size_t>(element.index()));
     }
     BigVector<Id> elements(maxima.count());
     for (std::size_t i = 0; i < code.size(); ++i) {
-        memory.step(PacedCheck::kTouch / 2);
+        memory.step(BudgetPoll::kTouch / 2);
         if (const ElementCode element{code[i]}; is_maximum(element)) elements[maxima.rank(element.index())] = static_cast<Id>(i);
     }
     return elements;
@@ -35,9 +35,9 @@ BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Exte
 template <class T, class Id>
 BigVector<Id> voxels_by_paths(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
                               const ContourTree<Id>& contours, std::span<const Id> basin, const Context& context) {
-    using Paths = HeavyPaths<Id, ComparisonValue<T>>;
+    using Paths = HeavyPathDecomposition<Id, ComparisonValue<T>>;
     const std::size_t n = value.size();
-    const KeepInMemory keep;
+    const PinInMemory keep;
     BigVector<Id> join = join_tree_of(contours), maxima = elements_of_maxima<Id>(code, grid.extent);
     const Paths paths({std::span<const Id>(join).first(n), value, {}, {}}, maxima, context.threads);
     release(join);

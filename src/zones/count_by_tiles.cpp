@@ -7,9 +7,9 @@
 #include "base/memory_limit.h"
 #include "base/part_streams.h"
 #include "base/sample_types.h"
-#include "critical/parted_domain.h"
+#include "critical/partitioned_domain.h"
 #include "field/slab_work.h"
-#include "tree/components.h"
+#include "tree/marked_sets.h"
 #include "zones/count_tile.h"
 
 namespace isoatlas {
@@ -25,7 +25,7 @@ struct TiledElements {
 
     TiledElements(std::span<const double> value, std::span<const std::uint64_t> code, const Tiling& tiling)
         : tile(code.size()), first(static_cast<std::size_t>(tiling.count()) + 1, 0), key(code.size()), counted(code.size()) {
-        PacedCheck memory;
+        BudgetPoll memory;
         for (std::size_t r = 0; r < code.size(); ++r) {
             memory.step();
             tile[r] = static_cast<std::uint16_t>(tiling.tile_of(ElementCode{code[r]}));
@@ -49,9 +49,9 @@ struct TiledElements {
 /// Values that cut the elements into so many runs, about equal.
 std::vector<double> bounds_of_buckets(std::span<const double> value, std::size_t buckets) {
     std::vector<double> bounds;
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t b = 1; b < buckets; ++b) {
-        memory.step(PacedCheck::kTouch);
+        memory.step(BudgetPoll::kTouch);
         const double bound = value[b * value.size() / buckets];
         if (bounds.empty() || bound < bounds.back()) bounds.push_back(bound);
     }
@@ -59,9 +59,9 @@ std::vector<double> bounds_of_buckets(std::span<const double> value, std::size_t
 }
 
 std::size_t bucket_count(std::int64_t voxels, std::size_t bytes) {
-    constexpr std::int64_t kMost = 1024, kUnlimited = std::int64_t{1} << 28;
+    constexpr std::int64_t kMax = 1024, kUnlimited = std::int64_t{1} << 28;
     const std::int64_t limit = memory_limit() > 0 ? memory_limit() : kUnlimited;
-    return static_cast<std::size_t>(std::clamp<std::int64_t>(voxels * static_cast<std::int64_t>(bytes) / (limit / 32), 1, kMost));
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(voxels * static_cast<std::int64_t>(bytes) / (limit / 32), 1, kMax));
 }
 
 /// All elements in the order of ranks: counts within tiles are taken over, voxels of open components go to the last element of theirs.
@@ -73,7 +73,7 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
     Components<Id, ArrayAllocator<Id>> components;  // marks: the last element
     components.start(names, [](Id) { return Id{0}; });
     PartReaders<CountedElement<Id>> counted(elements.counted, elements.first);
-    PacedCheck memory;
+    BudgetPoll memory;
     const auto pass = [&](std::size_t r) {
         memory.step();
         const CountedElement<Id>& element = counted.next(elements.tile[r]);
@@ -112,7 +112,7 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
     });
     release(basins.maximum);
     release(elements.key);
-    const KeepInMemory keep;
+    const PinInMemory keep;
     return merge(value, elements, names, open, context.threads);
 }
 

@@ -7,9 +7,9 @@
 
 #include "base/part_streams.h"
 #include "base/sample_types.h"
-#include "critical/representatives.h"
-#include "tree/components.h"
+#include "critical/representative_lookup.h"
 #include "tree/local_numbers.h"
+#include "tree/marked_sets.h"
 
 namespace isoatlas {
 namespace {
@@ -27,14 +27,14 @@ void sort_descending(std::vector<TileVoxel<T, Id>>& voxels) {
     if constexpr (std::is_integral_v<T> && sizeof(T) <= 2) {
         constexpr int kHighest = std::numeric_limits<T>::max();
         const auto [low, high] = std::minmax_element(voxels.begin(), voxels.end(), [](auto p, auto q) { return p.value < q.value; });
-        const int most = high->value, range = most - low->value + 1;
+        const int max = high->value, range = max - low->value + 1;
         static_assert(kHighest <= 65535);
         std::vector<std::size_t> place(static_cast<std::size_t>(range), 0);
-        for (const Voxel& voxel : voxels) ++place[most - voxel.value];
+        for (const Voxel& voxel : voxels) ++place[max - voxel.value];
         std::size_t next = 0;
         for (std::size_t& of_value : place) next += std::exchange(of_value, next);
         std::vector<Voxel> sorted(voxels.size());
-        for (const Voxel& voxel : voxels) sorted[place[most - voxel.value]++] = voxel;
+        for (const Voxel& voxel : voxels) sorted[place[max - voxel.value]++] = voxel;
         voxels.swap(sorted);
     } else {
         sort_by_steps(
@@ -101,7 +101,7 @@ void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile
     using Record = OpenVoxels<T, Id>;
     std::vector<TileVoxel<T, Id>> voxels = voxels_of_tile<T, Id>(grid, tiling, tile, basins.maximum);
     sort_descending(voxels);
-    const Representatives<Id> leads(grid.extent, basins.maximum);
+    const RepresentativeLookup<Id> leads(grid.extent, basins.maximum);
     const Id begin = basins.first[tile], end = basins.first[tile + 1];
     std::vector<std::array<Id, 2>> above(elements.size());
     std::vector<Id> foreign;

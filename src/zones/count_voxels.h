@@ -17,7 +17,7 @@ namespace isoatlas {
 /// Does the memory limit leave room for the paths of so many elements, which are accessed at random?
 [[nodiscard]] bool paths_fit(std::size_t elements);
 
-/// With the tree. value, code: of all elements, by rank; contours: their arcs; basin: of critical/leading_elements.h.
+/// With the tree. value, code: of all elements, by rank; contours: their arcs; basin: of critical/elements_with_extrema.h.
 /// Cost: O(n alpha + voxels), about 30 bytes an element.
 template <class T, class Id>
 [[nodiscard]] BigVector<Id> voxels_by_paths(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,

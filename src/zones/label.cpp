@@ -33,7 +33,7 @@ public:
             zones = sorted_;
         }
         for (std::size_t first = 0, i = 1; first < zones.size(); first = i++) {  // runs of one zone
-            memory_.step(PacedCheck::kTouch);
+            memory_.step(BudgetPoll::kTouch);
             while (i < zones.size() && zones[i] == zones[first]) ++i;
             if (i + kAhead < zones.size()) __builtin_prefetch(shared_.data() + zones[i + kAhead], 1);
             add(zones[first], static_cast<Id>(i - first));
@@ -52,19 +52,19 @@ private:
 
     std::span<Id> shared_;
     std::vector<Id> own_, sorted_;
-    PacedCheck memory_;
+    BudgetPoll memory_;
 };
 
 /// Calls visit(first, zones) for block after block. room(first, count): where the zones of a block go.
 template <class T, class Id, class Room, class Visit>
-void for_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin, const Room& room,
-               const Visit& visit) {
+void for_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
+               const Room& room, const Visit& visit) {
     using Value = ComparisonValue<T>;
     const std::size_t together = block_size();
     std::vector<Value> value(together);
     std::vector<Id> maximum(together);
     std::vector<std::uint32_t> scratch(together);
-    PacedCheck memory;
+    BudgetPoll memory;
     for (std::size_t first = 0; first < samples.size(); first += together) {
         const std::size_t count = std::min(together, samples.size() - first);
         memory.step(count * (sizeof(T) + 2 * sizeof(Id)));
@@ -81,7 +81,7 @@ void for_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<
 }  // namespace
 
 template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
+void label_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
                  std::span<Id> counts) {
     Tally<Id> tally(counts);
     for_zones<T, Id>(
@@ -91,7 +91,7 @@ void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
 }
 
 template <class T, class Id>
-void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
+void count_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
                  std::span<Id> counts) {
     Tally<Id> tally(counts);
     std::vector<Id> block(block_size());
@@ -102,14 +102,14 @@ void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValu
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
-#define ISOATLAS_LABEL(T)                                                                                                 \
-    template void count_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&, \
-                                                std::span<const std::uint32_t>, std::span<std::uint32_t>);                \
-    template void count_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&, \
-                                                std::span<const std::uint64_t>, std::span<std::uint64_t>);                \
-    template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPaths<std::uint32_t, ComparisonValue<T>>&, \
-                                                std::span<std::uint32_t>, std::span<std::uint32_t>);                      \
-    template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPaths<std::uint64_t, ComparisonValue<T>>&, \
+#define ISOATLAS_LABEL(T)                                                                                                             \
+    template void count_zones<T, std::uint32_t>(std::span<const T>, const HeavyPathDecomposition<std::uint32_t, ComparisonValue<T>>&, \
+                                                std::span<const std::uint32_t>, std::span<std::uint32_t>);                            \
+    template void count_zones<T, std::uint64_t>(std::span<const T>, const HeavyPathDecomposition<std::uint64_t, ComparisonValue<T>>&, \
+                                                std::span<const std::uint64_t>, std::span<std::uint64_t>);                            \
+    template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPathDecomposition<std::uint32_t, ComparisonValue<T>>&, \
+                                                std::span<std::uint32_t>, std::span<std::uint32_t>);                                  \
+    template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPathDecomposition<std::uint64_t, ComparisonValue<T>>&, \
                                                 std::span<std::uint64_t>, std::span<std::uint64_t>);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_LABEL)
 #undef ISOATLAS_LABEL

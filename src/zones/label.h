@@ -5,19 +5,19 @@
 #include <cstdint>
 #include <span>
 
-#include "tree/paths.h"
+#include "tree/heavy_paths.h"
 
 namespace isoatlas {
 
 /// Replaces the basin entries of `samples.size()` consecutive voxels by their zones and counts them.
 /// counts (per event, shared by all slabs) is added to atomically. Cost: O(1) expected a voxel.
 template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
+void label_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
                  std::span<Id> counts);
 
 /// Counts only: basin stays. Adds to counts atomically.
 template <class T, class Id>
-void count_zones(std::span<const T> samples, const HeavyPaths<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
+void count_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
                  std::span<Id> counts);
 
 }  // namespace isoatlas

@@ -45,7 +45,7 @@ TEST(Data, NumberOfMaximaIsThatOfStatsJson) {
     if (!fs::exists(shared_data() / "stats.json")) GTEST_SKIP() << "no shared data beside the checkout";
     // ISOATLAS_MAX_VOXELS=100000000 takes the two large benchmarks along.
     const char* limit = std::getenv("ISOATLAS_MAX_VOXELS");
-    const std::int64_t most = limit ? std::atoll(limit) : 10'000'000;
+    const std::int64_t max = limit ? std::atoll(limit) : 10'000'000;
     const nlohmann::json stats = nlohmann::json::parse(std::ifstream(shared_data() / "stats.json"));
     int checked = 0;
     for (const auto& [name, entry] : stats.items()) {
@@ -53,7 +53,7 @@ TEST(Data, NumberOfMaximaIsThatOfStatsJson) {
         std::int64_t voxels = 1;
         for (const auto& n : entry["dims"]) voxels *= n.get<std::int64_t>();
         const fs::path path = shared_data() / name;
-        if (voxels > most || !fs::exists(path)) continue;
+        if (voxels > max || !fs::exists(path)) continue;
         AnalysisOptions options;
         options.zones = false;
         const Maxima maxima = count_maxima(analyse(load(path, entry["max"].get<double>()), options));

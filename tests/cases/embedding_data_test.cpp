@@ -59,7 +59,7 @@ std::vector<double> distinct_values(const Volume& volume) {
 /// The box with the most distinct values among a few places.
 Volume rich_crop(const Volume& volume, std::int64_t side, std::mt19937_64& random) {
     Volume best;
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (int i = 0; i < 12; ++i) {
         Start start{};
         for (int axis = 0; axis < 3; ++axis) {
@@ -68,8 +68,8 @@ Volume rich_crop(const Volume& volume, std::int64_t side, std::mt19937_64& rando
         }
         Volume box = crop(volume, start, side);
         const std::size_t distinct = distinct_values(box).size();
-        if (distinct <= most) continue;
-        most = distinct;
+        if (distinct <= max) continue;
+        max = distinct;
         best = std::move(box);
     }
     return best;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
@@ -20,15 +20,15 @@ struct Range {
 
 struct Known {
     const char* file;
-    std::vector<Range> trunk;  ///< lines of the largest object, in their order
-    std::vector<Range> dark;   ///< lines of dark objects, the first of them by rank
+    std::vector<Range> main_branch;  ///< lines of the largest object, in their order
+    std::vector<Range> dark;         ///< lines of dark objects, the first of them by rank
 };
 
 /// The first line of the largest object from `from` on whose isovalue lies in the range; lines.size(): none.
 std::size_t find_line(const std::vector<ObjectEntry>& lines, std::size_t from, const Range& range, const Calibration& scale) {
     const auto is_there = [&](const ObjectEntry& line) {
         const double tau = scale.reported(line.best_tau);
-        return line.trunk && range.low <= tau && tau <= range.high;
+        return line.main_branch && range.low <= tau && tau <= range.high;
     };
     return static_cast<std::size_t>(std::find_if(lines.begin() + static_cast<std::ptrdiff_t>(from), lines.end(), is_there) - lines.begin());
 }
@@ -49,11 +49,11 @@ TEST(KnownObjects, HaveLines) {
         const Analysis analysis = analyse(volume);
         const ObjectTable table = rank_objects(volume, analysis);
         std::size_t line = 0;
-        for (const Range& range : known.trunk) {
+        for (const Range& range : known.main_branch) {
             line = find_line(table.entries, line, range, volume.info.calibration);
             EXPECT_LT(line, table.entries.size()) << range.name;
         }
-        const DarkTable dark = known.dark.empty() ? DarkTable{} : rank_dark_objects(volume, analysis);
+        const CavityTable dark = known.dark.empty() ? CavityTable{} : rank_cavities(volume, analysis);
         for (std::size_t i = 0; i < known.dark.size(); ++i) {
             ASSERT_LT(i, dark.entries.size()) << known.dark[i].name;
             EXPECT_GE(dark.entries[i].best_tau, known.dark[i].low) << known.dark[i].name;

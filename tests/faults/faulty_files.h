@@ -19,7 +19,7 @@ struct Fault {
     std::int64_t at = -1;  ///< number of the operation that fails; -1: none
     int error = EIO;
     bool for_ever = false;  ///< so do all later ones
-    std::size_t most = 0;   ///< bytes of a read or write, and every third one is interrupted; 0: all
+    std::size_t max = 0;    ///< bytes of a read or write, and every third one is interrupted; 0: all
     std::int64_t full_at = std::numeric_limits<std::int64_t>::max();  ///< nothing can be written at this byte of a file and beyond
 };
 
@@ -73,7 +73,7 @@ public:
     int remove_folder(const std::string& path) override {
         return done("remove_folder", [&] { return below_.remove_folder(path); });
     }
-    std::vector<std::string> entries(const std::string& path, std::size_t most) override { return below_.entries(path, most); }
+    std::vector<std::string> entries(const std::string& path, std::size_t max) override { return below_.entries(path, max); }
     int sync_folder(const std::string& path) override {
         return done("sync_folder", [&] { return below_.sync_folder(path); });
     }
@@ -85,14 +85,14 @@ private:
         std::int64_t size() const override { return file_->size(); }
         std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
             if (const int error = files_.count_transfer("read"); error < 0) return error;
-            return file_->read_at(offset, out.first(files_.most_of(out.size())));
+            return file_->read_at(offset, out.first(files_.max_of(out.size())));
         }
         std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes) override {
             if (const int error = files_.count_transfer("write"); error < 0) return error;
             const std::int64_t room = std::max<std::int64_t>(files_.fault_.full_at - offset, 0);
             if (room == 0 && !bytes.empty()) return -files_.fault_.error;
-            const std::size_t most = files_.most_of(bytes.size());
-            return file_->write_at(offset, bytes.first(std::min<std::size_t>(most, static_cast<std::size_t>(room))));
+            const std::size_t max = files_.max_of(bytes.size());
+            return file_->write_at(offset, bytes.first(std::min<std::size_t>(max, static_cast<std::size_t>(room))));
         }
         int resize(std::int64_t size) override {
             return files_.done("resize", [&] { return file_->resize(size); });
@@ -126,9 +126,9 @@ private:
     }
     int count_transfer(const char* name) {
         const int error = count(name);
-        return error == 0 && fault_.most > 0 && operations_ % 3 == 0 ? -EINTR : error;
+        return error == 0 && fault_.max > 0 && operations_ % 3 == 0 ? -EINTR : error;
     }
-    [[nodiscard]] std::size_t most_of(std::size_t size) const { return fault_.most > 0 ? std::min(size, fault_.most) : size; }
+    [[nodiscard]] std::size_t max_of(std::size_t size) const { return fault_.max > 0 ? std::min(size, fault_.max) : size; }
 
     template <class Call>
     int done(const char* name, const Call& call) {

@@ -23,7 +23,7 @@ public:
     int remove(const std::string& path) override { return below_.remove(path); }
     int make_folder(const std::string& path) override { return below_.make_folder(path); }
     int remove_folder(const std::string& path) override { return below_.remove_folder(path); }
-    std::vector<std::string> entries(const std::string& path, std::size_t most) override { return below_.entries(path, most); }
+    std::vector<std::string> entries(const std::string& path, std::size_t max) override { return below_.entries(path, max); }
     int sync_folder(const std::string& path) override { return below_.sync_folder(path); }
 
 protected:

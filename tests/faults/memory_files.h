@@ -90,10 +90,10 @@ public:
         if (!entries(path, 1).empty()) return -ENOTEMPTY;
         return folders_.erase(path) == 1 ? 0 : -ENOENT;
     }
-    std::vector<std::string> entries(const std::string& path, std::size_t most) override {
+    std::vector<std::string> entries(const std::string& path, std::size_t max) override {
         std::vector<std::string> found;
         for (const auto& [name, node] : names_) {
-            if (folder_of(name) == path && found.size() < most) found.push_back(name.substr(name.rfind('/') + 1));
+            if (folder_of(name) == path && found.size() < max) found.push_back(name.substr(name.rfind('/') + 1));
         }
         return found;
     }

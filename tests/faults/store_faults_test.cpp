@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-using test::Question;
+using test::Request;
 
 constexpr const char* kPath = "noise.atlas";
 constexpr double kTau = 24.5;
@@ -25,11 +25,11 @@ protected:
         build_atlas(kPath, make_phantom("noise", {.size = 34, .quantise = 32}));
         const Atlas atlas(kPath);
         questions_ = test::questions(kTau, atlas.cut(kTau).objects.at(3).id);
-        for (const Question& question : questions_) right_.push_back(question.ask(atlas));
+        for (const Request& question : questions_) right_.push_back(question.ask(atlas));
     }
 
     test::MemoryFiles memory_;
-    std::vector<Question> questions_;
+    std::vector<Request> questions_;
     std::vector<std::string> right_;
 };
 
@@ -41,8 +41,8 @@ void expect_says_where(const Error& error, std::int64_t at) {
 }
 
 TEST_F(StoreFaults, ShortAndInterruptedReadsDoNotMatter) {
-    for (const std::size_t most : {std::size_t{7}, std::size_t{97}, std::size_t{4096}}) {
-        test::FaultyFiles disk({.most = most}, memory_);
+    for (const std::size_t max : {std::size_t{7}, std::size_t{97}, std::size_t{4096}}) {
+        test::FaultyFiles disk({.max = max}, memory_);
         const ReplacedFileSystem in_use(disk);
         const Atlas atlas(kPath);
         for (std::size_t q = 0; q < questions_.size(); ++q) EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;

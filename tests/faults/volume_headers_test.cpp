@@ -26,7 +26,7 @@ std::atomic<std::size_t> g_largest{0};
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMostMemory = 1 << 20;  // files of this test have less than 1 KiB; deflate can make 1032 times as much of it
+constexpr std::size_t kMaxMemory = 1 << 20;  // files of this test have less than 1 KiB; deflate can make 1032 times as much of it
 
 struct Seed {
     std::string name;
@@ -94,7 +94,7 @@ bool load_by_the_rules(const std::string& path, const std::string& content, std:
         EXPECT_FALSE(error.text().next.empty()) << error.what();
         for (const char c : std::string(error.what())) EXPECT_FALSE(c >= 0 && c < ' ') << "control bytes in: " << error.what();
     }
-    EXPECT_LE(g_largest.load(), kMostMemory);
+    EXPECT_LE(g_largest.load(), kMaxMemory);
     return read;
 }
 

@@ -135,9 +135,9 @@ TEST_P(WriteFaults, EveryOperationMayFail) {
 }
 
 TEST_P(WriteFaults, ShortAndInterruptedWritesDoNotMatter) {
-    for (const std::size_t most : {std::size_t{1}, std::size_t{13}, std::size_t{1000}}) {
+    for (const std::size_t max : {std::size_t{1}, std::size_t{13}, std::size_t{1000}}) {
         MemoryFiles disk(has_unnamed_);
-        EXPECT_TRUE(attempt(disk, {.most = most}).done);
+        EXPECT_TRUE(attempt(disk, {.max = max}).done);
         EXPECT_TRUE(is_new(disk));
     }
 }

@@ -31,8 +31,8 @@ const Atlas& small_atlas() {
     return atlas;
 }
 
-Question question_of(std::string_view text) {
-    Question question;
+Request question_of(std::string_view text) {
+    Request question;
     question.token = "right";
     question.client = "fuzz";
     if (text.starts_with('^')) question.token = "wrong", text.remove_prefix(1);
@@ -59,12 +59,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Context context;
     context.threads = 1;
     static Service knowing("right", context);
-    const Question question = question_of({reinterpret_cast<const char*>(data), size});
+    const Request question = question_of({reinterpret_cast<const char*>(data), size});
     std::optional<Service> fresh;  // what is given up may be what is found first
     if (question.left) fresh.emplace("right", context);
     Service& service = fresh ? *fresh : knowing;
     service.opening().open(small_atlas());
-    const Answer answer = service.answer(question);
+    const Response answer = service.answer(question);
     const bool given_up = answer.status == 409 && question.left;
     ISOATLAS_CHECK(given_up || answer.status == 200 || answer.status == 400 || answer.status == 403 || answer.status == 404);
     ISOATLAS_CHECK(answer.status == 403 || question.token == "right" || question.path == "/");

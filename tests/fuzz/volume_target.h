@@ -69,11 +69,11 @@ inline void check_info(const isoatlas::VolumeInfo& info) {
 
 /// Reads the volume at once and slice by slice, when it is small enough for a fuzzer.
 inline void read_twice(isoatlas::VolumeReader& reader) {
-    constexpr double kMost = 1 << 22;
+    constexpr double kMax = 1 << 22;
     const isoatlas::VolumeInfo& info = reader.info();
     const double bytes = static_cast<double>(info.extent.size[0]) * static_cast<double>(info.extent.size[1]) *
                          static_cast<double>(info.extent.size[2]) * static_cast<double>(isoatlas::size_of(info.type));
-    if (bytes > kMost) return;
+    if (bytes > kMax) return;
     const std::int64_t slices = info.extent.size[2];
     const std::size_t slice_bytes = static_cast<std::size_t>(info.extent.slice()) * isoatlas::size_of(info.type);
     std::vector<std::byte> whole(static_cast<std::size_t>(slices) * slice_bytes), slice(slice_bytes);

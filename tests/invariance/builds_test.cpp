@@ -46,7 +46,7 @@ protected:
 TEST_F(Builds, InAnyMemory) {
     for (const int threads : {1, 2, 3}) {
         for (const std::int64_t slab : {0, 1, 7, 40}) {
-            EXPECT_TRUE(built("one", kLeastMemory, threads, slab) == expected_) << threads << " threads, slabs of " << slab;
+            EXPECT_TRUE(built("one", kMinMemory, threads, slab) == expected_) << threads << " threads, slabs of " << slab;
         }
     }
 }

@@ -28,9 +28,9 @@ MAX_LINES = 400
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
 DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
-    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_limit\.cpp|src/base/workers\.h|src/server/(turns|changes|shared)\.h",
+    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_limit\.cpp|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_limit\.cpp|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/store/hdf5_layout\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(turns|changes|opening|event_stream|shared|door)\.h",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/store/hdf5_layout\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
     r"pugixml\.hpp": r"src/formats/.*|tests/.*",

@@ -78,19 +78,19 @@ inline Grid make_grid(int rank, std::array<Index, 3> size, Texture texture, cons
 }
 
 /// Sizes 1..longest per axis with at most `most` voxels; now and then one voxel thick.
-inline rc::Gen<std::array<Index, 3>> arbitrary_size(Index longest, Index most) {
-    return rc::gen::map(rc::gen::container<std::vector<int>>(4, rc::gen::inRange(0, 1000)), [longest, most](const std::vector<int>& raw) {
+inline rc::Gen<std::array<Index, 3>> arbitrary_size(Index longest, Index max) {
+    return rc::gen::map(rc::gen::container<std::vector<int>>(4, rc::gen::inRange(0, 1000)), [longest, max](const std::vector<int>& raw) {
         std::array<Index, 3> size{};
         for (int a = 0; a < 3; ++a) size[a] = 1 + raw[a] % longest;
         if (raw[3] % 8 > 0 && raw[3] % 8 <= 3) size[raw[3] % 8 - 1] = 1;
-        while (size[0] * size[1] * size[2] > most) --*std::max_element(size.begin(), size.end());
+        while (size[0] * size[1] * size[2] > max) --*std::max_element(size.begin(), size.end());
         return size;
     });
 }
 
 /// Any small volume; one in four is 2D.
-inline rc::Gen<Grid> arbitrary_grid(Index longest = 7, Index most = 100) {
-    return rc::gen::mapcat(arbitrary_size(longest, most), [](const std::array<Index, 3>& size) {
+inline rc::Gen<Grid> arbitrary_grid(Index longest = 7, Index max = 100) {
+    return rc::gen::mapcat(arbitrary_size(longest, max), [](const std::array<Index, 3>& size) {
         const auto count = static_cast<std::size_t>(size[0] * size[1] * size[2]);
         return rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 4), rc::gen::inRange(0, kTextures),
                                            rc::gen::container<std::vector<int>>(count, rc::gen::resize(100, rc::gen::inRange(0, 10000)))),

@@ -76,9 +76,9 @@ RC_GTEST_PROP(ActiveObjectsOfTheTrees, AreThoseOfTheCut, ()) {
         for (const auto& object : active.objects) {
             RC_ASSERT(object.zone.tau_low < tau);
             RC_ASSERT(tau <= object.zone.tau_high);
-            RC_ASSERT(object.voxels_least <= voxels[object.id]);
-            RC_ASSERT(object.voxels_most >= voxels[object.id]);
-            all_known = all_known && object.voxels_least == object.voxels_most;
+            RC_ASSERT(object.min_voxels <= voxels[object.id]);
+            RC_ASSERT(object.max_voxels >= voxels[object.id]);
+            all_known = all_known && object.min_voxels == object.max_voxels;
         }
         for (std::size_t i = 0; all_known && i < active.objects.size(); ++i) RC_ASSERT(active.objects[i].id == cut.objects[i].id);
         const ActiveObjects brief = index.at(tau, {.contours = false});

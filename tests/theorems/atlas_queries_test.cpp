@@ -10,7 +10,7 @@
 
 #include "atlas/overview.h"
 #include "atlas/tree_arrays.h"
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
@@ -73,9 +73,9 @@ RC_GTEST_FIXTURE_PROP(Stores, CountWhatAQueryCosts, ()) {
 }
 
 void check_bounds(const isoatlas::Bounds& bounds, Index number, bool exact) {
-    RC_ASSERT(bounds.least <= number);
-    RC_ASSERT(number <= bounds.most);
-    RC_ASSERT(!exact || bounds.least == bounds.most);
+    RC_ASSERT(bounds.min <= number);
+    RC_ASSERT(number <= bounds.max);
+    RC_ASSERT(!exact || bounds.min == bounds.max);
 }
 
 /// Samples are counted between any edges.
@@ -142,7 +142,7 @@ std::string text(const isoatlas::ObjectTable& table) {
     return out.str();
 }
 
-std::string text(const isoatlas::DarkTable& table) {
+std::string text(const isoatlas::CavityTable& table) {
     std::ostringstream out;
     out.precision(17);
     out << table.branches << ' ' << table.noise << '\n';
@@ -161,9 +161,9 @@ isoatlas::Selection arbitrary_selection(const isoatlas::BranchHierarchy& hierarc
     isoatlas::Selection selection;
     switch (*rc::gen::inRange(0, 4)) {
         case 0: selection.keep = *rc::gen::inRange<std::int64_t>(1, 9); break;
-        case 1: selection.least_persistence = some.persistence; break;
-        case 2: selection.least_hypervolume = some.hypervolume; break;
-        default: selection.least_measure = some.measure;
+        case 1: selection.min_persistence = some.persistence; break;
+        case 2: selection.min_hypervolume = some.hypervolume; break;
+        default: selection.min_measure = some.measure;
     }
     return selection;
 }
@@ -200,7 +200,7 @@ RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
     isoatlas::build_atlas(path_, volume);
     const Atlas atlas(path_);
     for (const std::int64_t top : {0, 2})
-        RC_ASSERT(text(atlas.dark_objects({.top = top})) == text(rank_dark_objects(volume, isoatlas::analyse(volume), {.top = top})));
+        RC_ASSERT(text(atlas.dark_objects({.top = top})) == text(rank_cavities(volume, isoatlas::analyse(volume), {.top = top})));
 }
 
 /// A store of the same volume without its tables, as one of noise with too many critical elements is.
@@ -224,15 +224,15 @@ RC_GTEST_FIXTURE_PROP(Stores, TellTogetherWhatTheyTellApart, ()) {
     const isoatlas::Analysis analysis = isoatlas::analyse(volume);
     const isoatlas::BranchHierarchy hierarchy(volume, analysis);
     for (const isoatlas::RankOptions& options : {isoatlas::RankOptions{.top = 3}, isoatlas::RankOptions{.top = 9, .gate = false}}) {
-        const isoatlas::BothTables both = isoatlas::rank_both(volume, analysis, options);
+        const isoatlas::ObjectsAndCavities both = isoatlas::rank_both(volume, analysis, options);
         RC_ASSERT(text(both.bright) == text(isoatlas::rank_objects(volume, analysis, options)));
-        RC_ASSERT(text(both.dark) == text(rank_dark_objects(volume, analysis, options)));
+        RC_ASSERT(text(both.dark) == text(rank_cavities(volume, analysis, options)));
     }
     for (const std::string& path : {path_, bare}) {
         const Atlas atlas(path);
         const isoatlas::Overview found = isoatlas::overview_of(atlas, {});
         RC_ASSERT(text(found.bright) == text(isoatlas::rank_objects(volume, analysis, {.top = 0})));
-        RC_ASSERT(text(found.dark) == text(rank_dark_objects(volume, analysis, {.top = 0})));
+        RC_ASSERT(text(found.dark) == text(rank_cavities(volume, analysis, {.top = 0})));
         RC_ASSERT(text(found.hierarchy, {}) == text(hierarchy, {}));
         RC_ASSERT(atlas.active(grid.value[0]).objects.size() == Atlas(path).active(grid.value[0]).objects.size());
     }

@@ -190,12 +190,12 @@ std::vector<bool> bricks_near_surface(const Grid& grid, double tau) {
             for (Index y = box.begin[1] - 2; y < box.end[1] + 2; ++y) {
                 for (Index x = box.begin[0] - 2; x < box.end[0] + 2; ++x) {
                     const std::array<Index, 3> at{x, y, z};
-                    Index steps = 0, most = 0;
+                    Index steps = 0, max = 0;
                     for (int axis = 0; axis < 3; ++axis) {
                         const Index away = std::max<Index>({0, box.begin[axis] - at[axis], at[axis] - box.end[axis] + 1});
-                        steps += away, most = std::max(most, away);
+                        steps += away, max = std::max(max, away);
                     }
-                    if (steps <= 2 || most <= 1) near[b] = near[b] || is_high(x, y, z) != first;
+                    if (steps <= 2 || max <= 1) near[b] = near[b] || is_high(x, y, z) != first;
                 }
             }
         }

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "features/noise.h"
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 #include "oracle/difference.h"
 #include "oracle/mesh_checks.h"
 
@@ -64,12 +64,12 @@ bool are_filled_as_brute_force_says(const Grid& grid, isoatlas::Interpolant inte
     analysis.data().visit([&]<class Id>(const isoatlas::IndexedArrays<Id>& held) {
         const isoatlas::NoiseModel noise = isoatlas::fit_noise(view);
         const auto values = isoatlas::event_values(held.arrays);
-        const auto bright = isoatlas::bright_side<Id>(held.arrays, values);
-        const isoatlas::Branches branches = isoatlas::make_branches(bright, isoatlas::sum_zones(bright, view));
-        const auto dark = isoatlas::make_dark_side(view, held.arrays, noise, all, {});
+        const auto bright = isoatlas::superlevel_tree<Id>(held.arrays, values);
+        const isoatlas::BranchDecomposition branches = isoatlas::decompose_branches(bright, isoatlas::sum_zones(bright, view));
+        const auto dark = isoatlas::make_cavity_candidates(view, held.arrays, noise, all, {});
         const auto around = isoatlas::enclosures(bright, branches, dark, isoatlas::objects_around(analysis, held.arrays, dark));
         const std::vector<BranchHistogram> filled = isoatlas::fill_cavities(
-            view, bright, branches, isoatlas::branch_rows(view, bright, branches, noise, all).histograms, dark, around);
+            view, bright, branches, isoatlas::find_candidates(view, bright, branches, noise, all).histograms, dark, around);
         for (const BranchHistogram& histogram : filled) {
             const isoatlas::Branch& branch = branches.branch[histogram.branch];
             std::vector<bool> was_in_cavity(static_cast<std::size_t>(grid.voxels()), false);
@@ -161,13 +161,13 @@ TEST(CavityWalls, AreSharpAtOtherIsovaluesThanTheOuterBoundary) {
     const auto& inner = by_reason[IsovalueReason::inner];
     ASSERT_EQ(inner.size(), 1U);
     EXPECT_NEAR(inner[0].tau, 80, 8);
-    const isoatlas::DarkTable dark = rank_dark_objects(volume, analysis);
+    const isoatlas::CavityTable dark = rank_cavities(volume, analysis);
     ASSERT_EQ(dark.entries.size(), 1U);
     EXPECT_EQ(inner[0].cavity, dark.entries[0].id);
     EXPECT_EQ(inner[0].tau, dark.entries[0].best_tau);
-    const auto& steady = by_reason[IsovalueReason::steady];  // in between, where neither boundary is sharp
-    ASSERT_EQ(steady.size(), 1U);
-    EXPECT_NEAR(steady[0].tau, 105, 8);
+    const auto& stable = by_reason[IsovalueReason::stable];  // in between, where neither boundary is sharp
+    ASSERT_EQ(stable.size(), 1U);
+    EXPECT_NEAR(stable[0].tau, 105, 8);
 }
 
 TEST(CavityWalls, SayNothingNewWhereBothBoundariesAreSharpAtOneIsovalue) {

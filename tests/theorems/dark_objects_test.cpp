@@ -1,5 +1,5 @@
 // Dark objects are the low components of brute force, at every isovalue and from birth to death.
-#include "isoatlas/dark_objects.h"
+#include "isoatlas/cavities.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -14,8 +14,8 @@ namespace oracle {
 namespace {
 
 using isoatlas::Analysis;
-using isoatlas::DarkEntry;
-using isoatlas::DarkTable;
+using isoatlas::CavityEntry;
+using isoatlas::CavityTable;
 using isoatlas::Volume;
 
 /// Cavities by descending voxels, then id, and what each voxel lies in.
@@ -108,16 +108,16 @@ RC_GTEST_PROP(DarkObjects, LiveAsLongAsBruteForceSays, ()) {
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant});
     const Elements elements = elements_of(grid, interpolant);
-    const DarkTable table = isoatlas::rank_dark_objects(volume, analysis, {.top = 0, .gate = false});
+    const CavityTable table = isoatlas::rank_cavities(volume, analysis, {.top = 0, .gate = false});
     std::multiset<std::pair<double, double>> lives;
-    for (const DarkEntry& entry : table.entries) lives.insert({entry.merges, entry.hypervolume});
+    for (const CavityEntry& entry : table.entries) lives.insert({entry.merges, entry.hypervolume});
     RC_ASSERT(lives == lives_of(elements));
     RC_ASSERT(table.branches == static_cast<Index>(table.entries.size()));
     for (std::size_t i = 1; i < table.entries.size(); ++i) RC_ASSERT(table.entries[i - 1].hypervolume >= table.entries[i].hypervolume);
 }
 
 /// The isovalues of an entry are isovalues of its branch, and name what it is there.
-void check_isovalues(const DarkTable& table, const DarkEntry& entry, const Elements& elements) {
+void check_isovalues(const CavityTable& table, const CavityEntry& entry, const Elements& elements) {
     const std::vector<isoatlas::RecommendedIsovalue> own = isovalues_of(table.isovalues, entry.branch_minimum);
     RC_ASSERT(!own.empty());
     RC_ASSERT(own[0].tau == entry.best_tau);
@@ -138,8 +138,8 @@ RC_GTEST_PROP(DarkObjects, AreWhatTheirBestIsovalueShows, ()) {
     volume.info.geometry = arbitrary_geometry(grid);
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant});
     const Elements elements = elements_of(grid, interpolant);
-    const DarkTable table = isoatlas::rank_dark_objects(volume, analysis, {.top = 8, .gate = false});
-    for (const DarkEntry& entry : table.entries) {
+    const CavityTable table = isoatlas::rank_cavities(volume, analysis, {.top = 8, .gate = false});
+    for (const CavityEntry& entry : table.entries) {
         check_isovalues(table, entry, elements);
         RC_ASSERT(entry.appears < entry.best_tau);
         RC_ASSERT(entry.best_tau <= entry.merges);
@@ -183,7 +183,7 @@ TEST(DarkObjects, WithTwoBoundariesHaveTwoIsovalues) {
         samples.push_back(static_cast<float>(10 + r / 100 + 40 * rise(5) + 50 * rise(10) - 100 * rise(14)));
     }
     const Volume volume = isoatlas::make_volume<float>({3, {n, n, n}}, samples);
-    const DarkTable table = isoatlas::rank_dark_objects(volume, isoatlas::analyse(volume));
+    const CavityTable table = isoatlas::rank_cavities(volume, isoatlas::analyse(volume));
     ASSERT_EQ(table.entries.size(), 1U);
     const std::vector<isoatlas::RecommendedIsovalue> own = isovalues_of(table.isovalues, table.entries[0].branch_minimum);
     const auto has = [&](double low, double high) {

@@ -163,7 +163,7 @@ TEST(ExactHandles, RefuseTooMany) {
     const Volume volume = to_volume(grid);
     const Analysis analysis = isoatlas::analyse(volume);
     ASSERT_GT(isoatlas::pair_handles_exactly(volume, analysis).size(), 3U);
-    EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.most = 3}), isoatlas::Error);
+    EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.max = 3}), isoatlas::Error);
     EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.event = analysis.event_count()}), isoatlas::Error);
 }
 
@@ -172,7 +172,7 @@ TEST(ExactHandles, AreFoundWhereTheyCostLittle) {
     const Analysis analysis = isoatlas::analyse(small);
     const isoatlas::FoundHandles found = isoatlas::find_handles(small.info, analysis, 0.1, [&] { return small; });
     EXPECT_TRUE(found.exact);
-    EXPECT_EQ(pairs_of(found.handles), pairs_of(isoatlas::pair_handles_exactly(small, analysis, {.least_persistence = 0.1})));
+    EXPECT_EQ(pairs_of(found.handles), pairs_of(isoatlas::pair_handles_exactly(small, analysis, {.min_persistence = 0.1})));
     isoatlas::VolumeInfo large = small.info;
     large.extent.size = {1024, 1024, 1024};
     const auto no_samples = []() -> Volume { throw std::logic_error("asked for samples"); };

@@ -36,9 +36,9 @@ RC_GTEST_PROP(Handles, AreAsManyAsTunnelsAtEveryIsovalue, ()) {
         RC_ASSERT(analysis.event(handles[i].event).value >= handles[i].opens);
         RC_ASSERT(analysis.event(handles[i].event).zone.tau_low < handles[i].opens);
     }
-    const double least = handles.empty() ? 1 : handles[handles.size() / 2].persistence();
-    const auto many = std::count_if(handles.begin(), handles.end(), [&](const Handle& handle) { return handle.persistence() >= least; });
-    RC_ASSERT(static_cast<std::ptrdiff_t>(isoatlas::pair_handles(analysis, least).size()) == many);
+    const double min = handles.empty() ? 1 : handles[handles.size() / 2].persistence();
+    const auto many = std::count_if(handles.begin(), handles.end(), [&](const Handle& handle) { return handle.persistence() >= min; });
+    RC_ASSERT(static_cast<std::ptrdiff_t>(isoatlas::pair_handles(analysis, min).size()) == many);
 }
 
 // The tunnels of a chain of tori stand out from all others.

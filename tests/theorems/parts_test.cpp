@@ -36,10 +36,10 @@ std::vector<Id> expected_arcs(const CriticalSet<Id>& set) {
 struct Renumbered {
     std::vector<Id> number, first;
     template <class IsOne>
-    Renumbered(const CriticalSet<Id>& set, const std::vector<std::uint16_t>& part_of, int parts, Id least, const IsOne& is_one,
+    Renumbered(const CriticalSet<Id>& set, const std::vector<std::uint16_t>& part_of, int parts, Id min, const IsOne& is_one,
                const isoatlas::BigVector<Id>& name)
         : number(set.size() + 1, 0) {
-        Id next = least;
+        Id next = min;
         for (int part = 0; part < parts; ++part) {
             first.push_back(next);
             for (std::size_t i = 0; i < set.size(); ++i) {
@@ -50,10 +50,10 @@ struct Renumbered {
     }
 };
 
-isoatlas::PartedSet<Id> cut(const CriticalSet<Id>& set, const std::vector<std::uint16_t>& part_of, int parts) {
+isoatlas::PartitionedSet<Id> cut(const CriticalSet<Id>& set, const std::vector<std::uint16_t>& part_of, int parts) {
     const Renumbered maxima(set, part_of, parts, 0, [](ElementCode code) { return code.h0() == 0; }, set.up_a);
     const Renumbered minima(set, part_of, parts, 1, [](ElementCode code) { return code.l0() == 0; }, set.low_a);
-    isoatlas::PartedSet<Id> result;
+    isoatlas::PartitionedSet<Id> result;
     result.first_maximum = maxima.first, result.first_minimum = minima.first;
     result.first.push_back(0);
     for (int part = 0; part < parts; ++part) {

@@ -41,9 +41,9 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheMeansOfCubes, ()) {
     isoatlas::build_atlas(path_, volume);
     const isoatlas::Atlas atlas(path_);
     const Extent& extent = volume.info.extent;
-    const Index most = *rc::gen::inRange<Index>(1, extent.voxels() + 2);
-    const isoatlas::CoarseVolume coarse = atlas.coarse(most);
-    RC_ASSERT(coarse.extent.voxels() <= most);
+    const Index max = *rc::gen::inRange<Index>(1, extent.voxels() + 2);
+    const isoatlas::CoarseVolume coarse = atlas.coarse(max);
+    RC_ASSERT(coarse.extent.voxels() <= max);
     RC_ASSERT(static_cast<Index>(coarse.mean.size()) == coarse.extent.voxels());
     if (coarse.step > 8) return;  // means of means: at the far ends of fewer samples
     for (Index i = 0; i < coarse.extent.voxels(); ++i) {

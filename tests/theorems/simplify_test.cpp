@@ -29,7 +29,7 @@ using isoatlas::Volume;
 /// A path of events from a leaf down to where it was pruned, and the sizes of the object at its low end.
 struct Arm {
     std::vector<Index> events;  ///< from above
-    Index ends_in = -1;         ///< event; -1: the trunk
+    Index ends_in = -1;         ///< event; -1: the main branch
     double hypervolume = 0, persistence = 0;
     Index voxels = 0;
 };
@@ -82,8 +82,8 @@ std::vector<Arm> prune(const Analysis& analysis, const Grid& grid) {
 }
 
 bool is_kept(const Arm& arm, const Selection& selection) {
-    return arm.ends_in < 0 || (arm.hypervolume >= selection.least_hypervolume && arm.persistence >= selection.least_persistence &&
-                               static_cast<double>(arm.voxels) >= selection.least_voxels);
+    return arm.ends_in < 0 || (arm.hypervolume >= selection.min_hypervolume && arm.persistence >= selection.min_persistence &&
+                               static_cast<double>(arm.voxels) >= selection.min_voxels);
 }
 
 /// The event of the node whose zone the zone of an event joins.
@@ -104,8 +104,8 @@ Index joined(const std::vector<Arm>& arms, const Selection& selection, const std
 }
 
 /// Whole numbers, so that sums are exact; also the values of face points may differ in the last digit otherwise.
-Grid arbitrary_whole_grid(Index longest, Index most) {
-    Grid grid = *arbitrary_grid(longest, most);
+Grid arbitrary_whole_grid(Index longest, Index max) {
+    Grid grid = *arbitrary_grid(longest, max);
     for (double& v : grid.value) v = std::floor(v);
     return grid;
 }
@@ -121,9 +121,9 @@ RC_GTEST_PROP(Simplification, IsPruningOneByOne, ()) {
     Selection selection;
     const BranchInfo& some = hierarchy.branches()[*rc::gen::inRange<std::size_t>(0, arms.size())];
     const int kind = *rc::gen::inRange(0, 4);
-    if (kind == 0) selection.least_hypervolume = some.hypervolume;
-    if (kind == 1) selection.least_persistence = some.persistence;
-    if (kind == 2) selection.least_voxels = static_cast<double>(some.voxels);
+    if (kind == 0) selection.min_hypervolume = some.hypervolume;
+    if (kind == 1) selection.min_persistence = some.persistence;
+    if (kind == 2) selection.min_voxels = static_cast<double>(some.voxels);
     const Simplified simplified = hierarchy.simplify(selection);
 
     std::set<Index> nodes, tops;
@@ -196,9 +196,9 @@ RC_GTEST_PROP(Simplification, CurvesCountWhatIsKept, ()) {
         RC_ASSERT(curve.automatic_kept == static_cast<Index>(hierarchy.essential().size()));
         const auto i = *rc::gen::inRange<std::size_t>(0, curve.threshold.size());
         Selection selection;
-        if (curve.size == "hypervolume") selection.least_hypervolume = curve.threshold[i];
-        if (curve.size == "persistence") selection.least_persistence = curve.threshold[i];
-        if (curve.size == "voxels") selection.least_voxels = curve.threshold[i];
+        if (curve.size == "hypervolume") selection.min_hypervolume = curve.threshold[i];
+        if (curve.size == "persistence") selection.min_persistence = curve.threshold[i];
+        if (curve.size == "voxels") selection.min_voxels = curve.threshold[i];
         RC_ASSERT(static_cast<Index>(hierarchy.kept(selection).size()) == curve.kept[i]);
     }
 }
@@ -212,14 +212,14 @@ RC_GTEST_PROP(Simplification, IsWhatTheTableOfObjectsLists, ()) {
     const BranchHierarchy hierarchy(volume, analysis);
     const BranchInfo& some = hierarchy.branches()[*rc::gen::inRange<std::size_t>(0, hierarchy.branches().size())];
     Selection selection;
-    if (*rc::gen::arbitrary<bool>()) selection.least_measure = some.measure;
+    if (*rc::gen::arbitrary<bool>()) selection.min_measure = some.measure;
     if (*rc::gen::arbitrary<bool>()) selection.top_percent = *rc::gen::inRange(0, 101);
     std::set<Index> listed, kept;
     for (const auto& entry : isoatlas::rank_objects(volume, analysis, {.top = 0, .selection = selection}).entries)
         listed.insert(entry.branch_top);
     for (const std::int64_t i : hierarchy.kept(selection)) kept.insert(hierarchy.branches()[i].top);
     RC_ASSERT(listed == kept);
-    for (const std::int64_t i : hierarchy.kept(selection)) RC_ASSERT(i == 0 || hierarchy.branches()[i].measure >= selection.least_measure);
+    for (const std::int64_t i : hierarchy.kept(selection)) RC_ASSERT(i == 0 || hierarchy.branches()[i].measure >= selection.min_measure);
 }
 
 /// Voxels of the object of a branch just before it merges.
@@ -260,10 +260,10 @@ struct Bright {
     Analysis trees;
     BranchHierarchy hierarchy;
 
-    /// Of at least that hypervolume, without the trunk: the whole volume.
-    [[nodiscard]] std::vector<Object> objects(double least) const {
+    /// Of at least that hypervolume, without the main branch: the whole volume.
+    [[nodiscard]] std::vector<Object> objects(double min) const {
         std::vector<Object> all;
-        for (const std::int64_t i : hierarchy.kept({.least_hypervolume = least})) {
+        for (const std::int64_t i : hierarchy.kept({.min_hypervolume = min})) {
             const BranchInfo& branch = hierarchy.branches()[i];
             if (i > 0) all.push_back({voxels_of(trees, branch), branch.hypervolume});
         }
@@ -296,8 +296,8 @@ Volume with_noise(const Volume& volume, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::vector<float> noisy;
     isoatlas::visit_samples(volume, [&](auto samples) {
-        const auto [least, most] = std::ranges::minmax(samples);
-        const double step = 0.01 * (static_cast<double>(most) - static_cast<double>(least)) / 0x1p31;
+        const auto [min, max] = std::ranges::minmax(samples);
+        const double step = 0.01 * (static_cast<double>(max) - static_cast<double>(min)) / 0x1p31;
         for (const auto sample : samples)
             noisy.push_back(static_cast<float>(static_cast<double>(sample) + step * (static_cast<double>(random()) - 0x1p31)));
     });

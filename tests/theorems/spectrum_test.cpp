@@ -132,10 +132,10 @@ RC_GTEST_FIXTURE_PROP(Stores, MeasureTheSpectrumOfTheirVolume, ()) {
         const Surface surface = isoatlas::extract(volume, size.tau);
         Index voxels = 0;
         for (const auto& object : cut.objects) voxels += object.voxels;
-        RC_ASSERT(size.voxels.least == voxels);
-        RC_ASSERT(size.voxels.most == voxels);
-        RC_ASSERT(other.voxels.least <= voxels);
-        RC_ASSERT(voxels <= other.voxels.most);
+        RC_ASSERT(size.voxels.min == voxels);
+        RC_ASSERT(size.voxels.max == voxels);
+        RC_ASSERT(other.voxels.min <= voxels);
+        RC_ASSERT(voxels <= other.voxels.max);
         RC_ASSERT(size.cells == cut.active_cells);
         RC_ASSERT(size.facets == static_cast<Index>(surface.triangles.size() + surface.segments.size()));
         RC_ASSERT(std::abs(size.area - area_of(surface)) <= 1e-6 * (1 + size.area));

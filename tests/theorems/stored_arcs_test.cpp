@@ -79,7 +79,7 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
     const std::vector<Id> voxels = climbed(grid, interpolant);
     for (const bool limited : {false, true}) {
         std::optional<isoatlas::MemoryLimit> limit;
-        if (limited) limit.emplace(isoatlas::kLeastMemory, testing::TempDir());
+        if (limited) limit.emplace(isoatlas::kMinMemory, testing::TempDir());
         for (const Index tile : tiles) {
             Stored stored(volume, options, context_of(1 + static_cast<int>(tile % 2), tile));
             Arrays& found = stored.arrays();

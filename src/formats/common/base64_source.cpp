@@ -54,9 +54,9 @@ public:
             take(static_cast<std::size_t>(std::min(static_cast<std::int64_t>(ready_.size() - taken_), offset - position_)));
         }
     }
-    std::int64_t payload_bytes(std::int64_t most) override {
-        while (position_ <= most && decode_more()) take(ready_.size() - taken_);
-        return std::min(position_, most + 1);
+    std::int64_t payload_bytes(std::int64_t max) override {
+        while (position_ <= max && decode_more()) take(ready_.size() - taken_);
+        return std::min(position_, max + 1);
     }
     bool random_access() const override { return false; }
     std::int64_t size_bound() const override { return std::max<std::int64_t>(end_ - begin_, 0) / 4 * 3; }

@@ -9,7 +9,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
-constexpr std::size_t kMostPerCall = std::size_t{1} << 30;  // zlib counts in 32 bits
+constexpr std::size_t kMaxPerCall = std::size_t{1} << 30;  // zlib counts in 32 bits
 
 std::string reason(int status) { return status == Z_BUF_ERROR ? "it ends early" : zError(status); }
 
@@ -63,7 +63,7 @@ int BlockInflater::inflate_some(ByteSource& source, std::span<std::byte> out, st
         stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
         stream_.avail_in = static_cast<uInt>(bytes);
     }
-    const std::size_t room = std::min(out.size(), kMostPerCall);
+    const std::size_t room = std::min(out.size(), kMaxPerCall);
     stream_.next_out = reinterpret_cast<Bytef*>(out.data());
     stream_.avail_out = static_cast<uInt>(room);
     const int status = inflate(&stream_, Z_NO_FLUSH);

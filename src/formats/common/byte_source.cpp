@@ -36,7 +36,7 @@ public:
         if (offset < 0 || offset > length_) ends_early(0);
         position_ = offset;
     }
-    std::int64_t payload_bytes(std::int64_t most) override { return most < length_ ? most + 1 : length_; }
+    std::int64_t payload_bytes(std::int64_t max) override { return max < length_ ? max + 1 : length_; }
     bool random_access() const override { return true; }
     std::int64_t size_bound() const override { return length_; }
     const std::string& file() const override { return path_; }
@@ -123,10 +123,10 @@ void refuse_rest(const std::string& file, std::int64_t rest) {
 }
 
 std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest) {
-    constexpr std::int64_t kTimes = 16, kMost = std::numeric_limits<std::int64_t>::max() / (kTimes + 2);
-    const std::int64_t most = source.random_access() ? std::numeric_limits<std::int64_t>::max() - 1
-                                                     : wanted + std::max(kMostRest, std::min(wanted, kMost) * kTimes);
-    const std::int64_t found = source.payload_bytes(most);
+    constexpr std::int64_t kTimes = 16, kMax = std::numeric_limits<std::int64_t>::max() / (kTimes + 2);
+    const std::int64_t max = source.random_access() ? std::numeric_limits<std::int64_t>::max() - 1
+                                                    : wanted + std::max(kMaxRest, std::min(wanted, kMax) * kTimes);
+    const std::int64_t found = source.payload_bytes(max);
     if (found < wanted) {
         throw Error(ErrorKind::input, {.file = source.file(),
                                        .where = "samples",
@@ -134,10 +134,10 @@ std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest
                                        .expected = std::to_string(wanted) + " bytes",
                                        .next = "the file is truncated or its header is wrong: get it again"});
     }
-    if (found > most) {
+    if (found > max) {
         throw Error(ErrorKind::input, {.file = source.file(),
                                        .where = "behind the samples",
-                                       .what = "more than " + std::to_string(most - wanted) + " decompressed bytes follow",
+                                       .what = "more than " + std::to_string(max - wanted) + " decompressed bytes follow",
                                        .expected = std::to_string(wanted) + " bytes of samples",
                                        .next = "the header is wrong, or the file is made to fill memory or time: do not use it"});
     }

@@ -25,7 +25,7 @@ public:
     /// `most` + 1 stands for more than `most`.
     /// Without random_access() it is read on to its end from the current position, with a fixed buffer: Error{input} when a checksum is
     /// wrong or the end is missing. Seek before the next read.
-    [[nodiscard]] virtual std::int64_t payload_bytes(std::int64_t most) = 0;
+    [[nodiscard]] virtual std::int64_t payload_bytes(std::int64_t max) = 0;
     [[nodiscard]] virtual bool random_access() const = 0;
     /// The size of the payload with random_access(), else an upper bound of it that follows from the size of the file.
     [[nodiscard]] virtual std::int64_t size_bound() const = 0;
@@ -46,15 +46,15 @@ public:
 
 /// How many bytes the zlib stream at [offset, offset + length) of a file holds: decoded to its end, its checksum compared; what follows it
 /// is not looked at. `most` + 1 stands for more than `most`. Throws Error{input} as reading does.
-[[nodiscard]] std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::int64_t length, std::int64_t most);
+[[nodiscard]] std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::int64_t length, std::int64_t max);
 
 /// Reads a source on to its end behind the `wanted` bytes of samples. Throws Error{input} when it is damaged, holds less, or holds more and
-/// `skip_rest` is false; also when it holds so much more (kMostRest) that no file of samples does. Returns how much more.
+/// `skip_rest` is false; also when it holds so much more (kMaxRest) that no file of samples does. Returns how much more.
 std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest);
 /// The error that require_end() throws for so many bytes behind the samples of a file.
 [[noreturn]] void refuse_rest(const std::string& file, std::int64_t rest);
 /// A compressed stream may hold so many bytes behind its samples, or 16 times the samples; more of it is not decompressed.
-inline constexpr std::int64_t kMostRest = std::int64_t{1} << 30;
+inline constexpr std::int64_t kMaxRest = std::int64_t{1} << 30;
 
 /// `count` sources of part_bytes payload bytes each, one after the other; open(i) is called when part i is needed, one is open at a
 /// time and read to its end as require_end() does. The caller vouches for random access and for the bound (it has looked at the files).

@@ -41,7 +41,7 @@ bool file_exists(const std::string& path) { return file_system().status(path).ki
 
 bool is_directory(const std::string& path) { return file_system().status(path).kind == FileStatus::Kind::folder; }
 
-std::vector<std::string> directory_entries(const std::string& path, std::size_t most) { return file_system().entries(path, most); }
+std::vector<std::string> directory_entries(const std::string& path, std::size_t max) { return file_system().entries(path, max); }
 
 std::size_t read_available(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out) {
     std::size_t done = 0;
@@ -57,7 +57,7 @@ std::size_t read_available(File& file, const std::string& path, std::int64_t off
 }
 
 bool read_if_present(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out) {
-    const std::ptrdiff_t got = file.read_present(offset, out);
+    const std::ptrdiff_t got = file.read_nowait(offset, out);
     if (got < 0 && got != -EAGAIN && got != -EINTR) failed(path, offset, got);
     return got == static_cast<std::ptrdiff_t>(out.size());
 }

@@ -20,7 +20,7 @@ namespace isoatlas {
 /// Whether there is a directory of that name. Never throws.
 [[nodiscard]] bool is_directory(const std::string& path);
 /// Names of at most `most` entries of a directory, in no order; nothing when it cannot be read. Never throws.
-[[nodiscard]] std::vector<std::string> directory_entries(const std::string& path, std::size_t most);
+[[nodiscard]] std::vector<std::string> directory_entries(const std::string& path, std::size_t max);
 
 /// Fills all of out from offset, repeating short reads. Throws Error{input} when the file ends before or the disk fails.
 void read_fully(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);

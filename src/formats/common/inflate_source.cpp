@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t kMaximalRatio = 1032;  // zlib's documentation: the limit of the deflate format
 constexpr std::int64_t kBufferBytes = 256 * 1024;
-constexpr std::size_t kMostPerCall = 1U << 30;  // zlib counts in 32 bits
-constexpr int kDetectGzipOrZlib = 15 + 32;      // windowBits: largest window, the stream's header decides
+constexpr std::size_t kMaxPerCall = 1U << 30;  // zlib counts in 32 bits
+constexpr int kDetectGzipOrZlib = 15 + 32;     // windowBits: largest window, the stream's header decides
 
 /// zlib's stream that frees itself, also when the constructor of its owner throws behind inflateInit2.
 struct Inflater : z_stream {
@@ -60,9 +60,9 @@ public:
             read(std::span(scratch).first(static_cast<std::size_t>(std::min<std::int64_t>(scratch.size(), offset - position_))));
         }
     }
-    std::int64_t payload_bytes(std::int64_t most) override {
-        const std::int64_t inside = decoded_bytes(most), behind = finished_ ? bytes_behind() : 0;
-        return inside > most || behind > most - inside ? most + 1 : inside + behind;
+    std::int64_t payload_bytes(std::int64_t max) override {
+        const std::int64_t inside = decoded_bytes(max), behind = finished_ ? bytes_behind() : 0;
+        return inside > max || behind > max - inside ? max + 1 : inside + behind;
     }
     bool random_access() const override { return false; }
     std::int64_t size_bound() const override {
@@ -79,10 +79,10 @@ public:
     }
 
     /// Decodes to the end of the stream and its checksum, or to `most` + 1 bytes: how many there are.
-    std::int64_t decoded_bytes(std::int64_t most) {
+    std::int64_t decoded_bytes(std::int64_t max) {
         std::array<std::byte, 65536> scratch;
-        while (!finished_ && position_ <= most) {
-            const auto room = std::min(static_cast<std::int64_t>(scratch.size()), most - position_ + 1);
+        while (!finished_ && position_ <= max) {
+            const auto room = std::min(static_cast<std::int64_t>(scratch.size()), max - position_ + 1);
             (void)read_some(std::span(scratch).first(static_cast<std::size_t>(room)));
         }
         return position_;
@@ -116,7 +116,7 @@ private:
     /// One call of zlib; the number of bytes it produced.
     std::size_t inflate_once(std::span<std::byte> out) {
         if (stream_.avail_in == 0 && !refill()) ends_early();
-        const std::size_t room = std::min(out.size(), kMostPerCall);
+        const std::size_t room = std::min(out.size(), kMaxPerCall);
         stream_.next_out = reinterpret_cast<Bytef*>(out.data());
         stream_.avail_out = static_cast<uInt>(room);
         const int status = inflate(&stream_, Z_NO_FLUSH);
@@ -186,8 +186,8 @@ std::unique_ptr<ByteSource> open_inflate_source(const std::string& path, std::in
     return std::make_unique<InflateSource>(path, offset, length);
 }
 
-std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::int64_t length, std::int64_t most) {
-    return InflateSource(path, offset, length).decoded_bytes(most);
+std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::int64_t length, std::int64_t max) {
+    return InflateSource(path, offset, length).decoded_bytes(max);
 }
 
 std::vector<std::byte> read_inflated_bytes(const std::string& path, std::int64_t max) {

@@ -12,8 +12,8 @@ public:
     SkippedSource(std::unique_ptr<ByteSource> source, std::int64_t begin) : source_(std::move(source)), begin_(begin) {}
     void read(std::span<std::byte> out) override { source_->read(out); }
     void seek(std::int64_t offset) override { source_->seek(begin_ + offset); }
-    std::int64_t payload_bytes(std::int64_t most) override {
-        const std::int64_t all = std::min(most, std::numeric_limits<std::int64_t>::max() - begin_ - 1) + begin_;
+    std::int64_t payload_bytes(std::int64_t max) override {
+        const std::int64_t all = std::min(max, std::numeric_limits<std::int64_t>::max() - begin_ - 1) + begin_;
         return std::max<std::int64_t>(source_->payload_bytes(all) - begin_, 0);
     }
     bool random_access() const override { return source_->random_access(); }

@@ -65,10 +65,10 @@ public:
         std::byte ignored[8];
         while (samples_read_ < sample) next_sample(ignored);
     }
-    std::int64_t payload_bytes(std::int64_t most) override {
+    std::int64_t payload_bytes(std::int64_t max) override {
         std::byte ignored[8];
         for (skip_separators(); !is_at_end(); skip_separators()) {
-            if (samples_read_ > most / sample_bytes_) return most + 1;
+            if (samples_read_ > max / sample_bytes_) return max + 1;
             next_sample(ignored);
         }
         return samples_read_ * sample_bytes_;

@@ -12,7 +12,7 @@ namespace isoatlas {
 
 namespace {
 
-constexpr std::size_t kMostTags = std::size_t{16} << 20;
+constexpr std::size_t kMaxTags = std::size_t{16} << 20;
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
 /// The characters of a file, one after the other, with a fast search.
@@ -96,7 +96,7 @@ private:
                 quote = *c;
             }
             tag_ += *c;
-            if (tag_.size() + skeleton_.text.size() > kMostTags) fail("its tags are larger than 16 MiB", "a VTK XML file");
+            if (tag_.size() + skeleton_.text.size() > kMaxTags) fail("its tags are larger than 16 MiB", "a VTK XML file");
         }
         fail("the file ends inside a tag", "'>'");
     }

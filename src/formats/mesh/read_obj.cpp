@@ -75,11 +75,11 @@ private:
         if (index < -points) in_.fail_at_line(quoted(word) + " counts back beyond the first point");
         return index > 0 ? index - 1 : points + index;
     }
-    void parse_cell(std::string_view line, std::size_t least) {
+    void parse_cell(std::string_view line, std::size_t min) {
         corners_.clear();
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) corners_.push_back(parse_corner(word));
-        if (corners_.size() < least) in_.fail_at_line("a face or line with " + std::to_string(corners_.size()) + " points");
-        if (least == 3) add_polygon(mesh_, corners_);
+        if (corners_.size() < min) in_.fail_at_line("a face or line with " + std::to_string(corners_.size()) + " points");
+        if (min == 3) add_polygon(mesh_, corners_);
         for (const std::int64_t p : corners_) mark(p);
     }
     void parse_object(std::string_view name) {

@@ -141,8 +141,8 @@ bool is_whole(double value) { return std::abs(value) <= 0x1p53 && value == std::
 std::size_t read_list_count(ByteCursor& in, const Property& property, Encoding encoding) {
     const double count = read_scalar(in, *property.count_type, encoding);
     const std::size_t bytes = encoding == Encoding::ascii ? 1 : bytes_of_scalar(property.type);
-    const std::size_t most = in.left() / bytes;
-    if (!is_whole(count) || count < 0 || static_cast<std::size_t>(count) > most) {
+    const std::size_t max = in.left() / bytes;
+    if (!is_whole(count) || count < 0 || static_cast<std::size_t>(count) > max) {
         in.fail_at_offset("a list claims more items than the file holds");
     }
     return static_cast<std::size_t>(count);

@@ -51,7 +51,7 @@ void write_spectrum_csv(AtomicFile& file, const VolumeInfo& info, const Spectrum
     }
     for (const SpectrumSize& size : spectrum.sizes) {
         put_isovalue(out, "size", info, spectrum, size.tau);
-        for (const std::int64_t count : {size.voxels.least, size.voxels.most, size.cells, size.facets}) out.text(","), out.number(count);
+        for (const std::int64_t count : {size.voxels.min, size.voxels.max, size.cells, size.facets}) out.text(","), out.number(count);
         put_real(out, size.area);
         put_real(out, size.measure);
         out.text(",,,\n");

@@ -30,7 +30,7 @@ void put_sizes(JsonStream& json, const VolumeInfo& info, const Spectrum& spectru
     json.line().key("sizes").begin_array();
     for (const SpectrumSize& size : spectrum.sizes) {
         json.line().begin_object().key("tau").value(info.calibration.reported(size.tau));
-        json.key("voxels").begin_object().key("least").value(size.voxels.least).key("most").value(size.voxels.most).end_object();
+        json.key("voxels").begin_object().key("least").value(size.voxels.min).key("most").value(size.voxels.max).end_object();
         json.key("cells").value(size.cells).key(info.extent.rank == 3 ? "triangles" : "segments").value(size.facets);
         json.key("area").value(size.area).key("measure").value(size.measure).end_object();
     }

@@ -50,16 +50,16 @@ PlotCurve count_curve(const std::string& name, const std::string& colour, bool t
 template <class Number>
 PlotCurve size_curve(const std::string& name, const std::string& colour, const VolumeInfo& info, const Spectrum& spectrum,
                      const Number& number) {
-    double most = 0;
-    for (const SpectrumSize& size : spectrum.sizes) most = std::max(most, number(size));
-    PlotCurve curve{name + " (most " + short_text(most) + ")", colour, {}, false, true};
+    double max = 0;
+    for (const SpectrumSize& size : spectrum.sizes) max = std::max(max, number(size));
+    PlotCurve curve{name + " (most " + short_text(max) + ")", colour, {}, false, true};
     for (const SpectrumSize& size : spectrum.sizes)
-        curve.points.push_back({info.calibration.reported(size.tau), most > 0 ? 100 * number(size) / most : 0});
+        curve.points.push_back({info.calibration.reported(size.tau), max > 0 ? 100 * number(size) / max : 0});
     std::ranges::stable_sort(curve.points, {}, [](const std::array<double, 2>& point) { return point[0]; });
     return curve;
 }
 
-/// The object and why: "object 7 (steady, inside 1)".
+/// The object and why: "object 7 (stable, inside 1)".
 std::string text_of(const SpectrumAdvice& advice) {
     std::string object = "object " + std::to_string(advice.object);
     if (advice.reason == IsovalueReason::inner) object = "the wall of cavity " + std::to_string(advice.cavity) + " of " + object;

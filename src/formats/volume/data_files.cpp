@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kWidestNumber = 18;
 
 /// The directive in a pattern: text[begin, end), padded to `width` with `fill`.
@@ -64,7 +64,7 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
         if (size - begin < bytes) return open_file_source(path, begin, bytes);  // reports what is missing
         return open_file_source(path, size - bytes, bytes);
     }
-    const std::int64_t offset = plan.skip > kMost - begin ? kMost : begin + std::max<std::int64_t>(0, plan.skip);
+    const std::int64_t offset = plan.skip > kMax - begin ? kMax : begin + std::max<std::int64_t>(0, plan.skip);
     if (plan.encoding == Encoding::raw) return open_file_source(path, offset);
     if (plan.encoding == Encoding::text) return open_text_source(open_file_source(path, offset), plan.type);
     std::unique_ptr<ByteSource> inflated = open_inflate_source(path, offset);

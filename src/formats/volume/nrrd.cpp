@@ -108,10 +108,10 @@ DataFiles data_files(const NrrdHeader& header) {
     return {.names = {value}, .pattern = {}};
 }
 
-std::int64_t skip_count(const NrrdHeader& header, const std::string& field, std::int64_t least) {
+std::int64_t skip_count(const NrrdHeader& header, const std::string& field, std::int64_t min) {
     if (!header.has(field)) return 0;
     const std::int64_t count = header.integers(field, 1)[0];
-    if (count < least) header.fail(ErrorKind::input, field, "is " + std::to_string(count), "at least " + std::to_string(least));
+    if (count < min) header.fail(ErrorKind::input, field, "is " + std::to_string(count), "at least " + std::to_string(min));
     return count;
 }
 

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMostAxes = 16;  // NRRD_DIM_MAX of the format
+constexpr std::size_t kMaxAxes = 16;  // NRRD_DIM_MAX of the format
 
 bool is_position(const std::string& kind) {
     static constexpr std::array<std::string_view, 6> kKinds = {"domain", "space", "time", "???", "none", ""};
@@ -29,7 +29,7 @@ std::vector<std::int64_t> axis_sizes(const NrrdHeader& header) {
     if (!header.has("dimension")) header.fail(ErrorKind::input, "dimension", "is missing", "the number of axes");
     if (!header.has("sizes")) header.fail(ErrorKind::input, "sizes", "is missing", "one size per axis");
     const std::int64_t dimension = header.integers("dimension", 1)[0];
-    if (dimension < 1 || dimension > static_cast<std::int64_t>(kMostAxes)) {
+    if (dimension < 1 || dimension > static_cast<std::int64_t>(kMaxAxes)) {
         header.fail(ErrorKind::input, "dimension", "is " + std::to_string(dimension), "1 to 16");
     }
     std::vector<std::int64_t> sizes = header.integers("sizes", static_cast<std::size_t>(dimension));

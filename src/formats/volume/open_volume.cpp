@@ -73,13 +73,13 @@ bool has_extension(const std::string& path, const Format& format) {
 
 /// Names the file of the same folder that a missing one was probably meant to be.
 [[noreturn]] void missing_file(const std::string& path) {
-    constexpr std::size_t kMostEntries = 10000, kFarthest = 2;
+    constexpr std::size_t kMaxEntries = 10000, kFarthest = 2;
     const std::filesystem::path whole(path);
     const std::string name = whole.filename().string();
     const std::string folder = whole.has_parent_path() ? whole.parent_path().string() : ".";
     std::string best;
     std::size_t best_distance = kFarthest + 1;
-    for (const std::string& entry : directory_entries(folder, kMostEntries)) {
+    for (const std::string& entry : directory_entries(folder, kMaxEntries)) {
         if (std::max(entry.size(), name.size()) - std::min(entry.size(), name.size()) > kFarthest) continue;
         const std::size_t distance = edit_distance(lower(name), lower(entry));
         if (distance < best_distance || (distance == best_distance && entry < best)) {

@@ -9,7 +9,7 @@ namespace isoatlas {
 
 namespace {
 
-constexpr std::int64_t kMostPages = std::int64_t{1} << 32;
+constexpr std::int64_t kMaxPages = std::int64_t{1} << 32;
 
 double positive_or_zero(std::string_view word) {
     const double value = parse_number(trim(word)).value_or(0);
@@ -18,7 +18,7 @@ double positive_or_zero(std::string_view word) {
 
 std::int64_t count_or(std::string_view word, std::int64_t missing) {
     const std::int64_t value = parse_integer(trim(word)).value_or(0);
-    return value >= 1 && value <= kMostPages ? value : missing;
+    return value >= 1 && value <= kMaxPages ? value : missing;
 }
 
 /// The short ASCII name of a length unit; inches are left to the caller.

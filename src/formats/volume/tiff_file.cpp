@@ -180,8 +180,8 @@ ValueType TiffFile::Handle::sample_type() const {
 }
 
 void TiffFile::Handle::check_page(const TiffPage& page) const {
-    const std::int64_t most = std::numeric_limits<std::int64_t>::max() / 16;
-    if (page.width > most / page.height) corrupt(next_page(), "its size does not fit in 63 bits");
+    const std::int64_t max = std::numeric_limits<std::int64_t>::max() / 16;
+    if (page.width > max / page.height) corrupt(next_page(), "its size does not fit in 63 bits");
     check_pieces(page);
     if (pages.empty() || page.same_shape(pages[0])) return;
     const auto shape = [](const TiffPage& p) { return std::to_string(p.width) + " x " + std::to_string(p.height) + " " + name_of(p.type); };
@@ -243,7 +243,7 @@ std::int64_t TiffFile::Handle::decoded_bytes(std::uint32_t piece, std::int64_t w
     const std::int64_t room = client.file->size() - offset;
     const auto bytes = static_cast<std::int64_t>(std::min(TIFFGetStrileByteCount(tiff, piece), static_cast<std::uint64_t>(room)));
     if (compression == COMPRESSION_DEFLATE || compression == COMPRESSION_ADOBE_DEFLATE) {
-        return inflated_bytes(client.path, offset, bytes, wanted + kMostRest);
+        return inflated_bytes(client.path, offset, bytes, wanted + kMaxRest);
     }
     if (compression != COMPRESSION_LZW && compression != COMPRESSION_PACKBITS) return wanted;
     packed.resize(static_cast<std::size_t>(bytes));
@@ -258,7 +258,7 @@ void TiffFile::Handle::check_piece(std::uint32_t piece, std::int64_t wanted, con
     throw Error(ErrorKind::input,
                 {.file = client.path,
                  .where = where,
-                 .what = "it decodes to " + std::to_string(found) + (found > wanted + kMostRest ? " bytes or more" : " bytes"),
+                 .what = "it decodes to " + std::to_string(found) + (found > wanted + kMaxRest ? " bytes or more" : " bytes"),
                  .expected = std::to_string(wanted) + " bytes",
                  .next = found > wanted ? "the file is damaged, or its program writes more than the pixels: then pass --skip-rest"
                                         : "the file is damaged or incomplete: copy or export it again"});

@@ -43,8 +43,8 @@ std::int64_t read_word(ByteSource& source, const VtkFile& file, const VtkArray& 
         std::memcpy(&narrow, raw.data(), 4);
         word = narrow;
     }
-    constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / 4096);
-    if (word > kMost) bad_array(file, array, "its header says " + std::to_string(word) + " bytes", "less than the file has");
+    constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / 4096);
+    if (word > kMax) bad_array(file, array, "its header says " + std::to_string(word) + " bytes", "less than the file has");
     return static_cast<std::int64_t>(word);
 }
 
@@ -58,9 +58,9 @@ public:
     }
     void read(std::span<std::byte> out) override { inner_->read(out); }
     void seek(std::int64_t offset) override { inner_->seek(offset_ + offset); }
-    std::int64_t payload_bytes(std::int64_t most) override {
-        if (!is_last_) return most < length_ ? most + 1 : length_;
-        const std::int64_t all = std::min(most, std::numeric_limits<std::int64_t>::max() - offset_ - 1) + offset_;
+    std::int64_t payload_bytes(std::int64_t max) override {
+        if (!is_last_) return max < length_ ? max + 1 : length_;
+        const std::int64_t all = std::min(max, std::numeric_limits<std::int64_t>::max() - offset_ - 1) + offset_;
         return std::max<std::int64_t>(inner_->payload_bytes(all) - offset_, 0);
     }
     bool random_access() const override { return inner_->random_access(); }
@@ -112,7 +112,7 @@ public:
         }
     }
     void seek(std::int64_t offset) override { position_ = offset; }
-    std::int64_t payload_bytes(std::int64_t most) override { return most < table_.bytes() ? most + 1 : table_.bytes(); }
+    std::int64_t payload_bytes(std::int64_t max) override { return max < table_.bytes() ? max + 1 : table_.bytes(); }
     bool random_access() const override { return inner_->random_access(); }
     std::int64_t size_bound() const override { return table_.bytes(); }
     const std::string& file() const override { return inner_->file(); }

@@ -185,7 +185,7 @@ void measure(const Surface& surface, EmbeddingTally& tally) {
         const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
         const std::array<double, 3> side{distance(a, b), distance(b, c), distance(c, a)};
         tally.shortest_edge = std::min(tally.shortest_edge, *std::ranges::min_element(side));
-        tally.least_height = std::min(tally.least_height, area / *std::ranges::max_element(side));
+        tally.min_height = std::min(tally.min_height, area / *std::ranges::max_element(side));
     }
 }
 
@@ -231,7 +231,7 @@ std::string EmbeddingTally::text() const {
         << " meshes, " << rounded_pairs << " pairs; too fine for float32 " << kept_double << "; oblique ones that cross after rounding "
         << oblique_crossed << " of " << oblique_meshes << "; open tunnels";
     for (std::size_t shape = 0; shape < tunnels.size(); ++shape) out << " " << kTunnelShapes[shape] << ": " << tunnels[shape];
-    if (shortest_edge < 1e300) out << "; shortest edge " << shortest_edge << ", least height " << least_height << " voxels";
+    if (shortest_edge < 1e300) out << "; shortest edge " << shortest_edge << ", least height " << min_height << " voxels";
     return out.str();
 }
 

@@ -19,7 +19,7 @@ struct EmbeddingTally {
     std::int64_t kept_double = 0;                          ///< meshes for which float32 is too coarse: PLY keeps float64
     std::int64_t oblique_meshes = 0, oblique_crossed = 0;  ///< rounded ones whose axes are not those of space; how many cross
     std::array<std::int64_t, 6> tunnels{};                 ///< open ones of each shape, per volume and isovalue
-    double shortest_edge = 1e300, least_height = 1e300;    ///< of the triangles, in voxels
+    double shortest_edge = 1e300, min_height = 1e300;      ///< of the triangles, in voxels
     [[nodiscard]] std::string text() const;
 };
 

@@ -20,7 +20,7 @@ std::int64_t resident() {
 
 TEST(BigVector, PiecesThatAreFreeBecomeOne) {
     constexpr std::size_t kPart = std::size_t{5} << 20;  // numbers of 8 bytes
-    return_big_memory();
+    trim_memory_pool();
     {
         std::vector<BigVector<std::int64_t>> parts;
         for (int i = 0; i < 4; ++i) parts.emplace_back(kPart, i);
@@ -35,7 +35,7 @@ TEST(BigVector, PiecesThatAreFreeBecomeOne) {
         EXPECT_EQ(parts[0][0], 1);
         EXPECT_EQ(parts[1].back(), 3);
     }
-    return_big_memory();
+    trim_memory_pool();
 }
 
 // Many sizes in turn, every number checked: pages must not be in two places.
@@ -52,7 +52,7 @@ TEST(BigVector, HoldsWhatIsWritten) {
         }
     }
     held.clear();
-    return_big_memory();
+    trim_memory_pool();
 }
 
 }  // namespace

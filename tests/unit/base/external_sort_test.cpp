@@ -43,7 +43,7 @@ protected:
 };
 
 TEST_P(ExternalSort, ChunksInAnyMemory) {
-    for (const std::int64_t limit : {std::int64_t{0}, kLeastMemory}) {
+    for (const std::int64_t limit : {std::int64_t{0}, kMinMemory}) {
         std::optional<MemoryLimit> holds;
         if (limit > 0) holds.emplace(limit, testing::TempDir());
         const std::vector<Item> all = items();
@@ -62,7 +62,7 @@ TEST_P(ExternalSort, ChunksInAnyMemory) {
 }
 
 TEST_P(ExternalSort, RunsOfAnyLength) {
-    const MemoryLimit limit(kLeastMemory, testing::TempDir());
+    const MemoryLimit limit(kMinMemory, testing::TempDir());
     for (const std::size_t length : {std::size_t{1000}, std::size_t{65537}, kItems}) {
         const std::vector<Item> all = items();
         BigVector<Item> array(all.begin(), all.end());

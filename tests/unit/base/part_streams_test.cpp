@@ -34,7 +34,7 @@ std::vector<std::uint32_t> turns_of(const std::vector<std::size_t>& first, std::
 class PartStreams : public testing::TestWithParam<bool> {
 protected:
     void SetUp() override {
-        if (GetParam()) limit_.emplace(kLeastMemory, testing::TempDir());
+        if (GetParam()) limit_.emplace(kMinMemory, testing::TempDir());
     }
     std::optional<MemoryLimit> limit_;
 };
@@ -67,7 +67,7 @@ TEST_P(PartStreams, EveryItemIsWhereItBelongs) {
 }
 
 TEST_P(PartStreams, SomeArraysStayInMemory) {
-    const KeepInMemory keep;
+    const PinInMemory keep;
     const BigVector<std::uint64_t> few(kItems);
     EXPECT_FALSE(is_scratch(few.data()));
     const BigVector<std::uint64_t> many(32 * kItems);

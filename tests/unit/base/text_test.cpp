@@ -71,7 +71,7 @@ TEST(Text, NamesKeepTheirBytesVisible) {
 TEST(Text, PrefixesCutNoCharacter) {
     const std::string text = "a\xc3\xa4\xe2\x82\xac\xf0\x9f\xa6\xb7";
     const std::vector<std::size_t> sizes = {0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10, 10};
-    for (std::size_t most = 0; most < sizes.size(); ++most) EXPECT_EQ(utf8_prefix(text, most).size(), sizes[most]) << most;
+    for (std::size_t max = 0; max < sizes.size(); ++max) EXPECT_EQ(utf8_prefix(text, max).size(), sizes[max]) << max;
 }
 
 TEST(Text, AnyBytesBecomeUtf8AndStayWhatTheyAreThen) {

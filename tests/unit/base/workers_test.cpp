@@ -10,28 +10,28 @@ namespace isoatlas {
 namespace {
 
 TEST(Workers, AsManyJobsAtATimeAsThereMayBeThreads) {
-    constexpr int most = 8;
-    std::latch together(most);
+    constexpr int max = 8;
+    std::latch together(max);
     std::atomic<int> done = 0;
-    Workers workers(most);
-    for (int i = 0; i < most; ++i) {
+    Workers workers(max);
+    for (int i = 0; i < max; ++i) {
         ASSERT_TRUE(workers.post([&] {
             together.arrive_and_wait();  // forever, if one of them had to wait for another
             ++done;
         }));
     }
     workers.wait();
-    EXPECT_EQ(done, most);
+    EXPECT_EQ(done, max);
 }
 
 TEST(Workers, AllJobsAreDoneInTheEnd) {
-    std::atomic<int> done = 0, running = 0, most = 0;
+    std::atomic<int> done = 0, running = 0, max = 0;
     {
         Workers workers(3);
         for (int i = 0; i < 1000; ++i) {
             ASSERT_TRUE(workers.post([&] {
                 const int now = ++running;
-                for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
+                for (int seen = max; seen < now && !max.compare_exchange_weak(seen, now);) {
                 }
                 --running;
                 ++done;
@@ -39,7 +39,7 @@ TEST(Workers, AllJobsAreDoneInTheEnd) {
         }
     }
     EXPECT_EQ(done, 1000);
-    EXPECT_LE(most, 3);
+    EXPECT_LE(max, 3);
 }
 
 }  // namespace

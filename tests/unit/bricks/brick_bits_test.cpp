@@ -18,13 +18,13 @@ void bits_are_those_of_samples(T low, T high) {
                                            *rc::gen::inRange<std::int64_t>(1, 9)};
     std::vector<T> samples(static_cast<std::size_t>(kBrickSamples));
     for (T& sample : samples) sample = *rc::gen::element(low, T{0}, T{1}, high);
-    const T least = *rc::gen::element(low, T{0}, T{1}, high);
-    const BrickBits bits = bits_of_brick(samples.data(), size, least);
+    const T min = *rc::gen::element(low, T{0}, T{1}, high);
+    const BrickBits bits = bits_of_brick(samples.data(), size, min);
     for (std::int64_t z = 0; z < 8; ++z) {
         for (std::int64_t y = 0; y < 8; ++y) {
             for (std::int64_t x = 0; x < 16; ++x) {
                 const bool inside = x < size[0] && y < size[1] && z < size[2];
-                const bool expected = inside && samples[static_cast<std::size_t>(x + 16 * (y + 8 * z))] >= least;
+                const bool expected = inside && samples[static_cast<std::size_t>(x + 16 * (y + 8 * z))] >= min;
                 RC_ASSERT((bits[static_cast<std::size_t>(y + 8 * z)] >> x & 1) == int{expected});
             }
         }
@@ -90,7 +90,7 @@ RC_GTEST_PROP(BricksBesideASurface, HaveAnotherClassAmongWhatMatters, ()) {
     const Scene scene = arbitrary_scene();
     HighBits high(scene.grid.extent);
     LevelBricks bricks{scene.grid, std::vector<BrickClass>(static_cast<std::size_t>(scene.grid.count())), {}, {}};
-    std::vector<BrickSides> sides(bricks.classes.size());
+    std::vector<BrickFaces> sides(bricks.classes.size());
     for (std::int64_t b = 0; b < scene.grid.count(); ++b) {
         const Box box = scene.grid.box(b);
         BrickBits bits{};

@@ -38,8 +38,8 @@ RC_GTEST_PROP(CountColumns, HoldWhatTheyCover, ()) {
         for (const SpectrumInterval& interval : intervals) {
             if (interval.high > column.low && interval.low < column.high) inside.push_back(interval.all.tunnels);
         }
-        RC_ASSERT(column.least.tunnels == std::ranges::min(inside));
-        RC_ASSERT(column.most.tunnels == std::ranges::max(inside));
+        RC_ASSERT(column.min.tunnels == std::ranges::min(inside));
+        RC_ASSERT(column.max.tunnels == std::ranges::max(inside));
     }
 }
 
@@ -48,7 +48,7 @@ TEST(CountColumns, AreTheIntervalsWhenTheseAreFew) {
     const std::vector<CountColumn> columns = count_columns(intervals, 0, {0, 3, 0}, 2);
     ASSERT_EQ(columns.size(), 2U);  // what is the same is joined
     EXPECT_EQ(columns[0].high, 1);
-    EXPECT_EQ(columns[1].most.objects, 1);
+    EXPECT_EQ(columns[1].max.objects, 1);
     EXPECT_TRUE(count_columns({}, 0, {0, 3, 0}, 2).empty());
     EXPECT_TRUE(count_columns(intervals, 5, {5, 5, 0}, 2).empty());
 }

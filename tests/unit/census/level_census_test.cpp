@@ -11,7 +11,7 @@ namespace {
 
 using isoatlas::Bounds;
 
-bool lies_in(Index number, const Bounds& bounds) { return bounds.least <= number && number <= bounds.most; }
+bool lies_in(Index number, const Bounds& bounds) { return bounds.min <= number && number <= bounds.max; }
 
 RC_GTEST_PROP(Census, BoundsWhatACutFinds, ()) {
     const Grid grid = *arbitrary_grid(9, 400);
@@ -29,9 +29,9 @@ RC_GTEST_PROP(Census, BoundsWhatACutFinds, ()) {
         RC_ASSERT(lies_in(cut.active_cells, counts.cells));
         const bool all_values = whole && census.value.back() - census.value.front() == static_cast<double>(census.value.size() - 1);
         if (!all_values && !std::binary_search(census.value.begin(), census.value.end(), tau)) continue;
-        RC_ASSERT(counts.samples.least == counts.samples.most);
-        RC_ASSERT(counts.hits.least == counts.hits.most);
-        RC_ASSERT(counts.cells.least == counts.cells.most);
+        RC_ASSERT(counts.samples.min == counts.samples.max);
+        RC_ASSERT(counts.hits.min == counts.hits.max);
+        RC_ASSERT(counts.cells.min == counts.cells.max);
     }
 }
 
@@ -42,7 +42,7 @@ TEST(Census, HoldsAtTheEndsOfEveryType) {
         EXPECT_EQ(census.value.front(), *std::min_element(values.begin(), values.end()));
         EXPECT_EQ(census.value.back(), *std::max_element(values.begin(), values.end()));
         EXPECT_EQ(census.samples.front(), 3U);
-        EXPECT_EQ(census.at(census.value.back(), false).samples.most, 1);
+        EXPECT_EQ(census.at(census.value.back(), false).samples.max, 1);
     };
     check({-1.7e308, 0, 1.7e308});
     check({1, std::nextafter(1.0, 2.0), 0.5});

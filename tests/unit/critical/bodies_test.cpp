@@ -249,15 +249,15 @@ TEST(Tunnels, SixShapesUpToSymmetry) {
                 const auto joined_class = static_cast<unsigned>(joins_highs ? pattern : ~pattern & 255);
                 ASSERT_EQ((shape.a | shape.b) & ~joined_class, 0U);
                 ASSERT_EQ(shape.ring & joined_class, 0U);
-                std::array<unsigned, 3> least{256, 256, 256};
+                std::array<unsigned, 3> min{256, 256, 256};
                 std::array<int, 3> axes{0, 1, 2};
                 do {
                     for (int mirrored = 0; mirrored < 8; ++mirrored) {
                         const unsigned a = image(shape.a, axes, mirrored), b = image(shape.b, axes, mirrored);
-                        least = std::min(least, {std::min(a, b), std::max(a, b), image(shape.ring, axes, mirrored)});
+                        min = std::min(min, {std::min(a, b), std::max(a, b), image(shape.ring, axes, mirrored)});
                     }
                 } while (std::next_permutation(axes.begin(), axes.end()));
-                shapes.insert(least);
+                shapes.insert(min);
             }
         }
     }

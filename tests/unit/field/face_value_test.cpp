@@ -89,7 +89,7 @@ TEST_F(FaceValues, AsLargeAsDoublesGet) {
 
 // Vectors of the processor give what one face alone gives.
 TEST_F(FaceValues, FoundTogetherAreTheSame) {
-    for (std::size_t count = 0; count <= FaceBatch::kMost; count = 2 * count + 1 + below(3)) {
+    for (std::size_t count = 0; count <= FaceBatch::kMax; count = 2 * count + 1 + below(3)) {
         FaceBatch batch;
         std::vector<double> expected;
         while (batch.count() < count) {
@@ -104,7 +104,7 @@ TEST_F(FaceValues, FoundTogetherAreTheSame) {
             batch.add(v[is_first ? 0 : 1], v[is_first ? 1 : 0], v[3], v[2]);
             expected.push_back(rounded_face_value(FaceCorners(v[3], v[0], v[2], v[1], Diagonal::ac)));
         }
-        std::array<double, FaceBatch::kMost> found{};
+        std::array<double, FaceBatch::kMax> found{};
         rounded_face_values(batch, found);
         for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(found[i], expected[i]) << i << " of " << count;
     }

@@ -14,7 +14,7 @@ void expect_same_comparisons(const std::vector<T>& values, const std::vector<dou
     for (const double tau : taus) {
         const Threshold<T> threshold = threshold_for<T>(tau);
         for (const T value : values) {
-            EXPECT_EQ(!threshold.none_high && value >= threshold.least, static_cast<double>(value) >= tau) << +value << " at " << tau;
+            EXPECT_EQ(!threshold.none_high && value >= threshold.min, static_cast<double>(value) >= tau) << +value << " at " << tau;
         }
     }
 }

@@ -19,7 +19,7 @@ std::set<int> regions_of(const std::array<std::uint8_t, 8>& region, bool high) {
 }
 
 TEST(CellLoops, AreTheWallsBetweenTheRegionsOfEveryCase) {
-    int most = 0;
+    int max = 0;
     for (int number = 0; number < kCellCases; ++number) {
         const int pattern = cell_cases().pattern_of[number], joined = cell_cases().joined_of[number];
         const CellLoops& loops = cell_cases().loops[number];
@@ -29,7 +29,7 @@ TEST(CellLoops, AreTheWallsBetweenTheRegionsOfEveryCase) {
             continue;
         }
         EXPECT_EQ(loops.count + 1, regions_of(region, true).size() + regions_of(region, false).size()) << pattern << " " << joined;
-        most = std::max<int>(most, loops.count);
+        max = std::max<int>(max, loops.count);
         std::set<std::pair<int, int>> pairs;
         std::set<int> hits;
         for (int loop = 0; loop < loops.count; ++loop) {
@@ -50,7 +50,7 @@ TEST(CellLoops, AreTheWallsBetweenTheRegionsOfEveryCase) {
         for (const int e : hits) mask |= 1 << e;
         EXPECT_EQ(mask, cell_cases().hit_edges[pattern]);
     }
-    EXPECT_EQ(most, 4);
+    EXPECT_EQ(max, 4);
 }
 
 TEST(CellLoops, JoinedBitsOfOtherFacesDoNotMatter) {

@@ -32,15 +32,15 @@ Integer side(const Point& a, const Point& b, const Point& c, const Point& d) {
 
 /// Least and greatest value of something over all corners of the cube of parameters.
 struct Range {
-    Integer least = 0, greatest = 0;
+    Integer min = 0, greatest = 0;
     bool is_new = true;
     void add(Integer value) {
-        least = is_new ? value : std::min(least, value);
+        min = is_new ? value : std::min(min, value);
         greatest = is_new ? value : std::max(greatest, value);
         is_new = false;
     }
-    [[nodiscard]] bool is_positive_inside() const { return least >= 0 && greatest > 0; }
-    [[nodiscard]] bool is_negative_inside() const { return greatest <= 0 && least < 0; }
+    [[nodiscard]] bool is_positive_inside() const { return min >= 0 && greatest > 0; }
+    [[nodiscard]] bool is_negative_inside() const { return greatest <= 0 && min < 0; }
 };
 
 /// The six points of two triangles of different loops, as their hits move.
@@ -121,16 +121,16 @@ private:
 
     /// Range of normal * x for a point.
     [[nodiscard]] Range range_of(const std::vector<int>& mean_of, const Point& normal) const {
-        Integer least = 0, greatest = 0;
+        Integer min = 0, greatest = 0;
         for (const int hit : mean_of) {
             std::array<Integer, 2> ends{};
             for (int end = 0; end < 2; ++end) {
                 for (int axis = 0; axis < 3; ++axis) ends[end] += normal[axis] * (kEdgeCorners[hit][end] >> axis & 1);
             }
-            least += std::min(ends[0], ends[1]) * kUnit / std::ssize(mean_of);
+            min += std::min(ends[0], ends[1]) * kUnit / std::ssize(mean_of);
             greatest += std::max(ends[0], ends[1]) * kUnit / std::ssize(mean_of);
         }
-        return {least, greatest, false};
+        return {min, greatest, false};
     }
 
     /// Is the first triangle always below the other along the normal? Both ends of a range are reached at corners only, unless it is a
@@ -139,8 +139,8 @@ private:
         for (std::size_t i = 0; i < 6; i += 2) {
             for (std::size_t j = 1; j < 6; j += 2) {
                 const Range below = range_of(points_[i], normal), above = range_of(points_[j], normal);
-                const bool neither_moves = below.least == below.greatest && above.least == above.greatest;
-                if (below.greatest > above.least || (below.greatest == above.least && neither_moves)) return false;
+                const bool neither_moves = below.min == below.greatest && above.min == above.greatest;
+                if (below.greatest > above.min || (below.greatest == above.min && neither_moves)) return false;
             }
         }
         return true;

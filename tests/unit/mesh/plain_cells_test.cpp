@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "mesh/cells_avx512.h"
 #include "mesh/hit_batch.h"
-#include "mesh/wide_cells.h"
 
 namespace isoatlas {
 namespace {
 
-#if ISOATLAS_HAS_WIDE_512
+#if ISOATLAS_HAS_AVX512
 
 /// Samples of rows that lie around one row of cells: mostly like the one before them.
 HighBits arbitrary_bits(std::int64_t length) {
@@ -35,7 +35,7 @@ using Triangles = std::vector<std::array<std::int64_t, 3>>;
 using Calls = std::vector<std::vector<std::int64_t>>;
 
 RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
-    if (!kHasWide512) return;
+    if (!kHasAvx512) return;
     const std::int64_t length = *rc::gen::inRange<std::int64_t>(2, 300);
     const HighBits high = arbitrary_bits(length);
     const bool tunnels = *rc::gen::arbitrary<bool>(), flip = *rc::gen::arbitrary<bool>(), closed = *rc::gen::arbitrary<bool>();
@@ -43,10 +43,10 @@ RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
     const CellWindow window = closed ? CellWindow::all(length) : CellWindow::real(length);
     const CellRow<4> rows = cell_row(high, 0, 0);
 
-    RowPlace plain{}, wide{};
+    RowOffsets plain{}, wide{};
     Calls plain_calls, wide_calls;
     count_plain(rows, window, cells, plain, [&](std::int64_t p, int pattern) { plain_calls.push_back({p, pattern}); });
-    count_wide(rows, window, cells, wide, [&](std::int64_t p, int pattern) { wide_calls.push_back({p, pattern}); });
+    count_avx512(rows, window, cells, wide, [&](std::int64_t p, int pattern) { wide_calls.push_back({p, pattern}); });
     RC_ASSERT(std::tie(plain.triangle, plain.x_hits, plain.y_hits, plain.z_hits, plain.hit_words, plain.cell_words) ==
               std::tie(wide.triangle, wide.x_hits, wide.y_hits, wide.z_hits, wide.hit_words, wide.cell_words));
     RC_ASSERT(plain_calls == wide_calls);
@@ -69,7 +69,7 @@ RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
     const auto with_loops =
         written([&](auto* begin, auto* end, const auto& rest) { write_plain(rows, window, cells, first, begin, end, rest); });
     const auto with_vectors =
-        written([&](auto* begin, auto* end, const auto& rest) { write_wide(rows, window, cells, first, begin, end, rest); });
+        written([&](auto* begin, auto* end, const auto& rest) { write_avx512(rows, window, cells, first, begin, end, rest); });
     RC_ASSERT(with_loops.first == with_vectors.first);
     RC_ASSERT(with_loops.second == with_vectors.second);
     RC_ASSERT(with_loops.first.back() == (std::array<std::int64_t, 3>{-1, -1, -1}));
@@ -77,10 +77,10 @@ RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
 
 // Rows that are all the same but for one of them, from one place on: wherever words meet.
 TEST(PlainCells, AreCountedWhereOneRowChanges) {
-    if (!kHasWide512) return;
+    if (!kHasAvx512) return;
     const PlainCells cells(SurfaceStyle::compact, false, false);
     const auto counted = [&](const HighBits& high, const auto& count) {
-        RowPlace place{};
+        RowOffsets place{};
         std::int64_t others = 0;
         count(cell_row(high, 0, 0), CellWindow::all(high.extent().size[0]), cells, place, [&](std::int64_t, int) { ++others; });
         return std::array<std::uint64_t, 7>{
@@ -97,7 +97,7 @@ TEST(PlainCells, AreCountedWhereOneRowChanges) {
                         high.row(row % 2, row / 2)[(x + 1) / 64] |= std::uint64_t{is_high} << (x + 1) % 64;
                     }
                 }
-                EXPECT_EQ(counted(high, [](auto&&... of) { count_plain(of...); }), counted(high, [](auto&&... of) { count_wide(of...); }))
+                EXPECT_EQ(counted(high, [](auto&&... of) { count_plain(of...); }), counted(high, [](auto&&... of) { count_avx512(of...); }))
                     << "row " << changed << " of " << length << " from " << from;
             }
         }
@@ -105,7 +105,7 @@ TEST(PlainCells, AreCountedWhereOneRowChanges) {
 }
 
 RC_GTEST_PROP(HitBatch, IsTheSameWithWideVectors, ()) {
-    if (!kHasWide512) return;
+    if (!kHasAvx512) return;
     HitBatch plain, wide;
     const auto words = *rc::gen::container<std::vector<std::uint64_t>>(rc::gen::arbitrary<std::uint64_t>());
     std::int64_t point = 0;

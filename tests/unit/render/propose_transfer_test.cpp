@@ -35,16 +35,16 @@ ObjectTable any_table() {
             table.isovalues.push_back({.branch_top = table.entries.back().branch_top,
                                        .tau = static_cast<double>(*rc::gen::inRange(10, 1000)),
                                        .prominence = 1,
-                                       .reason = IsovalueReason::steady});
+                                       .reason = IsovalueReason::stable});
         }
     }
     return table;
 }
 
 /// The bumps of one isovalue: a skin, and maybe a body.
-std::vector<std::vector<TransferBump>> by_isovalue(const std::vector<TransferBump>& bumps) {
-    std::vector<std::vector<TransferBump>> groups;
-    for (const TransferBump& bump : bumps) {
+std::vector<std::vector<OpacityTent>> by_isovalue(const std::vector<OpacityTent>& bumps) {
+    std::vector<std::vector<OpacityTent>> groups;
+    for (const OpacityTent& bump : bumps) {
         if (groups.empty() || groups.back()[0].tau != bump.tau) groups.emplace_back();
         groups.back().push_back(bump);
     }
@@ -57,7 +57,7 @@ RC_GTEST_PROP(ProposedTransfer, SkinsAscendAndTheLastOneIsSolid, ()) {
     RC_ASSERT(groups.empty() == table.entries.empty());
     std::set<std::array<double, 3>> colours;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        const TransferBump& skin = groups[i][0];
+        const OpacityTent& skin = groups[i][0];
         RC_ASSERT(skin.low < skin.tau && skin.tau < skin.high && skin.low > skin.tau - kSkin / 2);
         RC_ASSERT(skin.ramp >= 0 && skin.ramp <= 0.5);
         RC_ASSERT(colours.insert({skin.colour.red, skin.colour.green, skin.colour.blue}).second);
@@ -75,7 +75,7 @@ RC_GTEST_PROP(ProposedTransfer, BodiesReachToWhatComesNext, ()) {
     for (const auto& group : by_isovalue(propose_transfer(table, info_of(1000), kRange))) {
         RC_ASSERT(group.size() <= 2);
         if (group.size() == 1) continue;
-        const TransferBump &skin = group[0], &body = group[1];
+        const OpacityTent &skin = group[0], &body = group[1];
         RC_ASSERT(body.low == skin.low && body.high > skin.high && body.colour == skin.colour && body.density <= skin.density);
         double next = kRange[1];
         for (const ObjectEntry& other : table.entries) {
@@ -95,7 +95,7 @@ TEST(ProposedTransfer, BackgroundOnlyIfThereIsNothingElse) {
     EXPECT_EQ(propose_transfer(table, info_of(1000), kRange).size(), 1U);
     EXPECT_TRUE(is_background(table.entries[0], info_of(1000).extent));
     table.entries.push_back(entry_at(600, 900, 200));
-    const std::vector<TransferBump> bumps = propose_transfer(table, info_of(1000), kRange);
+    const std::vector<OpacityTent> bumps = propose_transfer(table, info_of(1000), kRange);
     ASSERT_EQ(bumps.size(), 1U);
     EXPECT_EQ(bumps[0].tau, 600);
     // An outline of less shows something; what fills the volume and is no outline does too.
@@ -108,7 +108,7 @@ TEST(ProposedTransfer, BackgroundOnlyIfThereIsNothingElse) {
 TEST(ProposedTransfer, ARoomBetweenTwoIsovaluesHasThinMatter) {
     ObjectTable table;
     table.entries = {entry_at(200, 900, 8000), entry_at(700, 900, 100)};
-    const std::vector<TransferBump> bumps = propose_transfer(table, info_of(100000), kRange);
+    const std::vector<OpacityTent> bumps = propose_transfer(table, info_of(100000), kRange);
     ASSERT_EQ(bumps.size(), 3U);
     EXPECT_EQ(bumps[1].high, 700);
     EXPECT_DOUBLE_EQ(bumps[1].density * 20, 0.5);  // across a cube of 8000

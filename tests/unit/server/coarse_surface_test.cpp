@@ -13,10 +13,10 @@ namespace {
 TEST(CoarseSurface, HasAtMostSoManyTriangles) {
     const Surface whole = extract(make_phantom("torus-chain", {.size = 32}), 0.5);
     ASSERT_GT(whole.triangles.size(), 2000U);
-    for (const std::size_t most : {1000, 100}) {
-        const Surface coarse = coarse_surface(whole, most);
-        EXPECT_LE(coarse.triangles.size(), most);
-        EXPECT_GT(coarse.triangles.size(), most / 8);
+    for (const std::size_t max : {1000, 100}) {
+        const Surface coarse = coarse_surface(whole, max);
+        EXPECT_LE(coarse.triangles.size(), max);
+        EXPECT_GT(coarse.triangles.size(), max / 8);
         EXPECT_EQ(coarse.points.size(), coarse.normals.size());
         const auto points = static_cast<std::int64_t>(whole.points.size());
         for (const auto& triangle : coarse.triangles) {

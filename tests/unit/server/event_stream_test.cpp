@@ -1,4 +1,4 @@
-// Who listens hears every state, the last one at least; who stops listening has no questions any more.
+// Who listens hears every state, the last one at least; who stops listening has no requests any more.
 #include "server/event_stream.h"
 
 #include <gtest/gtest.h>
@@ -23,22 +23,22 @@ protected:
         }
     }
 
-    Changes changes_;
-    Opening opening_{changes_};
-    Lines lines_{changes_};
-    EventStreams streams_{opening_, lines_, changes_};
+    VersionCounter changes_;
+    StoreState store_state_{changes_};
+    JobQueues queues_{changes_};
+    EventStreams streams_{store_state_, queues_, changes_};
 };
 
 TEST_F(EventStreamTest, TellsOfTheBuild) {
     const auto stream = streams_.listen("", {});
     EXPECT_EQ(next(*stream)["state"], "building");
-    opening_.tell({.phase = "trees", .phase_index = 3, .phase_count = 8, .fraction = 0.25, .seconds_left = 12});
+    store_state_.report_progress({.phase = "trees", .phase_index = 3, .phase_count = 8, .fraction = 0.25, .seconds_left = 12});
     const nlohmann::json build = next(*stream)["build"];
     EXPECT_EQ(build["phase"], "trees");
     EXPECT_EQ(build["fraction"], 0.25);
     EXPECT_EQ(build["seconds_left"], 12);
     EXPECT_TRUE(build["voxels_per_second"].is_null());
-    opening_.fail(Error(ErrorKind::resource, {.what = "the disk is full", .next = "make room"}));
+    store_state_.fail(Error(ErrorKind::resource, {.what = "the disk is full", .next = "make room"}));
     const nlohmann::json failed = next(*stream);
     EXPECT_EQ(failed["state"], "failed");
     EXPECT_EQ(failed["error"]["next"], "make room");
@@ -47,31 +47,31 @@ TEST_F(EventStreamTest, TellsOfTheBuild) {
 TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
     const auto stream = streams_.listen("me", {});
     EXPECT_TRUE(next(*stream)["questions"].empty());
-    Turns& cards = lines_.of(Line::cards);
+    JobQueue& cards = queues_.of(QueueClass::cards);
     const auto other = cards.take("you/card");
-    const auto slice = lines_.of(Line::samples).take("me/slice");
+    const auto slice = queues_.of(QueueClass::samples).take("me/slice");
     std::thread asker([&] { EXPECT_THROW((void)cards.take("me/card"), Error); });
     while (cards.waiting() < 1) std::this_thread::yield();
-    nlohmann::json questions;
-    while (questions.size() < 2) questions = next(*stream)["questions"];
-    EXPECT_EQ(questions[0]["client"], "me/slice");
-    EXPECT_EQ(questions[0]["line"], "samples");
-    EXPECT_EQ(questions[0]["place"], 0);
-    EXPECT_EQ(questions[1]["client"], "me/card");
-    EXPECT_EQ(questions[1]["line"], "cards");
-    EXPECT_EQ(questions[1]["place"], 1);
-    lines_.leave("me");
-    EXPECT_TRUE(slice->is_over());
+    nlohmann::json requests;
+    while (requests.size() < 2) requests = next(*stream)["questions"];
+    EXPECT_EQ(requests[0]["client"], "me/slice");
+    EXPECT_EQ(requests[0]["line"], "samples");
+    EXPECT_EQ(requests[0]["place"], 0);
+    EXPECT_EQ(requests[1]["client"], "me/card");
+    EXPECT_EQ(requests[1]["line"], "cards");
+    EXPECT_EQ(requests[1]["place"], 1);
+    queues_.leave("me");
+    EXPECT_TRUE(slice->is_cancelled());
     asker.join();
 }
 
 TEST_F(EventStreamTest, TheLastStreamOfAClientTakesItsQuestionsAlong) {
     auto first = streams_.listen("me", {}), second = streams_.listen("me", {});
-    const auto turn = lines_.of(Line::trees).take("me/objects");
+    const auto job = queues_.of(QueueClass::trees).take("me/objects");
     first.reset();
-    EXPECT_FALSE(turn->is_over());
+    EXPECT_FALSE(job->is_cancelled());
     second.reset();
-    EXPECT_TRUE(turn->is_over());
+    EXPECT_TRUE(job->is_cancelled());
 }
 
 TEST_F(EventStreamTest, EndsWithTheServerOrTheClient) {

@@ -42,7 +42,7 @@ ErrorKind kind_of(const auto& call) {
 
 TEST_F(HttpTest, AnswersAndRefusals) {
     const std::string address = with_token(server_.token());
-    const ServerAnswer answer = ask_server(address, "/api/objects?tau=0.5");
+    const ServerResponse answer = ask_server(address, "/api/objects?tau=0.5");
     EXPECT_EQ(answer.type, "application/json");
     EXPECT_TRUE(answer.bytes.starts_with("{\"schema\"")) << answer.bytes.substr(0, 40);
     EXPECT_EQ(ask_server(address, "/api/surface?tau=0.5").bytes.substr(0, 4), "iam1");

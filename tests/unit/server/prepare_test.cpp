@@ -22,11 +22,11 @@ TEST_F(ServiceTest, WhatAllAskForIsFoundOnce) {
 
 TEST_F(ServiceTest, WhatIsPreparedIsThere) {
     service_->prepare({});
-    left_ = [] { return true; };
+    is_disconnected_ = [] { return true; };
     EXPECT_EQ(ask("/api/atlas").status, 200);  // nothing to wait for
     Service other("secret", {});
     EXPECT_THROW(other.prepare({}), Error);
-    other.opening().open(*atlas_);
+    other.store_state().open(*atlas_);
     Context stopped;
     stopped.cancelled = [] { return true; };
     EXPECT_THROW(other.prepare(stopped), Error);
@@ -35,13 +35,12 @@ TEST_F(ServiceTest, WhatIsPreparedIsThere) {
 
 TEST_F(ServiceTest, TheFirstSurfaceIsPrepared) {
     const auto first = nlohmann::json::parse(ask("/api/atlas").bytes)["entries"][0];
-    const auto surface = [&](Service& service, const char* most) {
-        return service
-            .answer({"/api/surface", {{"object", first["id"].dump()}, {"tau", first["tau"].dump()}, {"most", most}}, "secret", ""})
+    const auto surface = [&](Service& service, const char* max) {
+        return service.answer({"/api/surface", {{"object", first["id"].dump()}, {"tau", first["tau"].dump()}, {"most", max}}, "secret", ""})
             .bytes;
     };
     Service prepared("secret", {});
-    prepared.opening().open(*atlas_);
+    prepared.store_state().open(*atlas_);
     prepared.prepare({});
     atlas_->clear_cache();
     const std::int64_t bricks = atlas_->reads().bricks;

@@ -20,16 +20,16 @@ protected:
         build_atlas(path_, make_phantom("torus-chain", {.size = 24}));
         atlas_.emplace(path_);
         service_.emplace("secret", Context{});
-        service_->opening().open(*atlas_);
+        service_->store_state().open(*atlas_);
     }
 
-    Answer ask(const std::string& path, std::multimap<std::string, std::string> words = {}, const std::string& token = "secret") {
-        return service_->answer({path, std::move(words), token, "test", left_});
+    Response ask(const std::string& path, std::multimap<std::string, std::string> words = {}, const std::string& token = "secret") {
+        return service_->answer({path, std::move(words), token, "test", is_disconnected_});
     }
 
     std::optional<Atlas> atlas_;
     std::optional<Service> service_;
-    Left left_;
+    IsDisconnected is_disconnected_;
 };
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Any question gets an answer: what was asked for, or a refusal that says why.
+// Any request gets an answer: what was asked for, or a refusal that says why.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
     };
     EXPECT_EQ(of(id)["object"], objects["objects"][0]);
     EXPECT_TRUE(of(id == 0 ? 1 : id - 1)["object"].is_null());
-    const Answer surface = ask("/api/surface", {{"tau", std::to_string(tau)}});
+    const Response surface = ask("/api/surface", {{"tau", std::to_string(tau)}});
     ASSERT_EQ(surface.status, 200);
     EXPECT_EQ(surface.headers.at("X-Triangles"), std::to_string(atlas_->extract(tau).triangles.size()));
     std::size_t parts = 0;
@@ -50,7 +50,7 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
         ExtractOptions options;
         options.shell = choice;
         const std::size_t triangles = atlas_->extract(tau, options).triangles.size();
-        const Answer part = ask("/api/surface", {{"tau", std::to_string(tau)}, {"shell", shell}});
+        const Response part = ask("/api/surface", {{"tau", std::to_string(tau)}, {"shell", shell}});
         EXPECT_EQ(part.headers.at("X-Triangles"), std::to_string(triangles)) << shell;
         parts += triangles;
     }
@@ -89,7 +89,7 @@ TEST_F(ServiceTest, BranchesAreChosenAsOnTheCommandLine) {
     for (const double height : {0.0, 0.1, 0.5, 2.0}) {
         const auto json =
             nlohmann::json::parse(ask("/api/branches", {{"persistence", std::to_string(height)}, {"min-voxels", "5"}, {"top", "3"}}).bytes);
-        const auto kept = hierarchy.kept({.least_voxels = 5, .least_persistence = height});
+        const auto kept = hierarchy.kept({.min_voxels = 5, .min_persistence = height});
         EXPECT_EQ(json["kept"], kept.size());
         ASSERT_EQ(json["rank"].size(), std::min<std::size_t>(kept.size(), 3));
         for (std::size_t i = 0; i < json["rank"].size(); ++i) EXPECT_EQ(json["rank"][i], kept[i]);
@@ -98,7 +98,7 @@ TEST_F(ServiceTest, BranchesAreChosenAsOnTheCommandLine) {
 
 TEST_F(ServiceTest, CardsAreDrawnOnce) {
     for (const char* of : {"entry", "branch"}) {
-        const Answer first = ask("/api/card", {{of, "0"}, {"frames", "2"}});
+        const Response first = ask("/api/card", {{of, "0"}, {"frames", "2"}});
         ASSERT_EQ(first.status, 200) << first.bytes;
         const auto json = nlohmann::json::parse(first.bytes);
         EXPECT_EQ(json["of"], std::string(of) + " 0");
@@ -151,7 +151,7 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api", {}, 404},
                                   {"", {}, 404}};
     for (const Case& c : cases) {
-        const Answer answer = ask(c.path, c.words);
+        const Response answer = ask(c.path, c.words);
         EXPECT_EQ(answer.status, c.status) << c.path << " " << answer.bytes;
         const auto json = nlohmann::json::parse(answer.bytes);
         EXPECT_FALSE(json["error"]["message"].get<std::string>().empty());
@@ -159,7 +159,7 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
 }
 
 TEST_F(ServiceTest, SlicesAreSamples) {
-    const Answer answer = ask("/api/slice", {{"axis", "1"}, {"index", "5"}});
+    const Response answer = ask("/api/slice", {{"axis", "1"}, {"index", "5"}});
     ASSERT_EQ(answer.status, 200) << answer.bytes;
     const Volume volume = atlas_->volume();
     const auto [nx, ny, nz] = volume.info.extent.size;
@@ -177,7 +177,7 @@ TEST_F(ServiceTest, SlicesAreSamples) {
 }
 
 TEST_F(ServiceTest, VolumesAreMeansInABytePerValue) {
-    const Answer answer = ask("/api/volume", {{"most", "2500"}});
+    const Response answer = ask("/api/volume", {{"most", "2500"}});
     const CoarseVolume coarse = atlas_->coarse(2500);
     ASSERT_EQ(answer.bytes.size(), 40 + coarse.mean.size());
     const auto [low, high] = atlas_->range();
@@ -226,7 +226,7 @@ TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
     for (int i = 0; i < 2000; ++i) {
         std::multimap<std::string, std::string> words;
         for (unsigned k = random() % 4; k > 0; --k) words.emplace(names[random() % names.size()], values[random() % values.size()]);
-        const Answer answer = ask(paths[random() % paths.size()], words);
+        const Response answer = ask(paths[random() % paths.size()], words);
         EXPECT_TRUE(answer.status == 200 || answer.status == 400 || answer.status == 404 || answer.status == 500) << answer.status;
         EXPECT_EQ(answer.bytes.find("a bug"), std::string::npos) << answer.bytes;
     }
@@ -237,7 +237,7 @@ TEST_F(ServiceTest, LabelsAreThoseOfTheCommandLine) {
     ASSERT_GE(cut.objects.size(), 1U);
     const std::string file = path_ + ".nrrd";
     write_labels(file, atlas_->info(), object_labels(cut), {.interpolant = cut.interpolant, .tau = cut.tau});
-    const Answer all = ask("/api/label", {{"tau", "0.5"}, {"format", "nrrd"}});
+    const Response all = ask("/api/label", {{"tau", "0.5"}, {"format", "nrrd"}});
     ASSERT_EQ(all.status, 200) << all.bytes;
     std::ifstream stream(file, std::ios::binary);
     EXPECT_EQ(all.bytes, std::string(std::istreambuf_iterator<char>(stream), {}));
@@ -275,24 +275,24 @@ TEST_F(ServiceTest, WithoutAStoreItSaysHowFarItIs) {
     const auto status = [&](const char* path) { return service.answer({path, {{"tau", "0.5"}}, "secret", ""}).status; };
     for (const char* path : {"/api/preview", "/api/objects", "/api/surface", "/api/label", "/api/measures"})
         EXPECT_EQ(status(path), 503) << path;
-    service.opening().fail(Error(ErrorKind::input, {.what = "no such volume", .next = "find it"}));
+    service.store_state().fail(Error(ErrorKind::input, {.what = "no such volume", .next = "find it"}));
     EXPECT_EQ(status("/api/preview"), 500);
-    service.opening().open(*atlas_);
+    service.store_state().open(*atlas_);
     EXPECT_EQ(status("/api/preview"), 200);
 }
 
 TEST_F(ServiceTest, AnExtractionEndsWhenWhoAskedHasLeft) {
     int asked = 0;
-    left_ = [&asked] { return ++asked > 1; };  // there while it waits, gone at the first slab
+    is_disconnected_ = [&asked] { return ++asked > 1; };  // there while it waits, gone at the first slab
     EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 409);
     EXPECT_LE(asked, 3);
-    left_ = {};
+    is_disconnected_ = {};
     EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}}).status, 200);
 }
 
 TEST_F(ServiceTest, AnyAnswerIsGivenUpWhenWhoAskedHasLeft) {
     const std::string id = std::to_string(atlas_->objects().entries[0].id);
-    const std::vector<std::pair<std::string, std::multimap<std::string, std::string>>> questions{
+    const std::vector<std::pair<std::string, std::multimap<std::string, std::string>>> requests{
         {"/api/atlas", {}},
         {"/api/preview", {{"tau", "0.5"}}},
         {"/api/objects", {{"tau", "0.5"}}},
@@ -309,24 +309,24 @@ TEST_F(ServiceTest, AnyAnswerIsGivenUpWhenWhoAskedHasLeft) {
         {"/api/at", {{"voxel", "1,2,3"}}},
         {"/api/transfer", {}},
     };
-    for (const auto& [path, words] : questions) {
+    for (const auto& [path, words] : requests) {
         service_.emplace("secret", Context{});  // nothing is found yet
-        service_->opening().open(*atlas_);
+        service_->store_state().open(*atlas_);
         atlas_->clear_cache();
         int looks = 0;
-        left_ = [&looks] { return ++looks > 1; };  // there when it is asked, gone soon after
+        is_disconnected_ = [&looks] { return ++looks > 1; };  // there when it is asked, gone soon after
         EXPECT_EQ(ask(path, words).status, 409) << path;
         EXPECT_LE(looks, 4) << path;
-        left_ = {};
+        is_disconnected_ = {};
         EXPECT_EQ(ask(path, words).status, 200) << path;
     }
 }
 
 TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
     Service small("secret", {}, 1000);
-    small.opening().open(*atlas_);
+    small.store_state().open(*atlas_);
     for (const char* path : {"/api/surface", "/api/label"}) {
-        const Answer answer = small.answer({path, {{"tau", "0.5"}}, "secret", ""});
+        const Response answer = small.answer({path, {{"tau", "0.5"}}, "secret", ""});
         EXPECT_EQ(answer.status, 503);
         EXPECT_NE(nlohmann::json::parse(answer.bytes)["error"]["next"].get<std::string>().find("isoatlas"), std::string::npos);
     }

@@ -128,7 +128,7 @@ TEST(WireMesh, StepsGrowWhereTheyWouldNotReach) {
 TEST(WireMesh, CoarseHasFewerTriangles) {
     const Surface surface = surface_of("torus-chain", 0.5, 48);
     const auto all = static_cast<std::int64_t>(surface.triangles.size());
-    const WireMesh coarse = wire_mesh(surface, {.step = 0.01, .most_triangles = all / 10});
+    const WireMesh coarse = wire_mesh(surface, {.step = 0.01, .max_triangles = all / 10});
     EXPECT_TRUE(coarse.coarse);
     EXPECT_LE(coarse.triangles, all / 10);
     EXPECT_GT(coarse.triangles, all / 100);

@@ -89,17 +89,17 @@ RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
     const Container store(path_);
     visit_samples(volume, [&]<class T>(std::span<const T>) {
         const BrickReader<T> reader(store);
-        std::vector<std::pair<double, std::int64_t>> least(static_cast<std::size_t>(reader.grid().count()), {1e300, 0}), most = least;
-        for (auto& high : most) high.first = -1e300;
+        std::vector<std::pair<double, std::int64_t>> min(static_cast<std::size_t>(reader.grid().count()), {1e300, 0}), max = min;
+        for (auto& high : max) high.first = -1e300;
         for (std::int64_t v = 0; v < volume.info.extent.voxels(); ++v) {
             const auto at = volume.info.extent.voxel(v);
             const auto b = static_cast<std::size_t>(reader.grid().brick(BrickGrid::place_of(at)));
-            least[b] = std::min(least[b], std::pair(volume.value(v), v));
-            most[b] = std::max(most[b], std::pair(volume.value(v), v));
+            min[b] = std::min(min[b], std::pair(volume.value(v), v));
+            max[b] = std::max(max[b], std::pair(volume.value(v), v));
         }
         for (std::int64_t b = 0; b < reader.grid().count(); ++b) {
-            RC_ASSERT(reader.highest_voxel(b) == most[static_cast<std::size_t>(b)].second);
-            RC_ASSERT(reader.lowest_voxel(b) == least[static_cast<std::size_t>(b)].second);
+            RC_ASSERT(reader.highest_voxel(b) == max[static_cast<std::size_t>(b)].second);
+            RC_ASSERT(reader.lowest_voxel(b) == min[static_cast<std::size_t>(b)].second);
         }
         reader.check({.threads = 1});
     });

@@ -19,18 +19,18 @@ using test::failure_of;
 /// A disk that gives few bytes at a time, and fails from an offset on.
 class BadDisk final : public File {
 public:
-    BadDisk(std::unique_ptr<File> file, std::size_t most, std::int64_t fails_at, int error)
-        : file_(std::move(file)), most_(most), fails_at_(fails_at), error_(error) {}
+    BadDisk(std::unique_ptr<File> file, std::size_t max, std::int64_t fails_at, int error)
+        : file_(std::move(file)), max_(max), fails_at_(fails_at), error_(error) {}
     std::int64_t size() const override { return file_->size(); }
     std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
         if (++calls_ % 3 == 0) return -EINTR;
         if (offset >= fails_at_) return error_ == 0 ? 0 : -error_;  // 0: the file became shorter while it was read
-        return file_->read_at(offset, out.first(std::min(out.size(), std::min(most_, static_cast<std::size_t>(fails_at_ - offset)))));
+        return file_->read_at(offset, out.first(std::min(out.size(), std::min(max_, static_cast<std::size_t>(fails_at_ - offset)))));
     }
 
 private:
     std::unique_ptr<File> file_;
-    std::size_t most_;
+    std::size_t max_;
     std::int64_t fails_at_;
     int error_;
     int calls_ = 0;
@@ -38,14 +38,14 @@ private:
 
 class WithBadDisk final : public test::ForwardingFiles {
 public:
-    explicit WithBadDisk(std::size_t most, std::int64_t fails_at = INT64_MAX, int error = 0)
-        : most_(most), fails_at_(fails_at), error_(error), in_use_(*this) {}
+    explicit WithBadDisk(std::size_t max, std::int64_t fails_at = INT64_MAX, int error = 0)
+        : max_(max), fails_at_(fails_at), error_(error), in_use_(*this) {}
     OpenedFile open(const std::string& path) override {
-        return {std::make_unique<BadDisk>(ForwardingFiles::open(path).file, most_, fails_at_, error_), 0};
+        return {std::make_unique<BadDisk>(ForwardingFiles::open(path).file, max_, fails_at_, error_), 0};
     }
 
 private:
-    std::size_t most_;
+    std::size_t max_;
     std::int64_t fails_at_;
     int error_;
     ReplacedFileSystem in_use_;

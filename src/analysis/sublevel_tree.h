@@ -1,0 +1,62 @@
+// The tree of low components: the low side of the contour tree, rooted at the highest element.
+//
+// A low component is a connected set of Lows; the one with the outside of the volume is the outside, every other one is a cavity. Going up
+// they appear at minima and merge, as objects do going down, and together with the contours around them they are the split tree of the
+// contour tree (docs/theory/3-trees.md#join-and-split-tree, docs/theory/4-genus.md#the-contour-tree). So this is not the tree of the
+// negated volume: Lows meet where Highs of the same values would not (faces, tunnels), and a Low at the border of the volume lies in the
+// outside.
+//
+// Elements are numbered backwards: the outside is 0, the element x of the contour tree with n elements is n - x. Then heights (values
+// negated) descend and children come before their parents, as in the criticality tree, and all code for that serves here.
+//
+// In the literature: split tree, the merge tree of sublevel sets (Carr, Snoeyink, Axen, Computing contour trees in all dimensions, 2003);
+// its components are cavities or voids where an object encloses them.
+#pragma once
+
+#include "analysis/analysis_data.h"
+#include "analysis/object_tree.h"
+#include "field/grid.h"
+#include "field/order.h"
+#include "isoatlas/context.h"
+#include "tree/criticality_tree.h"
+
+namespace isoatlas {
+
+/// A dark event is what happens to one low component at one value; its zone are the isovalues (its value, value of its parent].
+template <class Id>
+struct SublevelTree {
+    CriticalityTree<Id> tree;
+    // per event
+    BigVector<double> height;  ///< value negated; of the outside just above that of the lowest sample
+    BigVector<Id> contours;    ///< around the low component in the zone: to the object around it, and to the objects inside it
+    BigVector<Id> voxels;      ///< of its zone
+    BigVector<Id> zone;        ///< per voxel
+
+    /// Must live as long as the result. The branch of the outside is the main branch.
+    [[nodiscard]] ObjectTree<Id> side() const {
+        return {tree.parent, height, voxels, zone, -1, static_cast<std::int64_t>(tree.event_of_element[0])};
+    }
+    /// The element of the contour tree behind an event: the lowest of its own.
+    [[nodiscard]] std::size_t element(std::size_t event) const { return tree.event_of_element.size() - 1 - tree.top[event]; }
+};
+
+/// arrays: with trees. Cost: O(n alpha) for n elements, and basins and zones of all voxels.
+template <class T, class Id>
+[[nodiscard]] SublevelTree<Id> make_sublevel_tree(const GridView<T>& grid, const AnalysisArrays<Id>& arrays, const Context& context);
+
+/// The same whatever the type of the samples.
+template <class Id>
+[[nodiscard]] SublevelTree<Id> make_sublevel_tree(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const Context& context) {
+    return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        return make_sublevel_tree(GridView<T>{samples.data(), volume.info->extent}, arrays, context);
+    });
+}
+
+/// Voxel of the lowest element of an event; -1: the outside.
+template <class Id>
+[[nodiscard]] std::int64_t lowest_voxel(const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& dark, std::size_t event) {
+    const std::size_t element = dark.element(event);
+    return element == arrays.code.size() ? -1 : ElementCode{arrays.code[element]}.index();
+}
+
+}  // namespace isoatlas

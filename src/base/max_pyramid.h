@@ -1,0 +1,65 @@
+// Which entries of a long array reach a limit? A pyramid over the array: the furthest of every 16 entries, of every 16 of these, ...
+//
+// Intervals [i, end(i)), one for each i, are stabbed by it: those that contain r are the entries of [0, r) that reach r. So the array of
+// the ends is all that an interval tree would hold, and the pyramid adds a fifteenth of it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace isoatlas {
+
+/// Further: std::greater (far is large) or std::less (far is small). The entries must live as long as this.
+template <class T, class Further>
+class MaxPyramid {
+public:
+    /// Cost: O(entries).
+    explicit MaxPyramid(std::span<const T> entries) : entries_(entries) {
+        std::span<const T> below = entries;
+        while (below.size() > 1) {
+            std::vector<T> level((below.size() + kGroup - 1) / kGroup);
+            for (std::size_t i = 0; i < below.size(); ++i) {
+                T& furthest = level[i / kGroup];
+                if (i % kGroup == 0 || Further()(below[i], furthest)) furthest = below[i];
+            }
+            levels_.push_back(std::move(level));
+            below = levels_.back();
+        }
+    }
+
+    /// Calls visit(i), i ascending, for the i in [begin, end) whose entry is at least as far as the limit.
+    /// Cost: O((1 + visits) log entries).
+    template <class Visit>
+    void for_each_at_least(std::size_t begin, std::size_t end, T limit, Visit&& visit) const {
+        const auto reaches = [limit](const T& entry) { return !Further()(limit, entry); };
+        for (std::size_t i = begin; i < end;) {
+            const std::size_t step = empty_group(i, reaches);
+            if (step == 0 && reaches(entries_[i])) visit(i);
+            i += step == 0 ? 1 : step;
+        }
+    }
+
+private:
+    static constexpr std::size_t kGroup = 16;
+
+    /// Size of a group that begins at i and has no entry that reaches the limit, of the lowest level on which there is none above it;
+    /// 0: there is no such group.
+    template <class Reaches>
+    [[nodiscard]] std::size_t empty_group(std::size_t i, const Reaches& reaches) const {
+        std::size_t size = 1, empty = 0;
+        for (const std::vector<T>& level : levels_) {
+            if (i % (size * kGroup) != 0) break;
+            size *= kGroup;
+            if (reaches(level[i / size])) break;
+            empty = size;
+        }
+        return empty;
+    }
+
+    std::span<const T> entries_;
+    std::vector<std::vector<T>> levels_;
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,11 @@
+// The tunnels of the objects of a page that noise does not explain.
+#pragma once
+
+#include "catalogue/page_contents.h"
+
+namespace isoatlas {
+
+/// Of a 3D volume, for the branches that have entries. Cost: find_handles() (isoatlas/handles.h).
+void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& context);
+
+}  // namespace isoatlas

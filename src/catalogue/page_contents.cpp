@@ -1,0 +1,219 @@
+#include "catalogue/page_contents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "atlas/access.h"
+#include "base/cancel.h"
+#include "catalogue/page_axis.h"
+#include "catalogue/thin_curve.h"
+#include "census/count_intervals.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kColumns = 480;       // of the spectrum
+constexpr std::int64_t kShapeColumns = 120;  // of one object
+constexpr std::int64_t kOthers = 200;        // branches without a picture
+constexpr std::int64_t kCurvePoints = 160;
+
+class Gatherer {
+public:
+    Gatherer(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context)
+        : atlas_(atlas),
+          options_(options),
+          context_(context),
+          found_(found),
+          analysis_(AtlasAccess::analysis(atlas)),
+          hierarchy_(found_.hierarchy),
+          branch_of_event_(static_cast<std::size_t>(analysis_.event_count()), -1) {}
+
+    PageContents gather() && {
+        const double low = atlas_.range()[0];
+        contents_.scale = page_axis(atlas_, context_);
+        stop_if_cancelled(context_);
+        contents_.spectrum = count_columns(count_intervals(analysis_, found_.bright), low, contents_.scale, kColumns);
+        const ObjectTable table = first_entries(found_.bright, options_.top);
+        CavityTable dark = found_.dark;
+        contents_.bright = table.branches, contents_.noise = table.noise;
+        contents_.bright_standing_out = static_cast<std::int64_t>(hierarchy_.essential().size());
+        contents_.dark = dark.branches, contents_.dark_standing_out = static_cast<std::int64_t>(dark.entries.size());
+        if (static_cast<std::int64_t>(dark.entries.size()) > options_.top_dark)
+            dark.entries.resize(static_cast<std::size_t>(options_.top_dark));
+        add_bright_branches(table);
+        add_bright_entries(table);
+        add_dark(dark);
+        stop_if_cancelled(context_);
+        contents_.histogram = make_histogram(atlas_, contents_.scale, context_);
+        contents_.curve = thin_curve(hierarchy_.curves().front(), kCurvePoints);
+        for (std::size_t i = 0; i < contents_.entries.size(); ++i) contents_.entries[i].colour = palette(static_cast<std::int64_t>(i));
+        return std::move(contents_);
+    }
+
+private:
+    /// Those of the table, and the first ones by rank.
+    void add_bright_branches(const ObjectTable& table) {
+        const std::span<const BranchInfo> all = hierarchy_.branches();
+        std::vector<bool> is_essential(all.size(), false), is_shown(all.size(), false);
+        for (const std::int64_t i : hierarchy_.essential()) is_essential[i] = true;
+        std::unordered_map<std::int64_t, std::size_t> of_top;
+        for (std::size_t i = 0; i < all.size(); ++i) of_top.emplace(all[i].top, i);
+        for (const ObjectEntry& entry : table.entries) is_shown[of_top.at(entry.branch_top)] = true;
+        std::vector<std::int64_t> joined(all.size(), 0);
+        for (const BranchInfo& b : all) {
+            if (b.parent >= 0) ++joined[b.parent];
+        }
+        std::vector<std::int64_t> place(all.size(), -1);
+        std::int64_t others = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!is_shown[i] && (i > 0 && others++ >= kOthers)) continue;
+            const BranchInfo& b = all[i];
+            place[i] = static_cast<std::int64_t>(contents_.branches.size());
+            place_of_top_.emplace(b.top, place[i]);
+            contents_.branches.push_back({.id = b.id,
+                                          .rank = static_cast<std::int64_t>(i),
+                                          .appears = b.appears,
+                                          .merges = b.merges,
+                                          .parent = b.parent,
+                                          .hypervolume = b.hypervolume,
+                                          .voxels = b.voxels,
+                                          .measure = b.measure,
+                                          .joined = joined[i],
+                                          .stands_out = is_essential[i],
+                                          .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{},
+                                          .top = b.top});
+            if (!is_shown[i]) continue;
+            for (const std::int64_t event : events_of(analysis_, b.top, b.merges)) branch_of_event_[event] = place[i];
+        }
+        for (PageBranch& b : contents_.branches) {
+            while (b.parent >= 0 && place[b.parent] < 0) b.parent = all[b.parent].parent;
+            if (b.parent >= 0) b.parent = place[b.parent];
+        }
+    }
+    std::vector<CountColumn> shape_of(const BranchInfo& b) const {
+        const std::vector<SpectrumInterval> intervals = branch_intervals(analysis_, b.top, b.merges);
+        return count_columns(intervals, std::max(atlas_.range()[0], b.merges), contents_.scale, kShapeColumns);
+    }
+
+    void add_bright_entries(const ObjectTable& table) {
+        for (const ObjectEntry& entry : table.entries) {
+            contents_.entries.push_back({.branch = place_of_top_.at(entry.branch_top),
+                                         .id = entry.id,
+                                         .tau = entry.best_tau,
+                                         .tau_low = std::max(entry.tau_low, atlas_.range()[0]),
+                                         .tau_high = entry.tau_high,
+                                         .voxels = entry.voxels,
+                                         .measure = entry.measure,
+                                         .tunnels = entry.tunnels,
+                                         .cavities = entry.cavities,
+                                         .inside = entry.inside,
+                                         .reason = reason_of(table, entry)});
+        }
+        for (const RecommendedIsovalue& isovalue : table.isovalues) {
+            const std::int64_t branch = place_of_top_.at(isovalue.branch_top);
+            const bool is_shown = std::ranges::any_of(
+                contents_.entries, [&](const PageEntry& entry) { return entry.branch == branch && entry.tau == isovalue.tau; });
+            if (!is_shown) contents_.branches[branch].isovalues.push_back(isovalue);
+        }
+    }
+    static std::optional<IsovalueReason> reason_of(const ObjectTable& table, const ObjectEntry& entry) {
+        const std::optional<RecommendedIsovalue> isovalue = isovalue_of(table, entry);
+        return isovalue ? std::optional(isovalue->reason) : std::nullopt;
+    }
+
+    /// A dark object merges into the one around it, or into the outside.
+    void add_dark(const CavityTable& dark) {
+        const auto first_branch = static_cast<std::int64_t>(contents_.branches.size());
+        const auto first_entry = static_cast<std::int64_t>(contents_.entries.size());
+        for (const CavityEntry& entry : dark.entries) {
+            const std::int64_t inside = entry.inside < static_cast<std::int64_t>(dark.entries.size()) ? entry.inside : -1;
+            const auto branch = static_cast<std::int64_t>(contents_.branches.size());
+            contents_.branches.push_back({.dark = true,
+                                          .id = entry.id,
+                                          .rank = branch - first_branch,
+                                          .appears = entry.appears,
+                                          .merges = entry.merges,
+                                          .parent = inside < 0 ? -1 : first_branch + inside,
+                                          .hypervolume = entry.hypervolume,
+                                          .voxels = entry.voxels,
+                                          .measure = entry.measure,
+                                          .stands_out = true,
+                                          .isovalues = isovalues_of(dark.isovalues, entry.branch_minimum)});
+            std::erase_if(contents_.branches.back().isovalues,
+                          [&](const RecommendedIsovalue& isovalue) { return isovalue.tau == entry.best_tau; });
+            contents_.entries.push_back({.branch = branch,
+                                         .id = entry.id,
+                                         .tau = entry.best_tau,
+                                         .tau_low = entry.tau_low,
+                                         .tau_high = std::min(entry.tau_high, atlas_.range()[1]),
+                                         .voxels = entry.voxels,
+                                         .measure = entry.measure,
+                                         .tunnels = entry.tunnels,
+                                         .cavities = entry.islands,
+                                         .inside = inside < 0 ? -1 : first_entry + inside,
+                                         .around = entry_around(entry),
+                                         .reason = entry.reason});
+        }
+    }
+    /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.
+    std::int64_t entry_around(const CavityEntry& dark) const {
+        const ActiveObjects there = atlas_.active(dark.best_tau, false);
+        const auto object = std::ranges::find(there.objects, dark.object, &ActiveObject::id);
+        if (object == there.objects.end()) return -1;
+        const std::int64_t branch = branch_of_event_[object->event];
+        std::int64_t closest = -1;
+        double distance = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < contents_.entries.size(); ++i) {
+            const PageEntry& entry = contents_.entries[i];
+            if (entry.branch != branch || std::abs(entry.tau - dark.best_tau) >= distance) continue;
+            closest = static_cast<std::int64_t>(i);
+            distance = std::abs(entry.tau - dark.best_tau);
+        }
+        return closest;
+    }
+
+    const Atlas& atlas_;
+    const PageOptions& options_;
+    const Context& context_;
+    const Overview& found_;
+    const Analysis& analysis_;
+    const BranchHierarchy& hierarchy_;
+    std::unordered_map<std::int64_t, std::int64_t> place_of_top_;
+    std::vector<std::int64_t> branch_of_event_;  ///< -1: of no branch that has an entry
+    PageContents contents_;
+};
+
+}  // namespace
+
+PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context) {
+    return Gatherer(atlas, found, options, context).gather();
+}
+
+Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context) {
+    ExtractOptions chosen;
+    (dark ? chosen.contours : chosen.objects) = {entry.id};
+    return atlas.extract(entry.tau, chosen, context);
+}
+
+void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context) {
+    Context silent = context;
+    silent.progress = nullptr;
+    std::vector<PageEntry>& entries = contents.entries;
+    std::optional<Volume> image;
+    if (atlas.info().extent.rank == 2) image = atlas.volume(silent);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        PageEntry& entry = entries[i];
+        context.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
+        if (image) {
+            entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
+            continue;
+        }
+        Surface surface = surface_of(atlas, contents.branches[entry.branch].dark, entry, silent);
+        entry.picture = draw_turntable(std::move(surface), entry.colour, options, silent);
+    }
+}
+
+}  // namespace isoatlas

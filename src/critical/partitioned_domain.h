@@ -1,0 +1,28 @@
+// Critical elements of a grid in the order of ranks and cut into tiles at the same time: what trees in bounded memory are made of.
+#pragma once
+
+#include <cstdint>
+
+#include "critical/grid_scan.h"
+#include "critical/partitioned_set.h"
+#include "critical/tiling.h"
+
+namespace isoatlas {
+
+template <class Id>
+struct PartitionedCriticals {
+    BigVector<double> value;           ///< by rank
+    BigVector<std::uint64_t> code;     ///< by rank: ElementCode bits
+    BigVector<std::uint16_t> part_of;  ///< by rank: the tile
+    PartitionedSet<Id> set;
+};
+
+/// Tiles so small that what is done to one of them on every thread stays well within the memory limit (base/memory_limit.h); their sides
+/// are those of slabs where the context asks for slabs. At most 65536.
+[[nodiscard]] Tiling tiling_for(const Extent& extent, const Context& context);
+
+/// Consumes the scan. Cost: O(voxels + c log c) time; every pass runs through its arrays in order, or stays within some tiles.
+template <class Id>
+[[nodiscard]] PartitionedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const Tiling& tiling, const Context& context);
+
+}  // namespace isoatlas

@@ -1,0 +1,65 @@
+// Critical elements cut into parts (slabs of a grid), for trees in bounded memory: every pass works on one part, or on all parts at once in
+// the order of ranks.
+//
+// Elements lie part after part, descending within a part. As in critical_set.h an element names the extrema its surroundings lead to; those
+// of a part have numbers of their own range.
+//
+// In the literature: domain decomposition for merge trees (Morozov, Weber, Distributed merge trees, 2013).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/big_vector.h"
+
+namespace isoatlas {
+
+/// Names of the components that meet at an element, above and below. Those of an extremum on its empty side name itself.
+template <class Id>
+struct Representatives {
+    std::array<Id, 2> above, below;
+};
+
+/// How many components: above (low two bits) and below.
+constexpr std::uint8_t branches_of(int above, int below) { return static_cast<std::uint8_t>(above | below << 2); }
+constexpr int branches_above(std::uint8_t branches) { return branches & 3; }
+constexpr int branches_below(std::uint8_t branches) { return branches >> 2; }
+
+/// Elements in descending order.
+template <class Id>
+struct RepresentedSet {
+    BigVector<std::uint8_t> branches;
+    BigVector<Representatives<Id>> representatives;
+    std::size_t maxima = 0, minima = 0;  ///< names above: 0 .. maxima-1; names below: 0 .. minima, 0 = outside
+
+    [[nodiscard]] std::size_t size() const { return representatives.size(); }
+};
+
+/// An element of a part. Side by side, because it is read in the order of ranks: from all parts in turn.
+template <class Id>
+struct PartitionedElement {
+    Representatives<Id> representatives;
+    std::uint8_t branches;
+};
+constexpr std::uint8_t kRemoved = 0xff;  ///< for branches: tree/reduce.h
+
+template <class Id>
+struct PartitionedSet {
+    BigVector<PartitionedElement<Id>> elements;
+    std::vector<std::size_t> first;  ///< element of each part, and of the end
+    /// Number of each part, and of the end. The outside is minimum 0 and belongs to no part.
+    std::vector<Id> first_maximum, first_minimum;
+
+    [[nodiscard]] std::size_t parts() const { return first.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return elements.size(); }
+    /// The part's own piece of an array with an entry per element.
+    template <class Array>
+    [[nodiscard]] auto of(std::size_t part, Array& array) const {
+        return std::span(array).subspan(first[part], first[part + 1] - first[part]);
+    }
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,57 @@
+// Branch decomposition: a tree of objects cut into objects, by hypervolume (docs/theory/7-which-objects-matter.md#branches-by-hypervolume).
+//
+// Hypervolume of the object of event e at its low end tau: sum over its voxels of (height - tau). Where objects merge, the one with the
+// largest hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small
+// bright peak.)
+//
+// In the literature: branch decomposition (Pascucci, Cole-McLaughlin, Scorzelli 2004) by hypervolume (Carr, Snoeyink, van de Panne,
+// Simplifying flexible isosurfaces using local geometric measures, 2004).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "analysis/object_tree.h"
+
+namespace isoatlas {
+
+/// Values are heights (side_tree.h).
+struct Branch {
+    std::int64_t top, bottom;  ///< its highest event (a maximum) and its lowest
+    std::int64_t highest;      ///< event of the highest element in the object at the low end (may lie in another branch)
+    std::int64_t parent;       ///< position of the branch that it ends in; -1: the main branch
+    double appears, merges;    ///< height of top; height at which it ends, -infinity for the main branch
+    double hypervolume;        ///< of the object just above merges (the main branch: above the lowest sample)
+    double persistence;        ///< highest height of that object - merges
+    std::int64_t voxels;       ///< of that object
+};
+
+/// Over the object of each event at its low end.
+struct ObjectSums {
+    BigVector<std::int64_t> voxels;
+    BigVector<double> sum;  ///< of heights
+};
+
+struct BranchDecomposition {
+    BigVector<Branch> branch;          ///< by descending hypervolume, ties: higher top first; [0] is the main branch
+    BigVector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
+    BigVector<std::int64_t> highest;   ///< per event: event of the highest element of its object
+    ObjectSums objects;
+    double lowest = 0;  ///< height of the lowest sample
+};
+
+/// Over the zone of each event.
+struct ZoneSums {
+    BigVector<double> height;
+    double lowest = 0;  ///< height of the lowest sample
+};
+
+/// Cost: one pass over the samples, in order, so that sums do not depend on threads.
+template <class Id>
+[[nodiscard]] ZoneSums sum_zones(const ObjectTree<Id>& tree, const VolumeView& volume);
+
+/// tree.zone may be empty. Cost: O(events log events).
+template <class Id>
+[[nodiscard]] BranchDecomposition decompose_branches(const ObjectTree<Id>& tree, const ZoneSums& zones);
+
+}  // namespace isoatlas

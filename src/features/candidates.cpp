@@ -1,0 +1,255 @@
+#include "features/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "base/memory_limit.h"
+#include "base/paced_fill.h"
+#include "features/main_branch_isovalues.h"
+#include "features/select_branches.h"
+#include "features/stable_isovalue.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr double kLargePart = 0.15;  // of the volume: what ends so large is what is not background
+
+constexpr IsovalueReason kOutline = IsovalueReason::outline;
+
+template <class Id>
+class Rows {
+public:
+    Rows(const VolumeView& volume, const ObjectTree<Id>& tree, const BranchDecomposition& branches)
+        : volume_(volume), tree_(tree), branches_(branches), axis_(axis_scale(volume), tree.sign) {}
+
+    [[nodiscard]] CandidateTable choose(const NoiseModel& noise, const RankOptions& options) const {
+        CandidateTable result = choose_isovalues(chosen(noise, options), options, noise);
+        std::vector<Candidate>& rows = result.rows;
+        if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
+        const std::int64_t last = rows.empty() ? -1 : rows.back().branch;
+        std::erase_if(result.isovalues, [last](const BranchIsovalue& isovalue) { return isovalue.branch > last; });
+        std::erase_if(result.histograms, [last](const BranchHistogram& histogram) { return histogram.branch > last; });
+        measure(rows);
+        return result;
+    }
+
+private:
+    [[nodiscard]] bool is_bright() const { return tree_.sign > 0; }
+    [[nodiscard]] double lowest() const { return branches_.lowest; }
+
+    /// Whatever is selected. By rank.
+    [[nodiscard]] std::vector<std::int64_t> standing_out(const NoiseModel& noise) const {
+        return essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
+    }
+
+    /// By rank.
+    [[nodiscard]] std::vector<std::int64_t> chosen(const NoiseModel& noise, const RankOptions& options) const {
+        std::vector<std::int64_t> kept;
+        if (options.selection) {
+            const bool measured = options.selection->min_measure > 0;
+            const BigVector<double> measure = measured ? branch_measures(tree_, branches_, *volume_.info) : BigVector<double>();
+            kept = select_branches(branches_, measure, *options.selection);
+        } else if (options.gate) {
+            kept = standing_out(noise);
+        } else {
+            kept.resize(branches_.branch.size());
+            std::iota(kept.begin(), kept.end(), std::int64_t{0});
+        }
+        return kept;
+    }
+
+    /// Histograms along the kept branches: own voxels by height, whole merged branches at the height where they merge.
+    [[nodiscard]] std::vector<BranchHistogram> histograms(const std::vector<std::int64_t>& kept) const {
+        const bool integer = !is_floating(volume_.info->type);
+        BigVector<std::int64_t> slot = filled<std::int64_t>(branches_.branch.size(), std::int64_t{-1});
+        std::vector<BranchHistogram> result;
+        BudgetPoll memory;
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            memory.step(2 * BudgetPoll::kTouch);
+            const Branch& b = branches_.branch[kept[k]];
+            slot[kept[k]] = static_cast<std::int64_t>(k);
+            result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
+        }
+        tree_.for_heights(volume_, [&](std::size_t v, double height) {
+            memory.step(2 * BudgetPoll::kTouch);
+            const std::int64_t k = slot[branches_.of_event[tree_.zone[v]]];
+            if (k >= 0) result[k].add(height, 1);
+        });
+        for (std::size_t i = 1; i < branches_.branch.size(); ++i) {
+            memory.step(sizeof(Branch) + BudgetPoll::kTouch);
+            const Branch& b = branches_.branch[i];
+            const std::int64_t k = slot[b.parent];
+            if (k >= 0) result[k].add(b.merges, static_cast<double>(b.voxels));
+        }
+        return result;
+    }
+
+    /// chosen: of which more than there may be rows get none.
+    [[nodiscard]] CandidateTable choose_isovalues(const std::vector<std::int64_t>& chosen, const RankOptions& options,
+                                                  const NoiseModel& noise) const {
+        std::vector<std::int64_t> kept = chosen;
+        if (options.top > 0 && static_cast<std::int64_t>(kept.size()) > options.top + 1)
+            kept.resize(static_cast<std::size_t>(options.top) + 1);
+        CandidateTable result{{}, {}, histograms(kept)};
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            const Branch& b = branches_.branch[kept[k]];
+            std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
+            std::size_t rows = 1;
+            if (k == 0 && is_bright()) {  // the dark main branch is the outside, which has no rows
+                const std::vector<BranchIsovalue> more = before_merges(branches_, standing_out(noise), result.histograms[k], own, noise);
+                own.insert(std::ranges::find(own, kOutline, &BranchIsovalue::reason), more.begin(), more.end());
+                rows = arrange_main_branch(own, volume_.info->extent.voxels());
+            }
+            for (std::size_t i = 0; i < rows; ++i)
+                result.rows.push_back({kept[k], b.appears, b.merges, own[i].tau, b.hypervolume, own[i].reason == kOutline});
+            result.isovalues.insert(result.isovalues.end(), own.begin(), own.end());
+        }
+        return result;
+    }
+
+    /// At the low end of the range, or the lowest one when it is most of what there is; unless there is nothing else
+    /// (docs/theory/7-which-objects-matter.md#stable-isovalues).
+    [[nodiscard]] bool is_outline(const StableIsovalue& peak, const std::vector<StableIsovalue>& peaks) const {
+        const bool is_large = peak.volume > kLargePart * static_cast<double>(volume_.info->extent.voxels());
+        if (peaks.size() == 1) return peak.at_low_end && is_large;
+        return peak.at_low_end || (is_large && peak.tau == std::ranges::min(peaks, {}, &StableIsovalue::tau).tau);
+    }
+
+    /// At least one.
+    [[nodiscard]] std::vector<BranchIsovalue> isovalues(std::int64_t branch, const BranchHistogram& histogram) const {
+        const Branch& b = branches_.branch[branch];
+        std::vector<StableIsovalue> peaks = stable_isovalues(histogram);
+        const std::int64_t min = min_voxels(volume_.info->extent.voxels());  // of a few voxels the gaps between their values are seen
+        std::erase_if(peaks, [min](const StableIsovalue& peak) { return peak.volume < static_cast<double>(min); });
+        std::vector<BranchIsovalue> own;
+        for (const StableIsovalue& peak : peaks)
+            own.push_back({branch, alive(peak.tau, b), peak.prominence, is_outline(peak, peaks) ? kOutline : IsovalueReason::stable, -1,
+                           peak.volume});
+        std::ranges::stable_partition(own, [](const BranchIsovalue& isovalue) { return isovalue.reason != kOutline; });
+        if (own.empty()) {
+            const bool is_main_branch = b.merges < lowest();
+            own.push_back({branch, alive(just_above(b, histogram), b), 0, is_main_branch ? IsovalueReason::middle : IsovalueReason::merge,
+                           -1, static_cast<double>(b.voxels)});
+        }
+        return own;
+    }
+
+    /// The closest isovalue at which the branch is there. A sample is High when its value is at least tau, Low when it is below: a bright
+    /// branch lives in (merges, appears], a dark one in [merges, appears) as heights go.
+    [[nodiscard]] double alive(double tau, const Branch& b) const {
+        const double end = std::max(b.merges, lowest());
+        if (is_bright()) return std::clamp(tau, std::nextafter(end, b.appears), b.appears);
+        return std::clamp(tau, end, std::nextafter(b.appears, end));
+    }
+
+    /// No isovalue stands out: one bin above the height at which the branch ends, the middle of the range for the main branch.
+    [[nodiscard]] double just_above(const Branch& b, const BranchHistogram& histogram) const {
+        if (b.merges < lowest()) return (lowest() + b.appears) / 2;
+        const double room = histogram.axis.position(b.appears) - histogram.low;
+        return histogram.axis.height(histogram.low + std::min(histogram.width(), room / 2));
+    }
+
+    /// Does a sample of a height belong to the object of its branch at tau?
+    [[nodiscard]] bool belongs(double height, double tau) const { return is_bright() ? height >= tau : height > tau; }
+
+    /// The event of every row, and the voxels of its object at tau.
+    void measure(std::vector<Candidate>& rows) const {
+        const Extent& extent = volume_.info->extent;
+        const bool uniform = std::all_of(volume_.info->geometry.coordinates.begin(), volume_.info->geometry.coordinates.end(),
+                                         [](const auto& c) { return c.size() < 2; });
+        std::vector<bool> wanted(tree_.size(), false);
+        std::multimap<std::int64_t, Candidate*> of_event;
+        for (Candidate& row : rows) {
+            row.event = branches_.branch[row.branch].top;
+            while (!tree_.is_root(row.event) && belongs(tree_.height[tree_.parent[row.event]], row.tau))
+                row.event = tree_.parent[row.event];
+            row.voxels = branches_.objects.voxels[row.event] - static_cast<std::int64_t>(tree_.voxels[row.event]);  // of its children
+            wanted[row.event] = true;
+            of_event.emplace(row.event, &row);
+        }
+        tree_.for_heights(volume_, [&](std::size_t v, double height) {
+            if (!wanted[tree_.zone[v]]) return;
+            const auto [begin, end] = of_event.equal_range(static_cast<std::int64_t>(tree_.zone[v]));
+            for (auto i = begin; i != end; ++i) i->second->voxels += belongs(height, i->second->tau);
+        });
+        for (Candidate& row : rows) {
+            row.measure =
+                uniform ? static_cast<double>(row.voxels) * voxel_measure(volume_.info->geometry, extent, 0) : rectilinear_measure(row);
+        }
+    }
+
+    /// Sum of voxel boxes of the object of a row; one pass, on rectilinear grids only.
+    [[nodiscard]] double rectilinear_measure(const Candidate& row) const {
+        std::vector<bool> inside(tree_.size(), false);  // children have smaller numbers: parents first
+        for (std::size_t e = static_cast<std::size_t>(row.event) + 1; e-- > 0;) {
+            inside[e] = static_cast<std::int64_t>(e) == row.event || (!tree_.is_root(e) && inside[tree_.parent[e]]);
+        }
+        double sum = 0;
+        tree_.for_heights(volume_, [&](std::size_t v, double height) {
+            if (inside[tree_.zone[v]] && belongs(height, row.tau))
+                sum += voxel_measure(volume_.info->geometry, volume_.info->extent, static_cast<std::int64_t>(v));
+        });
+        return sum;
+    }
+
+    const VolumeView& volume_;
+    const ObjectTree<Id>& tree_;
+    const BranchDecomposition& branches_;
+    HeightAxis axis_;
+};
+
+/// Rows by event, then by falling tau.
+std::vector<std::size_t> by_event(const std::vector<Candidate>& rows) {
+    std::vector<std::size_t> order(rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&rows](std::size_t p, std::size_t q) {
+        return rows[p].event != rows[q].event ? rows[p].event < rows[q].event : rows[p].tau > rows[q].tau;
+    });
+    return order;
+}
+
+}  // namespace
+
+template <class Id>
+CandidateTable find_candidates(const VolumeView& volume, const ObjectTree<Id>& tree, const BranchDecomposition& branches,
+                               const NoiseModel& noise, const RankOptions& options) {
+    return Rows<Id>(volume, tree, branches).choose(noise, options);
+}
+
+template <class Id>
+std::vector<std::int64_t> closest_around(const ObjectTree<Id>& tree, const std::vector<Candidate>& rows) {
+    constexpr std::int64_t none = -1;
+    const std::vector<std::size_t> order = by_event(rows);
+    // Per event: the first place in `order` of it or of the next one below with rows.
+    BigVector<std::int64_t> first = filled<std::int64_t>(tree.size(), none);
+    for (std::size_t k = order.size(); k-- > 0;) first[rows[order[k]].event] = static_cast<std::int64_t>(k);
+    BudgetPoll memory;
+    for (std::size_t e = tree.size(); e-- > 0;) {
+        memory.step(BudgetPoll::kTouch);
+        if (first[e] == none && !tree.is_root(e)) first[e] = first[tree.parent[e]];
+    }
+    std::vector<std::int64_t> around(rows.size(), none);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (std::int64_t k = first[rows[i].event]; k != none && around[i] == none;) {
+            const std::int64_t event = rows[order[k]].event;
+            for (auto at = static_cast<std::size_t>(k); at < order.size() && rows[order[at]].event == event && around[i] == none; ++at) {
+                if (rows[order[at]].tau < rows[i].tau) around[i] = static_cast<std::int64_t>(order[at]);
+            }
+            k = tree.is_root(event) ? none : first[tree.parent[event]];
+        }
+    }
+    return around;
+}
+
+#define ISOATLAS_BRANCH_ROWS(Id)                                                                                                     \
+    template CandidateTable find_candidates(const VolumeView&, const ObjectTree<Id>&, const BranchDecomposition&, const NoiseModel&, \
+                                            const RankOptions&);                                                                     \
+    template std::vector<std::int64_t> closest_around(const ObjectTree<Id>&, const std::vector<Candidate>&);
+ISOATLAS_BRANCH_ROWS(std::uint32_t)
+ISOATLAS_BRANCH_ROWS(std::uint64_t)
+#undef ISOATLAS_BRANCH_ROWS
+
+}  // namespace isoatlas

@@ -1,0 +1,28 @@
+// Dark objects in the making: the dark tree, its branches, and those that matter.
+// In the literature: components of sublevel sets; cavities or voids where an object encloses them.
+#pragma once
+
+#include "analysis/sublevel_tree.h"
+#include "features/candidates.h"
+
+namespace isoatlas {
+
+template <class Id>
+struct CavityCandidates {
+    SublevelTree<Id> dark;
+    ObjectTree<Id> tree;
+    BranchDecomposition branches;
+    CandidateTable chosen;  ///< without the outside; one row a branch
+
+    /// Lowest voxel of the dark object of an event; -1: the outside.
+    [[nodiscard]] std::int64_t voxel(const AnalysisArrays<Id>& arrays, std::int64_t event) const {
+        return lowest_voxel(arrays, dark, static_cast<std::size_t>(branches.highest[event]));
+    }
+};
+
+/// All that options keep, whatever options.top. Cost: as make_sublevel_tree(), and four passes over the samples.
+template <class Id>
+[[nodiscard]] CavityCandidates<Id> make_cavity_candidates(const VolumeView& volume, const AnalysisArrays<Id>& arrays,
+                                                          const NoiseModel& noise, const RankOptions& options, const Context& context);
+
+}  // namespace isoatlas

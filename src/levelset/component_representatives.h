@@ -1,0 +1,12 @@
+// The voxels that name the components (docs/decisions/0001).
+#pragma once
+
+#include "levelset/components.h"
+
+namespace isoatlas {
+
+/// Fills highest and lowest of the components. Looks at all samples of objects and cavities; where the level has bricks, only at runs in
+/// divided bricks whose component might have its extreme there.
+void find_representatives(const TauLevel& level, const Context& context, Components& components);
+
+}  // namespace isoatlas

@@ -1,0 +1,149 @@
+#include "mesh/select_cells.h"
+
+#include <bit>
+#include <charconv>
+#include <string>
+#include <unordered_map>
+
+#include "base/big_vector.h"
+#include "field/slab_work.h"
+
+namespace isoatlas {
+namespace {
+
+std::string shortest(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string describe_voxel(const Extent& extent, std::int64_t voxel) {
+    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    std::string text = "voxel " + std::to_string(voxel) + " (" + std::to_string(at[0]) + ", " + std::to_string(at[1]);
+    return text + (extent.rank == 3 ? ", " + std::to_string(at[2]) : "") + ")";
+}
+
+/// The object (number) that contains a voxel.
+std::int32_t object_at(const TauLevel& level, const Components& components, std::int64_t voxel) {
+    const Extent& extent = level.info().extent;
+    if (voxel < 0 || voxel >= extent.voxels()) {
+        throw Error(ErrorKind::not_found, {.where = "object " + std::to_string(voxel),
+                                           .what = "there is no such voxel",
+                                           .expected = "a voxel index from 0 to " + std::to_string(extent.voxels() - 1),
+                                           .next = "list the objects at this isovalue and take one of their ids"});
+    }
+    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const RunRow row = components.runs.row(at[1], at[2]);
+    const std::int64_t run = row.run_at(at[0] + 1);
+    if (((run - row.first_run) & 1) == 0) {
+        const Calibration& calibration = level.info().calibration;
+        throw Error(ErrorKind::not_found,
+                    {.where = describe_voxel(extent, voxel),
+                     .what = "its value " + shortest(calibration.reported(level.sample_at(voxel))) + " is below the isovalue " +
+                             shortest(calibration.reported(level.tau)) + ", so no object contains it",
+                     .next = "lower the isovalue, or list the objects at this isovalue and take one of their ids"});
+    }
+    return components.of_run[run];
+}
+
+std::int64_t contour_with_id(const std::unordered_map<std::int64_t, std::int64_t>& numbers, const TauLevel& level, std::int64_t id) {
+    const auto found = numbers.find(id);
+    if (found != numbers.end()) return found->second;
+    throw Error(ErrorKind::not_found,
+                {.where = "contour " + std::to_string(id),
+                 .what = "there is no such contour at the isovalue " + shortest(level.info().calibration.reported(level.tau)),
+                 .expected = "the highest voxel of an object or the lowest voxel of a cavity",
+                 .next = "list the objects at this isovalue with their contours"});
+}
+
+}  // namespace
+
+void write_contours(const Components& components, const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowOffsets& place,
+                    Surface& surface) {
+    const RowHits hits(domain, y, z);
+    const auto write = [&](bool first_is_high, std::int32_t first, std::int32_t second, std::int64_t& point) {
+        surface.contour[point++] = first_is_high ? components.contour_between(first, second) : components.contour_between(second, first);
+    };
+    ComponentCursor here(components, y, z), here_y = here, here_z = here, next_y(components, y + 1, z), next_z(components, y, z + 1);
+    std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
+    hits.candidates.for_each([&](std::int64_t w) {
+        const auto for_bits = [&](std::uint64_t bits, auto&& visit) {
+            for (; bits != 0; bits &= bits - 1) {
+                const int bit = std::countr_zero(bits);
+                visit(64 * w + bit, (hits.row[w] >> bit & 1) != 0);
+            }
+        };
+        for_bits(hits.x(w), [&](std::int64_t p, bool high) {
+            const std::int32_t first = here.at(p);
+            write(high, first, here.at(p + 1), x_point);
+        });
+        for_bits(hits.y(w), [&](std::int64_t p, bool high) { write(high, here_y.at(p), next_y.at(p), y_point); });
+        for_bits(hits.z(w), [&](std::int64_t p, bool high) { write(high, here_z.at(p), next_z.at(p), z_point); });
+    });
+}
+
+std::vector<std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options) {
+    if (options.objects.empty() && options.contours.empty() && options.shell == ShellChoice::all) return {};
+    const std::int64_t contours = components.contours();
+    std::vector<std::uint8_t> object_chosen(static_cast<std::size_t>(components.objects()), options.objects.empty());
+    for (const std::int64_t voxel : options.objects) object_chosen[object_at(level, components, voxel)] = 1;
+
+    std::vector<std::uint8_t> chosen(static_cast<std::size_t>(contours), options.contours.empty());
+    if (!options.contours.empty()) {
+        std::unordered_map<std::int64_t, std::int64_t> numbers;
+        for (std::int64_t contour = 0; contour < contours; ++contour) numbers.emplace(components.contour_id(contour), contour);
+        for (const std::int64_t id : options.contours) chosen[contour_with_id(numbers, level, id)] = 1;
+    }
+    for (std::int64_t contour = 0; contour < contours; ++contour) {
+        const bool outer = contour < components.objects();
+        const bool shell_chosen = options.shell == ShellChoice::all || (options.shell == ShellChoice::outer) == outer;
+        chosen[contour] = chosen[contour] && shell_chosen && object_chosen[components.object_of_contour(contour)];
+    }
+    return chosen;
+}
+
+void keep_contours(const std::vector<std::uint8_t>& chosen, Surface& surface) {
+    std::vector<std::int64_t> place(surface.points.size(), -1);
+    std::int64_t kept = 0;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (!chosen[surface.contour[i]]) continue;
+        place[i] = kept;
+        surface.points[kept] = surface.points[i];
+        surface.contour[kept] = surface.contour[i];
+        if (!surface.normals.empty()) surface.normals[kept] = surface.normals[i];
+        ++kept;
+    }
+    surface.points.resize(kept);
+    surface.contour.resize(kept);
+    if (!surface.normals.empty()) surface.normals.resize(kept);
+    const auto keep = [&place](auto& simplices) {  // all points of a simplex lie on one contour
+        std::size_t count = 0;
+        for (const auto& simplex : simplices) {
+            if (place[simplex[0]] == -1) continue;
+            auto& target = simplices[count++];
+            for (std::size_t i = 0; i < simplex.size(); ++i) target[i] = place[simplex[i]];
+        }
+        simplices.resize(count);
+    };
+    keep(surface.triangles);
+    keep(surface.segments);
+    surface.points.shrink_to_fit();
+    surface.triangles.shrink_to_fit();
+}
+
+void write_ids(const Components& components, const Context& context, Surface& surface) {
+    resize_for_overwrite(surface.object, surface.contour.size());
+    constexpr std::int64_t kBlock = 1 << 16;
+    const auto count = static_cast<std::int64_t>(surface.contour.size());
+    Context blocks = context;
+    blocks.slab_slices = 1;
+    for_each_slab(blocks, {"ids", 2, 3}, {(count + kBlock - 1) / kBlock, kBlock}, [&](const Slab& slab) {
+        const std::int64_t end = std::min(count, slab.z_end * kBlock);
+        for (std::int64_t i = slab.z_begin * kBlock; i < end; ++i) {
+            const std::int64_t contour = surface.contour[i];
+            surface.object[i] = components.highest[components.object_of_contour(contour)];
+            surface.contour[i] = components.contour_id(contour);
+        }
+    });
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,29 @@
+// All bright objects of a store, for a reader who chooses among them: /api/branches.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "catalogue/page_contents.h"
+#include "isoatlas/atlas.h"
+#include "server/query_parameters.h"
+
+namespace isoatlas {
+
+/// What a request for branches asks for.
+struct BranchesWanted {
+    Selection selection{};  ///< stored values
+    std::int64_t top = 0;   ///< at most so many are listed
+};
+/// Throws Error{usage} for words it does not know.
+[[nodiscard]] BranchesWanted branches_wanted(QueryParameters& words, const Calibration& calibration);
+
+/// docs/schema/server-branches. Throws Error{cancelled}. Cost: O(branches), and the events of those that are listed.
+[[nodiscard]] std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, const BranchesWanted& wanted,
+                                        const Context& context);
+
+/// A branch as large as it gets on its own: just above the value at which it merges; the main branch in the middle of its isovalues.
+/// Throws Error{not_found}. Cost: O(events of the branch).
+[[nodiscard]] PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank);
+
+}  // namespace isoatlas

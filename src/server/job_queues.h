@@ -1,0 +1,42 @@
+// The lines in which requests wait, by what their answers are made of.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/job_queue.h"
+
+namespace isoatlas {
+
+enum class QueueClass : std::uint8_t {
+    surfaces,  ///< surfaces, labels, measures
+    samples,   ///< of bricks that are read
+    trees,     ///< what the trees tell
+    cards,     ///< pictures; they have time
+    atlas,     ///< no line: all wait for the same
+};
+
+class JobQueues {
+public:
+    /// changes: is told of every change; it must live as long.
+    explicit JobQueues(VersionCounter& changes);
+
+    [[nodiscard]] JobQueue& of(QueueClass line) { return queues_[static_cast<std::size_t>(line)]; }
+    /// JobQueue::leave() and end() of all.
+    void leave(const std::string& name);
+    void end();
+
+    struct Pending {
+        const char* line;  ///< "surfaces", ...
+        JobQueue::Pending request;
+    };
+    /// JobQueue::pending() of all, one line after the other.
+    [[nodiscard]] std::vector<Pending> pending(const std::string& name) const;
+
+private:
+    std::array<JobQueue, 5> queues_;
+};
+
+}  // namespace isoatlas

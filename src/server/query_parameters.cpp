@@ -1,0 +1,119 @@
+#include "server/query_parameters.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "formats/common/byte_writer.h"
+#include "isoatlas/error.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::size_t kLongestShown = 60;
+
+[[noreturn]] void refuse(std::string_view name, std::string_view text, const std::string& expected) {
+    throw Error(
+        ErrorKind::usage,
+        {.where = std::string(name), .what = "'" + std::string(text.substr(0, kLongestShown)) + "' cannot be used", .expected = expected});
+}
+
+/// The whole text is a number.
+template <class Number>
+std::optional<Number> read(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+std::int64_t whole_in(std::string_view name, std::string_view text, std::int64_t min, std::int64_t max) {
+    const std::optional<std::int64_t> number = read<std::int64_t>(text);
+    if (!number || *number < min || *number > max)
+        refuse(name, text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+    return *number;
+}
+
+}  // namespace
+
+std::optional<std::string_view> QueryParameters::take(std::string_view name) {
+    known_.push_back(name);
+    const auto [begin, end] = words_.equal_range(std::string(name));
+    if (begin == end) return std::nullopt;
+    if (std::next(begin) != end) refuse(name, begin->second, "to be said once");
+    return begin->second;
+}
+
+std::optional<double> QueryParameters::number(std::string_view name) {
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return std::nullopt;
+    const std::optional<double> number = read<double>(*text);
+    if (!number || !std::isfinite(*number)) refuse(name, *text, "a finite number");
+    return number;
+}
+
+std::optional<double> QueryParameters::number(std::string_view name, double min) {
+    const std::optional<double> any = number(name);
+    if (any && *any < min) refuse(name, words_.find(std::string(name))->second, "a number from " + number_text(min) + " on");
+    return any;
+}
+
+std::optional<std::int64_t> QueryParameters::whole(std::string_view name, std::int64_t min, std::int64_t max) {
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return std::nullopt;
+    return whole_in(name, *text, min, max);
+}
+
+std::optional<std::string> QueryParameters::choice(std::string_view name, const std::vector<std::string_view>& choices) {
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return std::nullopt;
+    if (std::ranges::find(choices, *text) == choices.end()) {
+        std::string expected;
+        for (const std::string_view choice : choices) expected += (expected.empty() ? "" : ", ") + std::string(choice);
+        refuse(name, *text, "one of " + expected);
+    }
+    return std::string(*text);
+}
+
+std::vector<std::string_view> QueryParameters::items(std::string_view name, std::size_t count) {
+    std::vector<std::string_view> items;
+    const std::optional<std::string_view> text = take(name);
+    if (!text) return items;
+    for (std::string_view rest = *text;;) {
+        if (items.size() == count) refuse(name, *text, "at most " + std::to_string(count) + " numbers");
+        const std::size_t comma = rest.find(',');
+        items.push_back(rest.substr(0, comma));
+        if (comma == std::string_view::npos) return items;
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+std::vector<std::int64_t> QueryParameters::list(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count) {
+    std::vector<std::int64_t> numbers;
+    for (const std::string_view item : items(name, count)) numbers.push_back(whole_in(name, item, min, max));
+    return numbers;
+}
+
+std::vector<NumberAt> QueryParameters::list_at(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count) {
+    std::vector<NumberAt> numbers;
+    for (const std::string_view item : items(name, count)) {
+        const std::size_t mark = std::min(item.find('@'), item.size());
+        const std::optional<double> value = read<double>(item.substr(std::min(mark + 1, item.size())));
+        if (!value || !std::isfinite(*value)) refuse(name, item, "NUMBER@VALUE with a finite value");
+        numbers.push_back({whole_in(name, item.substr(0, mark), min, max), *value});
+    }
+    return numbers;
+}
+
+void QueryParameters::reject_unknown() const {
+    for (const auto& [name, text] : words_) {
+        if (std::ranges::find(known_, name) != known_.end()) continue;
+        std::string expected;
+        for (const std::string_view word : known_) expected += (expected.empty() ? "" : ", ") + std::string(word);
+        throw Error(ErrorKind::usage, {.where = name.substr(0, kLongestShown),
+                                       .what = "this question has no such word",
+                                       .expected = expected.empty() ? "none" : expected});
+    }
+}
+
+}  // namespace isoatlas

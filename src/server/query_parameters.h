@@ -1,0 +1,44 @@
+// The words of a request, read strictly: what is not known, comes twice or is out of range is refused with the range.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isoatlas {
+
+/// "NUMBER@VALUE", as `isoatlas render --object ID@TAU`.
+struct NumberAt {
+    std::int64_t number;
+    double at;
+};
+
+class QueryParameters {
+public:
+    explicit QueryParameters(const std::multimap<std::string, std::string>& words) : words_(words) {}
+
+    /// All throw Error{usage}: not a number, not finite, out of range, more than one.
+    [[nodiscard]] std::optional<double> number(std::string_view name);
+    [[nodiscard]] std::optional<double> number(std::string_view name, double min);
+    [[nodiscard]] std::optional<std::int64_t> whole(std::string_view name, std::int64_t min, std::int64_t max);
+    [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
+    /// Numbers between commas, at most `count`.
+    [[nodiscard]] std::vector<std::int64_t> list(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count);
+    /// The same of "NUMBER@VALUE"; values are finite.
+    [[nodiscard]] std::vector<NumberAt> list_at(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count);
+    /// Throws Error{usage} for a word that nobody asked for.
+    void reject_unknown() const;
+
+private:
+    [[nodiscard]] std::optional<std::string_view> take(std::string_view name);
+    /// What stands between the commas of a word, at most `count`; nothing when it is not said.
+    [[nodiscard]] std::vector<std::string_view> items(std::string_view name, std::size_t count);
+
+    const std::multimap<std::string, std::string>& words_;
+    std::vector<std::string_view> known_;
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,35 @@
+#include "server/store_catalogue.h"
+
+#include "atlas/overview.h"
+#include "isoatlas/render.h"
+#include "server/answers.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kTransferObjects = 5;  ///< as `isoatlas render --volume`
+
+std::vector<NamedEntry> named_entries(const PageContents& contents) {
+    std::vector<NamedEntry> entries;
+    for (const PageEntry& entry : contents.entries) {
+        const bool is_dark = contents.branches[static_cast<std::size_t>(entry.branch)].dark;
+        entries.push_back({entry.id, entry.tau, entry.voxels, is_dark});
+    }
+    return entries;
+}
+
+}  // namespace
+
+StoreCatalogue load_catalogue(const Atlas& atlas, const Context& context) {
+    Overview found = overview_of(atlas, context);
+    PageContents contents = page_contents(atlas, found, {}, context);
+    (void)atlas.active_index();  // what asks for objects at an isovalue should not wait for it
+    const std::vector<OpacityTent> bumps =
+        propose_transfer(first_entries(std::move(found.bright), kTransferObjects), atlas.info(), atlas.range());
+    std::vector<NamedEntry> entries = named_entries(contents);
+    std::string json = atlas_json(atlas, contents);
+    return {std::move(contents), std::move(found.hierarchy), std::move(entries), std::move(json),
+            transfer_json(bumps, atlas.info().calibration)};
+}
+
+}  // namespace isoatlas

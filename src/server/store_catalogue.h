@@ -1,0 +1,24 @@
+// What most answers are made of and every page asks for first: found once, when the first one asks or before.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "catalogue/page_contents.h"
+#include "isoatlas/atlas.h"
+#include "server/sample_answers.h"
+
+namespace isoatlas {
+
+struct StoreCatalogue {
+    PageContents contents;
+    BranchHierarchy hierarchy;
+    std::vector<NamedEntry> entries;
+    std::string atlas, transfer;  ///< the answers to these requests
+};
+
+/// Throws Error: input (damaged store), cancelled. Cost: overview_of() (atlas/overview.h) and page_contents(); of noise some seconds for
+/// 256^3 samples. The trees are read.
+[[nodiscard]] StoreCatalogue load_catalogue(const Atlas& atlas, const Context& context);
+
+}  // namespace isoatlas

@@ -1,0 +1,38 @@
+#include "server/store_state.h"
+
+namespace isoatlas {
+
+template <class Change>
+void StoreState::change(const Change& apply) {
+    {
+        const std::lock_guard lock(mutex_);
+        apply();
+    }
+    changes_.note();
+}
+
+void StoreState::open(const Atlas& atlas) {
+    change([&] { atlas_ = &atlas; });
+}
+
+void StoreState::report_progress(const BuildState& state) {
+    change([&] { build_ = state, failure_.reset(); });
+}
+
+void StoreState::fail(const Error& error) {
+    change([&] { failure_ = error; });
+}
+
+const Atlas& StoreState::atlas() const {
+    const std::lock_guard lock(mutex_);
+    if (atlas_ != nullptr) return *atlas_;
+    if (failure_) throw *failure_;
+    throw Error(ErrorKind::resource, {.what = "the store is being built", .next = "ask /api/events how far it is"});
+}
+
+StoreState::State StoreState::state() const {
+    const std::lock_guard lock(mutex_);
+    return {atlas_ != nullptr, build_, failure_};
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,97 @@
+// Heavy paths of a tree whose values descend towards the root: where does a climb down from an event stop? The tree is the criticality
+// tree, or a join tree, where every element is an event.
+//
+// Every event continues the path of its heaviest child (the one with most events above it); the other children end their paths there. A
+// path is an array of events with ascending values, so a climb is a few jumps (at most log2 of the number of events) and one search in an
+// array. A long path has nearly as many buckets of equal width as events: the search looks at one bucket.
+//
+// Everything is made small, because a climb is a handful of cache misses and nothing else; a path goes by the number of a maximum that
+// leads to it, so that neighbours in the volume find their paths side by side. Value: the type in which samples are compared with events.
+// float serves samples that are floats or integers of 16 bits: x <= v iff x <= v rounded down to float, for every float x.
+//
+// In the literature: heavy path decomposition (Sleator, Tarjan, A data structure for dynamic trees, 1983); the question is a weighted level
+// ancestor query.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "base/big_vector.h"
+
+namespace isoatlas {
+
+/// The type in which samples of T are compared with events.
+template <class T>
+using ComparisonValue = std::conditional_t<std::is_same_v<T, float> || sizeof(T) <= 2, float, double>;
+
+/// A tree and its elements; spans of the last two are empty where every element is an event.
+template <class Id>
+struct DescendingTree {
+    std::span<const Id> parent;            ///< per event: its parent comes later; of a root: itself, or one behind the last
+    std::span<const double> value;         ///< per element
+    std::span<const Id> top;               ///< per event: its highest element
+    std::span<const Id> event_of_element;  ///< per element
+
+    [[nodiscard]] std::size_t size() const { return parent.size(); }
+    [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e) || parent[e] == parent.size(); }
+    [[nodiscard]] Id top_of(std::size_t e) const { return top.empty() ? static_cast<Id>(e) : top[e]; }
+    [[nodiscard]] Id event_of(std::size_t element) const {
+        return event_of_element.empty() ? static_cast<Id>(element) : event_of_element[element];
+    }
+};
+
+/// An event while the paths are laid out.
+template <class Id>
+struct HeavyNode {
+    Id heavy;     ///< heaviest child (most events above it; ties: the higher event), the event itself for a leaf
+    Id path;      ///< first the weight: events above it and itself
+    Id position;  ///< in stops_; first the length of its path from here up
+};
+
+template <class Id, class Value>
+class HeavyPathDecomposition {
+public:
+    /// maxima: per maximum, in raster order, its element. Cost: O(n) time; 12 bytes an event beside the result while it runs.
+    HeavyPathDecomposition(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads);
+
+    /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to maximum[i]: the event e on the way down with
+    /// value(parent(e)) < x[i] <= value(e). In rounds over all samples, so that their cache misses overlap.
+    /// maximum (at last: that of the path where the climb stopped) and scratch are overwritten; all spans have one entry a sample.
+    void zones(std::span<const Value> x, std::span<Id> maximum, std::span<std::uint32_t> scratch, std::span<Id> zone) const;
+
+private:
+    struct Path {
+        Value value_below;  ///< value of the event the path ends at; -infinity for the path of the root
+        Id below;           ///< path of that event
+        Id first, end;      ///< positions of its events in stops_
+    };
+    struct Stop {
+        Value value;
+        Id event;
+    };
+    struct Scale {
+        double low, factor;  ///< bucket of x = (x - low) * factor
+    };
+    static constexpr Id kBucketed = 16;  ///< shorter paths are searched directly
+    static constexpr int kSteps = 4;     ///< of a search that are taken without branches; stops_ has as many more entries
+
+    [[nodiscard]] BigVector<Path> lay_out(const DescendingTree<Id>& tree, std::span<HeavyNode<Id>> nodes);
+    void prepare_scale(const Path& path);
+    void make_buckets(const Path& path);
+    [[nodiscard]] static bool is_long(const Path& path) { return path.end - path.first >= kBucketed; }
+    [[nodiscard]] static Id buckets(const Path& path) { return path.end - path.first - 1; }
+    [[nodiscard]] Id bucket_of(const Path& path, Value x) const;
+    [[nodiscard]] Id event_from(Id position, Id path, Value x) const;
+    void zones_by_place(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> order, std::span<Id> zone) const;
+    /// Behind the position of the lowest event with a value of x or more.
+    [[nodiscard]] Id end_of_bucket(const Path& path, Value x) const;
+
+    BigVector<Path> paths_;  ///< per maximum; maxima of one event have equal ones
+    BigVector<Stop> stops_;  ///< by position
+    BigVector<Id> bucket_;   ///< of a long path: its place in scales_, then per bucket the first position in it or a later one
+    std::vector<Scale> scales_;
+};
+
+}  // namespace isoatlas
