@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "isoatlas/analysis.h"
-#include "isoatlas/cut.h"
+#include "isoatlas/shell.h"
 
 namespace isoatlas {
 

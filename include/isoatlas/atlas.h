@@ -10,10 +10,12 @@
 
 #include "isoatlas/active.h"
 #include "isoatlas/analysis.h"
+#include "isoatlas/bounds.h"
 #include "isoatlas/cavities.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/samples_wanted.h"
 #include "isoatlas/simplify.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
@@ -41,11 +43,6 @@ private:
     static double ratio(std::int64_t a, std::int64_t b) { return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b); }
 };
 
-/// A number that is known exactly when both are equal.
-struct Bounds {
-    std::int64_t min = 0, max = 0;
-};
-
 /// What the surface at an isovalue is, and what it will cost, before any brick is read.
 struct SurfacePreview {
     double tau = 0;
@@ -55,14 +52,6 @@ struct SurfacePreview {
     Bounds points;                  ///< of the compact, closed surface, without articulation points (about one for 1000 points)
     Bounds triangles;               ///< of the same (2D: segments)
     Bounds bricks, bytes, extents;  ///< to be read by a first query; fewer when bricks are present
-};
-
-/// Which samples a picture needs.
-struct SamplesWanted {
-    static constexpr std::int64_t kAround = 7;  ///< samples
-    std::vector<std::array<double, 2>>
-        values{};                    ///< the corners of cells with a value in one of these ranges, and samples up to kAround away
-    std::vector<SampleBox> boxes{};  ///< all in these; what sticks out of the volume is left out
 };
 
 /// A volume with fewer values than samples.

@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "isoatlas/analysis.h"
+#include "isoatlas/shell.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
-
-enum class Shell : std::uint8_t { outer, inner };
 
 struct CutContour {
     std::int64_t id;      ///< index of a voxel: highest of the object (outer), lowest of the cavity (inner)

@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "isoatlas/analysis.h"
-#include "isoatlas/atlas.h"
+#include "isoatlas/bounds.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/selection.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
+
+class Atlas;
 
 struct LevelCounts {
     std::int64_t objects = 0, contours = 0;

@@ -71,7 +71,7 @@ void report_packing(std::vector<PackedArray>& arrays, const Context& context) {
     const auto done = std::make_shared<double>(0);
     for (PackedArray& array : arrays) {
         if (array.chunk > 0) continue;
-        array.feed = [feed = std::move(array.feed), done, total, context](const Put& put) {
+        array.feed = [feed = std::move(array.feed), done, total, context](const ByteSink& put) {
             feed([&](std::span<const std::byte> bytes) {
                 stop_if_cancelled(context);
                 put(bytes);

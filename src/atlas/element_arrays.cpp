@@ -29,7 +29,7 @@ constexpr std::size_t kTogether = std::size_t{1} << 16;  // numbers that are mad
 template <class N, class Item, class Make>
 PackedArray made_of(const char* name, std::span<const Item> items, const Make& make) {
     PackedArray array = packed_chunks<N>(name, type_name<N>(), items.size());
-    array.feed = [items, make](const Put& put) {
+    array.feed = [items, make](const ByteSink& put) {
         std::vector<N> numbers;
         for (std::size_t first = 0; first < items.size(); first += kTogether) {
             const auto part = items.subspan(first, std::min(kTogether, items.size() - first));

@@ -64,7 +64,7 @@ template <class T>
 PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
     const auto held = std::make_shared<std::vector<T>>(std::move(numbers));
     PackedArray array = packed<T>(name, type, *held);
-    array.feed = [held, feed = std::move(array.feed)](const Put& put) { feed(put); };
+    array.feed = [held, feed = std::move(array.feed)](const ByteSink& put) { feed(put); };
     return array;
 }
 

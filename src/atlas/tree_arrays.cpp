@@ -71,7 +71,7 @@ std::vector<PackedArray> zone_arrays(const Analysis& analysis) {
 std::vector<PackedArray> copied_arrays(const Container& store) {
     std::vector<PackedArray> packs;
     for (const StoredArray& array : store.contents().arrays) {
-        packs.push_back({array.name, array.type, array.shape, array.block, [&store, &array](const Put& put) {
+        packs.push_back({array.name, array.type, array.shape, array.block, [&store, &array](const ByteSink& put) {
                              std::vector<std::byte> part;
                              for (std::int64_t first = 0; first < array.bytes(); first += array.block) {
                                  part.resize(static_cast<std::size_t>(std::min(array.block, array.bytes() - first)));
@@ -81,7 +81,7 @@ std::vector<PackedArray> copied_arrays(const Container& store) {
                          }});
         if (array.chunk == 0) continue;
         packs.back().chunk = array.chunk;
-        packs.back().feed_chunks = [&store, &array](const Put& put) { store.for_each_chunk(array, put); };
+        packs.back().feed_chunks = [&store, &array](const ByteSink& put) { store.for_each_chunk(array, put); };
     }
     return packs;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "field/brick_grid.h"
-#include "isoatlas/atlas.h"
+#include "isoatlas/samples_wanted.h"
 
 namespace isoatlas {
 

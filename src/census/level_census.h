@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "field/volume_view.h"
-#include "isoatlas/atlas.h"
+#include "isoatlas/bounds.h"
 #include "isoatlas/context.h"
 
 namespace isoatlas {

@@ -36,7 +36,7 @@ std::vector<ByteRange> outside(std::vector<ByteRange> ranges, std::uint64_t size
     return gaps;
 }
 
-std::vector<std::byte> bytes_of_trailer(const Frame& frame) {
+std::vector<std::byte> bytes_of_trailer(const StoreFrame& frame) {
     const std::span<const std::byte> ranges = std::as_bytes(std::span(frame.ranges));
     std::vector<std::byte> bytes(ranges.size() + sizeof(End));
     std::ranges::copy(ranges, bytes.begin());
@@ -57,11 +57,11 @@ std::optional<std::int64_t> trailer_bytes(std::span<const std::byte> end, std::i
     return static_cast<std::int64_t>(raw.ranges * sizeof(ByteRange)) + kTrailerEnd;
 }
 
-std::optional<Frame> frame_of_trailer(std::span<const std::byte> trailer, std::int64_t file_size) {
+std::optional<StoreFrame> frame_of_trailer(std::span<const std::byte> trailer, std::int64_t file_size) {
     End end;
     std::memcpy(&end, trailer.data() + trailer.size() - sizeof end, sizeof end);
     if (end.trailer_checksum != checksum(checked(trailer))) return std::nullopt;
-    Frame frame{std::vector<ByteRange>(static_cast<std::size_t>(end.ranges)), end.checksum};
+    StoreFrame frame{std::vector<ByteRange>(static_cast<std::size_t>(end.ranges)), end.checksum};
     std::memcpy(frame.ranges.data(), trailer.data(), frame.ranges.size() * sizeof(ByteRange));
     const std::uint64_t last = static_cast<std::uint64_t>(file_size) - trailer.size();
     std::uint64_t before = 0;

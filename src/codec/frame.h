@@ -18,7 +18,7 @@ struct ByteRange {
     friend bool operator==(const ByteRange&, const ByteRange&) = default;
 };
 
-struct Frame {
+struct StoreFrame {
     std::vector<ByteRange> ranges;  ///< ascending, none empty, no two overlap or touch
     std::uint64_t checksum = 0;     ///< of their bytes
 };
@@ -28,10 +28,10 @@ struct Frame {
 
 /// Bytes at the end of a file that say how long the trailer is.
 inline constexpr std::int64_t kTrailerEnd = 40;
-[[nodiscard]] std::vector<std::byte> bytes_of_trailer(const Frame& frame);
+[[nodiscard]] std::vector<std::byte> bytes_of_trailer(const StoreFrame& frame);
 /// Bytes of the whole trailer, by the last kTrailerEnd bytes of a file; nothing: they are none of a trailer.
 [[nodiscard]] std::optional<std::int64_t> trailer_bytes(std::span<const std::byte> end, std::int64_t file_size);
 /// Of a whole trailer; nothing: it is damaged.
-[[nodiscard]] std::optional<Frame> frame_of_trailer(std::span<const std::byte> trailer, std::int64_t file_size);
+[[nodiscard]] std::optional<StoreFrame> frame_of_trailer(std::span<const std::byte> trailer, std::int64_t file_size);
 
 }  // namespace isoatlas

@@ -85,7 +85,7 @@ struct Bricks {
         sums[brick] = checksum(packed);
     }
 
-    void feed(const Put& put) {
+    void feed(const ByteSink& put) {
         std::vector<std::vector<std::byte>> packed(kTogether);
         for (std::int64_t first = 0; first < grid.count(); first += kTogether) {
             const std::int64_t count = std::min(kTogether, grid.count() - first);
@@ -103,9 +103,10 @@ std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& c
         const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info->extent, context.threads);
         const auto add = [&]<class N>(const char* name, const char* type, const std::vector<N>& numbers) {
             const std::vector<std::int64_t> shape{bricks->grid.size[2], bricks->grid.size[1], bricks->grid.size[0]};
-            arrays.push_back({name, type, shape, kBlock, [bricks, &numbers](const Put& put) { put(std::as_bytes(std::span(numbers))); }});
+            arrays.push_back(
+                {name, type, shape, kBlock, [bricks, &numbers](const ByteSink& put) { put(std::as_bytes(std::span(numbers))); }});
         };
-        arrays.push_back({"volume/data", "uint8", {bricks->bytes}, 0, [bricks](const Put& put) { bricks->feed(put); }});
+        arrays.push_back({"volume/data", "uint8", {bricks->bytes}, 0, [bricks](const ByteSink& put) { bricks->feed(put); }});
         add("volume/offset", "uint64", bricks->offset);
         add("volume/bytes", "uint16", bricks->packed_bytes);
         add("volume/low", name_of(volume.info->type), bricks->low);

@@ -108,7 +108,7 @@ bool Container::check_frame() {
     if (!size) return false;
     bytes.resize(static_cast<std::size_t>(*size));
     read_fully(*file_, path_, file_size_ - *size, bytes);
-    std::optional<Frame> frame = frame_of_trailer(bytes, file_size_);
+    std::optional<StoreFrame> frame = frame_of_trailer(bytes, file_size_);
     if (!frame) damaged("trailer", "its checksum is wrong");
     Checksum sum;
     for (const ByteRange& range : frame->ranges) {

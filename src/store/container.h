@@ -92,7 +92,7 @@ private:
     std::unique_ptr<File> file_;
     std::int64_t file_size_ = 0;
     Header header_;
-    Frame frame_;  ///< empty before version 3
+    StoreFrame frame_;  ///< empty before version 3
     Contents contents_;
 };
 

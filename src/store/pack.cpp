@@ -128,8 +128,8 @@ void write_array(AtomicFile& file, const PackedArray& source, StoredArray& array
 }
 
 /// The frame of what HDF5 has laid out: its pieces, and zeros where it has none.
-Frame frame_of(std::vector<ByteRange> ranges, const std::vector<Hdf5Layout::Piece>& pieces) {
-    Frame frame{std::move(ranges), 0};
+StoreFrame frame_of(std::vector<ByteRange> ranges, const std::vector<Hdf5Layout::Piece>& pieces) {
+    StoreFrame frame{std::move(ranges), 0};
     Checksum sum;
     std::vector<std::byte> bytes;
     for (const ByteRange& range : frame.ranges) {
@@ -183,7 +183,7 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
     const std::int64_t end = std::max(file.size(), layout.size());
     file.extend(end);
     std::ranges::copy(checked_ranges(contents, header), std::back_inserter(covered));
-    const Frame frame = frame_of(outside(std::move(covered), static_cast<std::uint64_t>(end)), pieces);
+    const StoreFrame frame = frame_of(outside(std::move(covered), static_cast<std::uint64_t>(end)), pieces);
     const std::vector<std::byte> trailer = bytes_of_trailer(frame);
     file.write_at(end, trailer);
     header.file_size = end + static_cast<std::int64_t>(trailer.size());

@@ -7,22 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "base/byte_sink.h"
 #include "codec/chunk_codec.h"
 #include "store/contents.h"
 
 namespace isoatlas {
-
-/// Takes the next bytes of an array.
-using Put = std::function<void(std::span<const std::byte>)>;
 
 /// An array to be written. feed calls put until all bytes are there; blocks as in StoredArray.
 struct PackedArray {
     std::string name, type;
     std::vector<std::int64_t> shape;
     std::int64_t block = 0;
-    std::function<void(const Put& put)> feed;
-    std::int64_t chunk = 0;                                ///< as in StoredArray
-    std::function<void(const Put& put)> feed_chunks = {};  ///< instead of feed: calls put with one compressed chunk after the other
+    std::function<void(const ByteSink& put)> feed;
+    std::int64_t chunk = 0;                                     ///< as in StoredArray
+    std::function<void(const ByteSink& put)> feed_chunks = {};  ///< instead of feed: calls put with one compressed chunk after the other
 
     [[nodiscard]] std::int64_t bytes() const { return StoredArray{name, type, shape, 0, block, 0, 0, chunk}.bytes(); }
 };
@@ -32,7 +30,7 @@ inline constexpr std::int64_t kBlock = std::int64_t{1} << 16;
 /// An array whose numbers lie in memory until the store is written.
 template <class T>
 [[nodiscard]] PackedArray packed(std::string name, std::string type, std::span<const T> numbers, std::int64_t block = kBlock) {
-    return {std::move(name), std::move(type), {static_cast<std::int64_t>(numbers.size())}, block, [numbers](const Put& put) {
+    return {std::move(name), std::move(type), {static_cast<std::int64_t>(numbers.size())}, block, [numbers](const ByteSink& put) {
                 put(std::as_bytes(numbers));
             }};
 }
@@ -52,7 +50,7 @@ template <class T>
 template <class T>
 [[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::span<const T> numbers) {
     PackedArray array = packed_chunks<T>(std::move(name), std::move(type), numbers.size());
-    array.feed = [numbers](const Put& put) { put(std::as_bytes(numbers)); };
+    array.feed = [numbers](const ByteSink& put) { put(std::as_bytes(numbers)); };
     return array;
 }
 

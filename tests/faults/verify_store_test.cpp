@@ -50,7 +50,8 @@ struct Opened {
         std::vector<PackedArray> arrays;
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             const StoredArray& array = contents.arrays[i];
-            arrays.push_back({array.name, array.type, array.shape, array.block, [this, i](const Put& put) { put(bytes[i]); }, array.chunk});
+            arrays.push_back(
+                {array.name, array.type, array.shape, array.block, [this, i](const ByteSink& put) { put(bytes[i]); }, array.chunk});
         }
         pack_store(path, contents, arrays);
     }

@@ -23,6 +23,27 @@ LIBRARIES = {
 }
 LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for room in rooms}
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
+# room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
+PUBLIC = {
+    "base": "array bounds context error output_file text",
+    "field": "filter interpolant isovalue samples_wanted shell volume",
+    "tree": "criticality",
+    "analysis": "active analysis",
+    "features": "cavities objects selection simplify spectrum",
+    "persistence": "handles",
+    "levelset": "cut",
+    "mesh": "surface",
+    "formats/common": "output shell_word",
+    "census": "search_table",
+    "atlas": "atlas build dump locate navigator",
+    "image": "image",
+    "render": "render",
+    "catalogue": "page",
+    "server": "client server",
+    "phantom": "phantom",
+    "verify": "verify",
+}
+OWNER = {name: room for room, names in PUBLIC.items() for name in names.split()}
 MAX_LINES = 400
 
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
@@ -77,8 +98,10 @@ def without_comments_and_strings(text):
 
 
 def room_of(path):
-    """The room of a file of src, None elsewhere: src/mesh/a.cpp -> mesh, src/formats/mesh/a.cpp -> formats/mesh."""
+    """The room of a file of src or of a public header, None elsewhere: src/formats/mesh/a.cpp -> formats/mesh."""
     parts = path.split("/")
+    if path.startswith("include/isoatlas/"):
+        return OWNER.get(parts[-1].removesuffix(".h"))
     if parts[0] != "src" or len(parts) < 3:
         return None
     return "/".join(parts[1:-1])
@@ -108,7 +131,15 @@ def include_findings(path, bracket, header):
     if path.startswith(("apps/", "include/")):
         if header.split("/")[0] in FOLDERS and bracket == '"' and "/" in header:
             yield f"includes {header}: outside src only the public headers isoatlas/*.h are used"
-    if room not in LIBRARY_OF or bracket == "<" or header.startswith("isoatlas/"):
+    if room not in LIBRARY_OF or bracket == "<":
+        return
+    public = re.fullmatch(r"isoatlas/(\w+)\.h", header)
+    if public:
+        target = OWNER.get(public[1])
+        if target is None or not may_include(room, target):
+            yield f"includes {header}, which belongs to {target}: that comes after {room}, or {LIBRARY_OF[room]} does not need it"
+        return
+    if path.startswith("include/"):
         return
     if "/" not in header:
         yield f'includes "{header}": write the folder, "{room}/{header}"'
@@ -127,6 +158,12 @@ def findings_of(path, text):
         yield len(lines), f"{len(lines)} lines; one idea per file, at most {MAX_LINES}"
     if path.startswith("src/") and room_of(path) not in LIBRARY_OF:
         yield 1, f"not in a room: {' '.join(LIBRARY_OF)}"
+    if path.startswith("include/") and room_of(path) is None and path != "include/isoatlas/isoatlas.h":
+        yield 1, "belongs to no room: name it in PUBLIC"
+    if path.startswith(("src/", "include/")):
+        for number, line in enumerate(lines, 1):
+            if re.match(r"(inline )?namespace (?!isoatlas \{|pugi \{)[a-z]", line) and not line.endswith(("}", ";")) and " = " not in line:
+                yield number, "one namespace for all rooms: isoatlas"
     for number, line in enumerate(lines, 1):
         include = INCLUDE.match(line)
         if include:
@@ -160,8 +197,27 @@ def libraries_in_cmake(root):
     return found
 
 
+TYPE = re.compile(r"^(?:template <[^\n]*>\n?)?(?:class|struct|enum class|concept|using) (\w+)(?=[^;\n:]*[{=]|[^;\n]* : )", re.M)
+
+
+def twice(headers):
+    """Types that two headers declare under one name. headers: path -> text."""
+    seen = {}
+    for path, text in headers.items():
+        for name in set(TYPE.findall(without_comments_and_strings(text))):
+            if name in seen:
+                yield f"{path}: {name} is a type of {seen[name]} too"
+            seen.setdefault(name, path)
+
+
 def check(root):
     findings = []
+    headers = {p.relative_to(root).as_posix(): p.read_text(encoding="utf-8") for p in sources_of(root)
+               if p.suffix == ".h" and p.relative_to(root).parts[0] in ("src", "include")}
+    findings += twice(headers)
+    missing = [name for name in OWNER if f"include/isoatlas/{name}.h" not in headers]
+    if missing:
+        findings.append(f"tests/layering: PUBLIC names headers that are not there: {missing}")
     if libraries_in_cmake(root) != LIBRARIES:
         findings.append(f"CMakeLists.txt: the libraries are {libraries_in_cmake(root)}, this test knows {LIBRARIES}")
     count = 0
@@ -188,6 +244,13 @@ SNIPPETS = [
     ("src/render/a.cpp", '#include "store/a.h"\n', 1),  # an earlier library that it does not need
     ("src/server/a.cpp", '#include "formats/volume/a.h"\n', 0),  # needed by one that it needs
     ("src/verify/a.cpp", '#include "phantom/a.h"\n', 1),
+    ("src/tree/a.cpp", '#include "isoatlas/cut.h"\n', 1),
+    ("src/mesh/a.cpp", '#include "isoatlas/cut.h"\n', 0),
+    ("src/mesh/a.cpp", '#include "isoatlas/isoatlas.h"\n', 1),
+    ("include/isoatlas/analysis.h", '#include "isoatlas/atlas.h"\n', 1),
+    ("include/isoatlas/unknown.h", "int x;\n", 1),
+    ("src/mesh/a.cpp", "namespace mesh {\n", 1),
+    ("src/mesh/a.cpp", "namespace isoatlas {\nnamespace {\n", 0),
     ("src/critical/a.cpp", "#include <tbb/parallel_for.h>\n", 1),
     ("src/base/parallel.cpp", "#include <tbb/parallel_for.h>\n", 0),
     ("src/zones/a.cpp", "#include <thread>\n", 1),
@@ -198,7 +261,7 @@ SNIPPETS = [
     ("src/tree/a.cpp", "#include <mpi.h>\n", 1),
     ("apps/isoatlas/a.cpp", '#include "tree/sweep.h"\n', 1),
     ("apps/isoatlas/a.cpp", '#include <isoatlas/isoatlas.h>\n#include <iostream>\n#include "table.h"\n', 0),
-    ("include/isoatlas/a.h", '#include "field/order.h"\n', 1),
+    ("include/isoatlas/cut.h", '#include "field/order.h"\n', 1),
     ("src/tree/a.cpp", 'int f() { std::cout << 1; }\n', 1),
     ("src/tree/a.cpp", 'int f() { printf("x"); }\n', 1),
     ("src/tree/a.cpp", 'int f() { std::snprintf(b, 2, "x"); }\n', 0),
@@ -225,6 +288,9 @@ def self_test():
         if len(found) != expected:
             wrong += 1
             print(f"self-test: {path}: {text[:60]!r}: expected {expected} findings, got {found}")
+    if len(list(twice({"a.h": "struct A {\n", "b.h": "template <class T>\nclass A {\n", "c.h": "struct A;\nstruct B : C {\n"}))) != 1:
+        wrong += 1
+        print("self-test: a type that is declared twice is not found, or one that is not is")
     print(f"layering self-test: {len(SNIPPETS)} snippets, {wrong} wrong")
     return 1 if wrong else 0
 

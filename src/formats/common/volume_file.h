@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/byte_sink.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
 
-using Put = std::function<void(std::span<const std::byte>)>;
 /// Calls put with all samples, in file order and in the byte order of this machine, in pieces of any size.
-using SampleFeed = std::function<void(const Put&)>;
+using SampleFeed = std::function<void(const ByteSink&)>;
 
 enum class Packing : bool { raw, gzip };
 

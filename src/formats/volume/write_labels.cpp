@@ -12,17 +12,17 @@ namespace isoatlas {
 
 namespace {
 
+using ByteSink;
 using Connectivity;
 using KeyValues;
 using Packing;
-using Put;
 using SampleFeed;
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
 template <class T>
 SampleFeed narrowed(std::span<const std::uint32_t> labels) {
-    return [labels](const Put& put) {
+    return [labels](const ByteSink& put) {
         std::vector<T> piece(std::min(kPiece, labels.size()));
         for (std::size_t begin = 0; begin < labels.size(); begin += kPiece) {
             const std::span<const std::uint32_t> part = labels.subspan(begin, std::min(kPiece, labels.size() - begin));
@@ -41,7 +41,7 @@ ValueType label_type(std::span<const std::uint32_t> labels) {
 SampleFeed feed_of(std::span<const std::uint32_t> labels, ValueType type) {
     if (type == ValueType::u8) return narrowed<std::uint8_t>(labels);
     if (type == ValueType::u16) return narrowed<std::uint16_t>(labels);
-    return [labels](const Put& put) { put(std::as_bytes(labels)); };
+    return [labels](const ByteSink& put) { put(std::as_bytes(labels)); };
 }
 
 /// What the header says about the labels: a sentence and pairs.

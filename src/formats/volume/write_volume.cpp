@@ -12,7 +12,7 @@ void write_volume(const std::string& path, const Volume& volume) {
                                        .what = "the number of samples does not match the extent",
                                        .expected = std::to_string(info.extent.voxels()) + " samples"});
     }
-    const SampleFeed feed = [&](const Put& put) { put(volume.bytes); };
+    const SampleFeed feed = [&](const ByteSink& put) { put(volume.bytes); };
     const auto ends = [&](const char* end) { return ends_with_ignoring_case(path, end); };
     if (ends(".nrrd")) return write_nrrd(path, info, feed, Packing::raw);
     if (ends(".npy")) return write_npy(path, info, feed);

@@ -113,7 +113,7 @@ TEST_F(Bricks, WrongPlacesOfExtremesAreRefused) {
             std::vector<PackedArray> arrays = brick_arrays(volume, {});
             const std::vector<std::uint16_t> places(static_cast<std::size_t>(BrickGrid(volume.info.extent).count()), wrong);
             for (PackedArray& array : arrays) {
-                if (array.name == name) array.feed = [&](const Put& put) { put(std::as_bytes(std::span(places))); };
+                if (array.name == name) array.feed = [&](const ByteSink& put) { put(std::as_bytes(std::span(places))); };
             }
             pack(volume, arrays);
             EXPECT_THROW(BrickReader<std::uint8_t>(Container(path_)).check({.threads = 1}), Error) << name << ' ' << wrong;

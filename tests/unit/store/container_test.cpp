@@ -132,7 +132,7 @@ TEST_F(Store, AByteUnderNoChecksumIsTold) {  // as a bug of the writer would lea
     const auto size = static_cast<std::int64_t>(content.size());
     const std::optional<std::int64_t> trailer = trailer_bytes(bytes.last(kTrailerEnd), size);
     ASSERT_TRUE(trailer);
-    std::optional<Frame> frame = frame_of_trailer(bytes.last(static_cast<std::size_t>(*trailer)), size);
+    std::optional<StoreFrame> frame = frame_of_trailer(bytes.last(static_cast<std::size_t>(*trailer)), size);
     ASSERT_TRUE(frame);
     const ByteRange last = frame->ranges.back();
     frame->ranges.back().bytes -= 3;

@@ -66,15 +66,15 @@ TEST(Fingerprint, NumbersThatDifferHaveTextsThatDiffer) {
     EXPECT_EQ(checksum_text(0xfe), "00000000000000fe");
 }
 
-TEST(Frame, IsWhatLiesOutside) {
+TEST(StoreFrame, IsWhatLiesOutside) {
     using Ranges = std::vector<ByteRange>;
     EXPECT_EQ(outside({}, 10), (Ranges{{0, 10}}));
     EXPECT_EQ(outside({{2, 3}, {0, 2}, {5, 0}, {7, 2}, {7, 1}}, 10), (Ranges{{5, 2}, {9, 1}}));
     EXPECT_EQ(outside({{0, 10}}, 10), Ranges{});
 }
 
-TEST(Frame, IsReadAsItWasWrittenOrRefused) {
-    const Frame frame{{{512, 100}, {700, 1}}, 0x123456789abcdef0U};
+TEST(StoreFrame, IsReadAsItWasWrittenOrRefused) {
+    const StoreFrame frame{{{512, 100}, {700, 1}}, 0x123456789abcdef0U};
     const std::vector<std::byte> good = bytes_of_trailer(frame);
     constexpr std::int64_t kSize = 2000;
     EXPECT_EQ(trailer_bytes(std::span(good).last(kTrailerEnd), kSize), std::ssize(good));
