@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "arguments.h"
-#include "failure.h"
-#include "interrupt.h"
-#include "report.h"
-#include "terminal.h"
-#include "values.h"
-#include "verbs.h"
+#include "options/arguments.h"
+#include "text/failure.h"
+#include "text/interrupt.h"
+#include "text/report.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
 
 namespace {
 

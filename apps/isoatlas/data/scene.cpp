@@ -1,0 +1,270 @@
+// The scene that the options ask for: which surfaces, in which colours, and what is cut away.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "data/picture.h"
+#include "data/source.h"
+#include "text/terminal.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr double kGlass = 0.28;        // opacity of what would hide others
+constexpr std::int64_t kLines = 1000;  // of the table, at most, in which --object looks for an id
+
+[[noreturn]] void nothing_there(const Arguments& arguments, const std::string& what) {
+    throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                       .what = what,
+                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists objects and their isovalues"});
+}
+
+/// A surface to be drawn, before it is known.
+struct Wanted {
+    double tau = 0;  ///< stored
+    std::vector<std::int64_t> objects;
+    std::string name;
+    std::vector<std::int64_t> contours{};
+    ShellChoice shell = ShellChoice::all;
+};
+
+Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
+    return {
+        entry.best_tau, {entry.id}, fmt::format("{}  at {}", entry.id, scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high))};
+}
+
+/// Where --object looks. The lines of what may be noise take long where it is many.
+ObjectTable lines_by_id(Source& source) {
+    ObjectTable table = source.objects({.top = kLines});
+    return table.branches > kLines ? table : source.objects({.top = 0, .gate = false});
+}
+
+Wanted wanted_part(const ShownObject& shown, const Scale& scale) {
+    const std::string name = fmt::format("{}  at {}", shown.id, *shown.tau);
+    Wanted wanted{.tau = scale.stored(*shown.tau), .objects = {shown.id}, .name = name};
+    if (shown.part == ShownPart::contour) wanted = {.tau = wanted.tau, .objects = {}, .name = "wall of " + name, .contours = {shown.id}};
+    if (shown.part == ShownPart::cavities) wanted.name = "cavities of " + name, wanted.shell = ShellChoice::inner;
+    return wanted;
+}
+
+void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& wanted) {
+    const Scale scale(source.info());
+    std::optional<ObjectTable> table;
+    for (const ShownObject& shown : arguments.picture.objects) {
+        if (shown.id < 0 || shown.id >= source.info().extent.voxels())
+            nothing_there(arguments, fmt::format("there is no object {}", shown.id));
+        if (shown.tau) {
+            wanted.push_back(wanted_part(shown, scale));
+            continue;
+        }
+        if (!table) table = lines_by_id(source);
+        const auto entry =
+            std::find_if(table->entries.begin(), table->entries.end(), [&](const ObjectEntry& e) { return e.id == shown.id; });
+        if (entry == table->entries.end()) {
+            throw Error(ErrorKind::not_found,
+                        {.file = arguments.file,
+                         .what = fmt::format("no object of the table has the id {}", shown.id),
+                         .next = fmt::format("isoatlas objects {} lists them; --object {}@T shows any object that holds this voxel",
+                                             shell_word(arguments.file), shown.id)});
+        }
+        wanted.push_back(wanted_entry(*entry, scale));
+    }
+}
+
+/// The first lines of the table that show more than background, if there are any.
+ObjectTable first_objects(Source& source, std::int64_t count) {
+    ObjectTable table = source.objects({.top = count + 1});
+    const Extent& extent = source.info().extent;
+    if (table.entries.size() > 1) std::erase_if(table.entries, [&](const ObjectEntry& e) { return is_background(e, extent); });
+    if (std::ssize(table.entries) > count) table.entries.resize(static_cast<std::size_t>(count));
+    return table;
+}
+
+std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
+    const Scale scale(source.info());
+    std::vector<Wanted> wanted;
+    for (const double tau : arguments.picture.taus) {
+        const double stored = source.stored(tau);
+        wanted.push_back({stored, {}, fmt::format("isovalue {}", tau)});
+    }
+    add_shown(arguments, source, wanted);
+    const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
+    if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
+    const ObjectTable table = first_objects(source, std::max<std::int64_t>(1, arguments.top));
+    if (table.entries.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
+    for (const ObjectEntry& entry : table.entries) wanted.push_back(wanted_entry(entry, scale));
+    return wanted;
+}
+
+struct Box {
+    Vec3 low, high;
+};
+
+Box box_of(const Surface& surface) {
+    Box box{surface.points[0], surface.points[0]};
+    for (const Vec3& p : surface.points) {
+        for (std::size_t a = 0; a < 3; ++a) box.low[a] = std::min(box.low[a], p[a]), box.high[a] = std::max(box.high[a], p[a]);
+    }
+    return box;
+}
+
+/// Does the box of a higher isovalue lie in that of a lower one? Then the surface of the lower one hides that of the higher one.
+bool hides(const SceneObject& outer, const SceneObject& inner) {
+    if (outer.surface.tau >= inner.surface.tau) return false;
+    const Box a = box_of(outer.surface), b = box_of(inner.surface);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double slack = 1e-9 * (a.high[i] - a.low[i]);
+        if (b.low[i] < a.low[i] - slack || b.high[i] > a.high[i] + slack) return false;
+    }
+    return true;
+}
+
+void choose_opacities(const PictureArguments& picture, std::vector<SceneObject>& objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const bool cut = picture.cut != CutShape::none;
+        const bool in_the_way = std::any_of(objects.begin(), objects.end(), [&](const SceneObject& o) { return hides(objects[i], o); });
+        objects[i].opacity = i < picture.opacities.size() ? picture.opacities[i] : in_the_way && !cut ? kGlass : 1;
+    }
+}
+
+/// The longer side of a slice that fits a picture.
+std::int64_t slice_side(const VolumeInfo& info, int axis, std::int64_t width, std::int64_t height) {
+    const auto length = [&](int a) { return info.geometry.spacing[a] * static_cast<double>(info.extent.size[a]); };
+    const double across = length(axis == 0 ? 1 : 0), down = length(axis == 2 ? 1 : 2);
+    const double pixels = std::min(static_cast<double>(width) / across, static_cast<double>(height) / down);
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(pixels * std::max(across, down)), 16, 16384);
+}
+
+std::vector<Material> materials_of(const PictureArguments& picture, const VolumeInfo& info) {
+    const Scale scale(info);
+    const double voxel = *std::min_element(info.geometry.spacing.begin(), info.geometry.spacing.end());
+    std::vector<Material> materials;
+    for (const ShownMaterial& shown : picture.materials) {
+        materials.push_back({.name = shown.name,
+                             .mean = scale.stored(shown.mean),
+                             .sigma = shown.sigma / std::abs(info.calibration.slope),
+                             .colour = shown.colour,
+                             .density = -std::log1p(-shown.opacity) / voxel});
+    }
+    return materials;
+}
+
+/// What --volume and --material ask for, without the samples.
+SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t first_colour) {
+    const PictureArguments& picture = arguments.picture;
+    if (!picture.volume) return {};
+    const ValueRange range = source.range();
+    SceneVolume matter{.range = std::array<double, 2>{range.low, range.high}, .shadows = picture.shadows};
+    if (!picture.materials.empty()) {
+        matter.curves = material_transfer(materials_of(picture, source.info()), *matter.range);
+        return matter;
+    }
+    const ObjectTable table = source.objects({.top = 5});
+    matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
+    const Scale scale(source.info());
+    for (std::size_t i = 0; i < matter.bumps.size(); ++i) {
+        OpacityTent& bump = matter.bumps[i];
+        const bool body = i > 0 && bump.tau == matter.bumps[i - 1].tau;
+        if (!body) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
+    }
+    return matter;
+}
+
+SampleBox box_of_slice(const Extent& extent, const ShownSlice& slice) {
+    SampleBox box{{0, 0, 0}, extent.size};
+    box.begin[static_cast<std::size_t>(slice.axis)] = slice.index;
+    box.end[static_cast<std::size_t>(slice.axis)] = slice.index + 1;
+    return box;
+}
+
+void add_slices(const Arguments& arguments, Source& source, const Volume& volume, Scene& scene) {
+    const PictureArguments& picture = arguments.picture;
+    const ValueRange range = source.range();
+    for (const ShownSlice& shown : picture.slices) {
+        SliceOptions options{.axis = shown.axis, .index = shown.index, .black = range.low, .white = range.high};
+        options.side =
+            picture.flat ? slice_side(source.info(), shown.axis, picture.width, picture.height) : std::max(picture.width, picture.height);
+        for (const SceneObject& object : scene.objects) options.contours.push_back({object.surface.tau, object.colour});
+        scene.slices.push_back(slice_picture(volume, options, source.context()));
+    }
+}
+
+/// Slices and matter: what needs samples.
+void add_samples(const Arguments& arguments, Source& source, Scene& scene) {
+    const PictureArguments& picture = arguments.picture;
+    if (picture.slices.empty() && !picture.volume) return;
+    SceneVolume matter = matter_of(arguments, source, scene.objects.size());
+    SamplesWanted wanted{.values = visible_values(matter)};
+    for (const ShownSlice& slice : picture.slices) wanted.boxes.push_back(box_of_slice(source.info().extent, slice));
+    const Volume& volume = source.volume(wanted);
+    add_slices(arguments, source, volume, scene);
+    if (!picture.volume) return;
+    matter.volume = &volume;
+    scene.volume = std::move(matter);
+}
+
+}  // namespace
+
+RenderOptions options_of_picture(const PictureArguments& picture) {
+    RenderOptions options{.width = picture.width, .height = picture.height};
+    options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
+    options.background = picture.background;
+    options.samples = picture.samples > 0 ? picture.samples : picture.volume ? 2 : 4;  // matter has no edges
+    options.scale_bar = options.legend = !picture.plain;
+    return options;
+}
+
+std::string length_unit(const VolumeInfo& info) {
+    if (!info.geometry.unit.empty()) return info.geometry.unit;
+    const bool voxels = info.geometry.coordinates[0].empty() && info.geometry.spacing == Vec3{1, 1, 1};
+    return voxels ? "voxels" : "units";
+}
+
+Scene scene_of(const Arguments& arguments, Source& source) {
+    const PictureArguments& picture = arguments.picture;
+    if (source.info().extent.rank == 2)
+        throw Error(ErrorKind::usage, {.file = arguments.file,
+                                       .what = "a 2D volume has curves, no surfaces to draw in space",
+                                       .next = "isoatlas extract " + shell_word(arguments.file) + " --tau T -o curves.vtp writes them"});
+    Scene scene;
+    scene.unit = length_unit(source.info());
+    for (const Wanted& wanted : wanted_of(arguments, source)) {
+        ExtractOptions options;
+        options.objects = wanted.objects;
+        options.contours = wanted.contours;
+        options.shell = wanted.shell;
+        options.ids = false;
+        Surface surface = source.extract(wanted.tau, options);
+        if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
+        const std::size_t i = scene.objects.size();
+        const Colour colour = i < picture.colours.size() ? picture.colours[i] : palette(static_cast<std::int64_t>(i));
+        scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
+    }
+    choose_opacities(picture, scene.objects);
+    add_samples(arguments, source, scene);
+    return scene;
+}
+
+std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view) {
+    if (picture.cut == CutShape::none || picture.cut == CutShape::planes) return picture.planes;
+    Vec3 middle{};
+    for (std::size_t a = 0; a < 3; ++a) middle[a] = static_cast<double>(info.extent.size[a] - 1) / 2;
+    const Vec3 centre = to_physical(info.geometry, middle);
+    std::size_t nearest = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (std::abs(view.toward[a]) > std::abs(view.toward[nearest])) nearest = a;
+    }
+    std::vector<HalfSpace> removed;
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (picture.cut == CutShape::half && a != nearest) continue;
+        HalfSpace half;
+        const double sign = view.toward[a] >= 0 ? 1 : -1;
+        half.normal[a] = sign;
+        half.offset = sign * centre[a];
+        removed.push_back(half);
+    }
+    return removed;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,61 @@
+// Session: what most verbs do first. Check where the output goes, load the volume, say what it is, understand the isovalue.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <isoatlas/isoatlas.h>
+
+#include "options/arguments.h"
+#include "text/progress.h"
+#include "text/values.h"
+
+namespace isoatlas::cli {
+
+class Terminal;
+
+struct ValueRange {
+    double low, high;  ///< stored values
+};
+[[nodiscard]] ValueRange range_of(const Volume& volume);
+
+class Session {
+public:
+    Session(const Arguments& arguments, Terminal& terminal) : arguments_(arguments), terminal_(terminal), progress_(terminal) {}
+
+    /// For long calls; valid while the session lives.
+    [[nodiscard]] Context context();
+    /// Loads arguments.file, prints one line about it and the notes of the reader. JobQueue out-of-memory into Error{resource}.
+    [[nodiscard]] Volume load();
+    /// "scan.nrrd  NRRD  512 x 512 x 420  int16  spacing ...  values ..."
+    [[nodiscard]] static std::string describe(const VolumeInfo& info, const ValueRange& range);
+
+private:
+    const Arguments& arguments_;
+    Terminal& terminal_;
+    ProgressBar progress_;
+};
+
+/// Memory of an analysis in bytes, for few (smooth data) and many (noise) critical elements; time for the same.
+struct Cost {
+    double memory_smooth, memory_noise, seconds_smooth, seconds_noise;
+};
+[[nodiscard]] Cost cost_of_analysis(const VolumeInfo& info, int threads);
+/// "memory 210 MB to 1.3 GB, time about 2 s" for messages.
+[[nodiscard]] std::string cost_text(const VolumeInfo& info, int threads);
+
+/// What --gaussian and --box make of a volume.
+[[nodiscard]] Volume shaped(Volume volume, const Arguments& arguments, const Context& context);
+
+/// What --voxel makes of any geometry.
+[[nodiscard]] Geometry voxel_geometry();
+
+/// Fails early, before the long work: unknown extension, missing or unwritable folder, output equal to the input.
+void check_output(const Arguments& arguments, const std::vector<std::string>& extensions);
+/// The same of another output than that of -o.
+void check_output(const Arguments& arguments, const std::string& output, const std::vector<std::string>& extensions);
+
+/// "--dims 4x4x4 --type uint8": the reading options again, for the commands we suggest.
+[[nodiscard]] std::string reading_options(const Arguments& arguments);
+
+}  // namespace isoatlas::cli

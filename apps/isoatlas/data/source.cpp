@@ -1,0 +1,167 @@
+#include "data/source.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "options/suggest.h"
+#include "text/terminal.h"
+#include "text/values.h"
+
+namespace isoatlas::cli {
+
+void check_store_options(const Arguments& arguments, const Atlas& atlas) {
+    const auto refuse = [&](const char* option, const std::string& has) {
+        throw Error(ErrorKind::usage, {.file = arguments.file,
+                                       .what = std::string(option) + " contradicts the store, which was built with " + has,
+                                       .next = std::string("leave out ") + option + ", or build another store from the volume"});
+    };
+    if (arguments.interpolant_given && arguments.interpolant != atlas.interpolant())
+        refuse("--interpolant", std::string("--interpolant ") + name_of(atlas.interpolant()));
+    if (arguments.tunnel_height > 0) refuse("--tunnel-height", fmt::format("a tunnel height of {}", atlas.tunnel_height()));
+    const OpenOptions& open = arguments.open;
+    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.spacing || open.origin || open.time_step || open.skip_rest ||
+        open.follow_links)
+        refuse("an option of the reader", "what the volume file said");
+    if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
+    if (arguments.verb != "atlas" && arguments.verb != "view") return;  // others do it to what is in the store
+    const double gaussian = atlas.info().gaussian;
+    if (arguments.gaussian && *arguments.gaussian != gaussian)
+        refuse("--gaussian", gaussian > 0 ? fmt::format("--gaussian {}", gaussian) : "samples as they are");
+    if (arguments.voxel_units && atlas.info().geometry != voxel_geometry()) refuse("--voxel", "the geometry of the volume");
+}
+
+Source::Source(const Arguments& arguments, Terminal& terminal) : arguments_(arguments), session_(arguments, terminal) {
+    if (!is_atlas(arguments.file)) {
+        volume_ = session_.load();
+        info_ = volume_->info;
+        return;
+    }
+    atlas_.emplace(arguments.file);
+    check_store_options(arguments, *atlas_);
+    info_ = atlas_->info();
+    if (arguments.voxel_units) info_.geometry = voxel_geometry();
+    if (!arguments.quiet) terminal.say(session_.describe(info_, range()));
+}
+
+ValueRange Source::range() {
+    if (!range_ && atlas_) {
+        const std::array<double, 2> both = atlas_->range();
+        range_ = ValueRange{both[0], both[1]};
+    }
+    if (!range_) range_ = range_of(*volume_);
+    return *range_;
+}
+
+Interpolant Source::interpolant() const { return atlas_ ? atlas_->interpolant() : arguments_.interpolant; }
+
+double Source::tunnel_height() {
+    if (atlas_) return atlas_->tunnel_height();
+    if (arguments_.tunnel_height == 0) return 0;
+    if (!arguments_.tunnel_height_in_percent) return arguments_.tunnel_height / std::abs(info_.calibration.slope);
+    return arguments_.tunnel_height / 100 * (range().high - range().low);
+}
+
+double Source::stored(double typed) {
+    const Scale scale(info_);
+    const double tau = scale.stored(typed);
+    const ValueRange all = range();
+    if (tau >= all.low && tau <= all.high) return tau;
+    throw Error(ErrorKind::not_found, {.file = arguments_.file,
+                                       .what = fmt::format("the isovalue {} is {} every sample", typed, tau > all.high ? "above" : "below"),
+                                       .expected = fmt::format("{} .. {}", scale.text(all.low), scale.text(all.high)),
+                                       .next = "isoatlas objects " + shell_word(arguments_.file) + " lists isovalues that show something"});
+}
+
+Cut Source::cut(double tau, bool label) {
+    const CutOptions options{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = label};
+    if (atlas_ && !arguments_.voxel_units) return atlas_->cut(tau, options, context(), &cost_);
+    return isoatlas::cut(volume(), tau, options, context());
+}
+
+Surface Source::extract(double tau, ExtractOptions options) {
+    options.interpolant = interpolant();
+    options.tunnel_height = tunnel_height();
+    if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context(), &cost_);
+    return isoatlas::extract(volume(), tau, options, context());
+}
+
+ObjectTable Source::objects(const RankOptions& options) {
+    if (!atlas_) return rank_objects(volume(), analysis(true), options, context());
+    ObjectTable table = atlas_->objects(options, context());
+    for (ObjectEntry& entry : table.entries) {
+        if (arguments_.voxel_units) entry.measure = static_cast<double>(entry.voxels);
+    }
+    return table;
+}
+
+CavityTable Source::dark_objects(const RankOptions& options) {
+    if (!atlas_ || arguments_.voxel_units) return rank_cavities(volume(), analysis(false), options, context());
+    return atlas_->dark_objects(options, context());
+}
+
+ObjectsAndCavities Source::both_tables(const RankOptions& options) {
+    if (!atlas_) return rank_both(volume(), analysis(true), options, context());
+    return {objects(options), dark_objects(options)};
+}
+
+BranchHierarchy Source::hierarchy() {
+    if (atlas_ && !arguments_.voxel_units) return atlas_->hierarchy(context());
+    return {volume(), analysis(true), context()};
+}
+
+std::pair<Analysis, BranchHierarchy> Source::analysis_and_hierarchy() {
+    if (atlas_ && !arguments_.voxel_units) return {atlas_->analysis(), atlas_->hierarchy(context())};
+    Analysis made = analysis(true);
+    BranchHierarchy hierarchy(volume(), made, context());
+    return {std::move(made), std::move(hierarchy)};
+}
+
+Selection Source::selection() {
+    Selection selection = arguments_.selection;
+    const double slope = std::abs(info_.calibration.slope);
+    selection.min_hypervolume /= slope;
+    if (arguments_.persistence_in_percent)
+        selection.min_persistence *= (range().high - range().low) / 100;
+    else
+        selection.min_persistence /= slope;
+    return selection;
+}
+
+Spectrum Source::spectrum(const SpectrumOptions& options) {
+    if (atlas_ && !arguments_.voxel_units) return isoatlas::spectrum(*atlas_, options, context());
+    return isoatlas::spectrum(volume(), analysis(true), options, context());
+}
+
+Analysis Source::analysis(bool with_zones) {
+    if (atlas_ && !with_zones) return atlas_->analysis();
+    return analyse(volume(), analysis_options(), context());
+}
+
+const Volume& Source::volume() {
+    if (!volume_) {
+        const AtlasReads before = atlas_->reads();
+        volume_ = atlas_->volume(context());
+        const AtlasReads after = atlas_->reads();
+        QueryCost whole;
+        whole.bytes = after.bytes - before.bytes, whole.extents = after.extents - before.extents,
+        whole.bricks = after.bricks - before.bricks;
+        whole.cells_loaded = whole.cells_visited = info_.extent.voxels();
+        cost_ += whole;
+        volume_->info = info_;
+        volume_ = shaped(std::move(*volume_), arguments_, context());
+        info_ = volume_->info;
+    }
+    return *volume_;
+}
+
+const Volume& Source::volume(const SamplesWanted& wanted) {
+    if (volume_ || arguments_.box || arguments_.gaussian) return volume();
+    part_ = atlas_->volume(wanted, context(), &cost_);
+    part_->info = info_;
+    return *part_;
+}
+
+std::optional<QueryCost> Source::reads() const { return atlas_ ? std::optional(cost_) : std::nullopt; }
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,72 @@
+// Source: what the verbs ask of a volume file or of a store (`isoatlas build`), so that they need not know which one it is.
+//
+// A volume file is read whole. A store is read as far as a question needs.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <isoatlas/isoatlas.h>
+
+#include "data/session.h"
+
+namespace isoatlas::cli {
+
+/// A store has its own answer to everything that is decided while it is built: throws Error{usage} when an option contradicts it.
+void check_store_options(const Arguments& arguments, const Atlas& atlas);
+
+class Source {
+public:
+    /// Opens arguments.file, prints one line about it and the notes of the reader.
+    Source(const Arguments& arguments, Terminal& terminal);
+
+    [[nodiscard]] bool is_store() const { return atlas_.has_value(); }
+    /// Only of a store.
+    [[nodiscard]] const Atlas& atlas() const { return atlas_.value(); }
+    [[nodiscard]] const VolumeInfo& info() const { return info_; }
+    [[nodiscard]] ValueRange range();
+    [[nodiscard]] Interpolant interpolant() const;
+    [[nodiscard]] double tunnel_height();  ///< stored values
+    [[nodiscard]] AnalysisOptions analysis_options() { return {.interpolant = interpolant(), .tunnel_height = tunnel_height()}; }
+    /// The stored isovalue of --tau. Throws Error{not_found} with the range when no sample of the volume has it between them.
+    [[nodiscard]] double tau() { return stored(*arguments_.tau); }
+    /// The same of any isovalue that the user typed.
+    [[nodiscard]] double stored(double typed);
+    [[nodiscard]] Context context() { return session_.context(); }
+
+    [[nodiscard]] Cut cut(double tau, bool label);
+    /// options: interpolant and tunnel height are those of the source.
+    [[nodiscard]] Surface extract(double tau, ExtractOptions options);
+    /// The table of objects.
+    [[nodiscard]] ObjectTable objects(const RankOptions& options);
+    [[nodiscard]] CavityTable dark_objects(const RankOptions& options);
+    [[nodiscard]] ObjectsAndCavities both_tables(const RankOptions& options);
+    /// The branches that selections choose from.
+    [[nodiscard]] BranchHierarchy hierarchy();
+    /// The same, with the trees that its events belong to.
+    [[nodiscard]] std::pair<Analysis, BranchHierarchy> analysis_and_hierarchy();
+    /// The selection of the command line, in stored values.
+    [[nodiscard]] Selection selection();
+    [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);
+    /// The trees. with_zones: zone(voxel) will be asked.
+    [[nodiscard]] Analysis analysis(bool with_zones);
+    /// All samples.
+    [[nodiscard]] const Volume& volume();
+    /// A volume with at least these samples; of a store no others are read. Valid until the next call.
+    [[nodiscard]] const Volume& volume(const SamplesWanted& wanted);
+
+    /// What has been read of a store, for the JSON documents; nothing for a volume file.
+    [[nodiscard]] std::optional<QueryCost> reads() const;
+
+private:
+    const Arguments& arguments_;
+    Session session_;
+    std::optional<Atlas> atlas_;
+    std::optional<Volume> volume_, part_;
+    std::optional<ValueRange> range_;
+    QueryCost cost_;
+    VolumeInfo info_;
+};
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,80 @@
+// Arguments: what the user typed, checked and converted. parse() lives in the only file that knows CLI11.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <isoatlas/isoatlas.h>
+
+#include "data/picture.h"
+
+namespace isoatlas::cli {
+
+struct Arguments {
+    std::string verb;
+    std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
+    std::string output;             ///< -o; empty: none
+    std::vector<std::string> part;  ///< of a store: the words of its name
+
+    // Reading
+    OpenOptions open;
+    MissingPolicy missing;
+    std::optional<SampleBox> box;    ///< only this part of the volume
+    std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
+    bool voxel_units = false;        ///< lengths in voxels, whatever the file says
+
+    // Running and talking
+    Interpolant interpolant = Interpolant::trilinear;
+    bool interpolant_given = false;
+    double tunnel_height = 0;  ///< in reported units, or in percent of the range
+    bool tunnel_height_in_percent = false;
+    int threads = 0;
+    bool json = false, quiet = false, no_color = false;
+    int verbose = 0;
+
+    // Building a store
+    std::int64_t memory = 0;  ///< bytes; 0: not given
+    bool dry_run = false, restart = false;
+
+    // Choosing
+    std::optional<double> tau;  ///< in reported (calibrated) units, as typed
+    std::vector<std::int64_t> objects, contours;
+    bool exact = false;  ///< handles: exact pairs
+    bool best = false, all = false, zones = false, list = false, dark = false, both = false;
+    std::int64_t top = 0;  ///< 0: not given
+    Selection selection;   ///< as typed: reported units
+    bool selects = false, persistence_in_percent = false;
+    std::string curve;                    ///< file
+    std::optional<std::int64_t> samples;  ///< isovalues that are measured
+    int levels = 8;
+    bool full = false;
+    std::uint64_t seed = 1;
+
+    // Serving
+    int port = 0;  ///< 0: any
+    bool no_browser = false, read_only = false;
+
+    // Shaping the output
+    ShellChoice shell = ShellChoice::all;
+    SurfaceStyle style = SurfaceStyle::compact;
+    Boundary boundary = Boundary::closed;
+    TreeDetail detail = TreeDetail::events;
+    PhantomOptions phantom;
+    PictureArguments picture;
+};
+
+/// What to do with a command line: run a verb, or print a text (help, version) and stop.
+struct Parsed {
+    Arguments arguments;
+    std::string text;  ///< not empty: print it and exit 0
+};
+
+/// Throws Error{usage} with a next step (did you mean ...?) for everything it does not understand.
+[[nodiscard]] Parsed parse(const std::vector<std::string>& words);
+
+/// The long options of a verb, for completion.
+[[nodiscard]] std::vector<std::string> options_of(const std::string& verb);
+
+}  // namespace isoatlas::cli

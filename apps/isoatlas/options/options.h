@@ -1,0 +1,48 @@
+// Options of verbs that have many.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "options/arguments.h"
+#include "options/selection_words.h"
+#include "options/words.h"
+
+namespace isoatlas::cli {
+
+/// The range is told in the message of a failure, not in the help.
+template <class T>
+CLI::Validator in_range(T low, T high) {
+    return CLI::Range(low, high).description("");
+}
+
+template <class T>
+inline constexpr bool kIsVector = false;
+template <class T>
+inline constexpr bool kIsVector<std::vector<T>> = true;
+
+/// An option that takes a number, or several for a vector, each read by read_number(): CLI11 takes nothing for 0.
+template <class T>
+CLI::Option* add_number(CLI::App& app, const std::string& name, T& value, const std::string& meaning) {
+    const auto take = [&value, name](const CLI::results_t& words) {
+        if constexpr (kIsVector<T>) {
+            for (const std::string& word : words) value.push_back(parse_number<typename T::value_type>(name, word));
+        } else if constexpr (std::is_arithmetic_v<T>) {
+            value = parse_number<T>(name, words.at(0));
+        } else {
+            value = parse_number<typename T::value_type>(name, words.at(0));  // of an optional
+        }
+        return true;
+    };
+    CLI::Option* option = app.add_option(name, take, meaning);
+    if constexpr (kIsVector<T>) option->expected(CLI::detail::expected_max_vector_size);
+    return option;
+}
+
+void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words);
+void add_camera(CLI::App& app, PictureWords& words);
+void add_animation(CLI::App& app, Arguments& arguments);
+
+/// Which objects are to be seen. top: also --top P%, where --top has no other meaning.
+void add_selection(CLI::App& app, TypedSelection& typed, bool top);
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,83 @@
+#include "text/dark_table.h"
+
+#include "text/entry_json.h"
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/sizes.h"
+#include "text/terminal.h"
+#include "text/values.h"
+
+namespace isoatlas::cli {
+namespace {
+
+Json entry_json(const CavityTable& table, const CavityEntry& entry, const VolumeInfo& info) {
+    const Scale scale(info);
+    Json json{{"id", entry.id}};
+    add_isovalues(json, entry, scale);
+    json["reason"] = name_of(entry.reason);
+    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_minimum), scale);
+    json["object"] = entry.object;
+    json["tunnels"] = entry.tunnels;
+    json["islands"] = entry.islands;
+    add_size_and_place(json, entry, info);
+    return json;
+}
+
+std::string best_tau_text(const CavityEntry& entry, const Scale& scale) {
+    return scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high);
+}
+
+void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const CavityTable& table) {
+    const Scale scale(info);
+    const Sizes sizes(info, largest_measure(table.entries));
+    std::vector<Table::Column> columns{{"dark"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
+    sizes.add_titles(columns, "islands");
+    columns.insert(columns.end(), {{"inside of"}, {"why there", true}, {"note", true}});
+    Table text(columns);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        const CavityEntry& entry = table.entries[i];
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
+                                     scale.brief(entry.merges), best_tau_text(entry, scale)};
+        sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.islands);
+        row.insert(row.end(), {fmt::format("{}", entry.object), name_of(entry.reason), entry.note});
+        text.add(row);
+    }
+    terminal.say(fmt::format("{} in all; {} to look at", counted(table.branches, "cavity", "cavities"),
+                             counted(static_cast<std::int64_t>(table.entries.size()), "dark object")));
+    text.print(terminal);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_minimum);
+        if (!others.empty()) others.erase(others.begin());
+        tell_isovalues(terminal, i, others, scale);
+    }
+    if (table.entries.empty()) {
+        terminal.say("no cavity stands out from the noise; --all lists everything");
+        return;
+    }
+    const CavityEntry& first = table.entries[0];
+    terminal.next(fmt::format("isoatlas extract {}{} --tau {} --contour {} -o dark.ply", shell_word(arguments.file),
+                              reading_options(arguments), best_tau_text(first, scale), first.id));
+}
+
+}  // namespace
+
+void add_dark(Json& json, const CavityTable& table, const VolumeInfo& info) {
+    json["dark_branches"] = table.branches;
+    Json& list = json["dark"] = Json::array();
+    for (const CavityEntry& entry : table.entries) list.push_back(entry_json(table, entry, info));
+}
+
+void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table) {
+    const VolumeInfo& info = source.info();
+    if (!arguments.json) return print_text(terminal, arguments, info, table);
+    Json head = document("dark-objects", info, source.interpolant(), source.tunnel_height());
+    head["branches"] = table.branches;
+    head["noise"] = table.noise * info.calibration.slope;
+    add_reads(head, source.reads());
+    print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
+          [&](std::int64_t i) { return entry_json(table, table.entries[static_cast<std::size_t>(i)], info); });
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,17 @@
+// The table of dark objects, as text and as JSON.
+#pragma once
+
+#include "options/arguments.h"
+#include "text/document.h"
+
+namespace isoatlas::cli {
+
+class Source;
+class Terminal;
+
+/// Members "cavity_branches" and "dark": [...].
+void add_dark(Json& json, const CavityTable& table, const VolumeInfo& info);
+/// The table alone, or with --json its own document.
+void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table);
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,53 @@
+#include "text/report.h"
+
+#include <exception>
+
+#include "text/document.h"
+#include "text/terminal.h"
+
+namespace isoatlas::cli {
+namespace {
+
+const char* kind_name(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::internal: return "internal";
+        case ErrorKind::usage: return "usage";
+        case ErrorKind::input: return "input";
+        case ErrorKind::unsupported: return "unsupported";
+        case ErrorKind::resource: return "resource";
+        case ErrorKind::not_found: return "not_found";
+        case ErrorKind::verification: return "verification";
+        case ErrorKind::cancelled: return "cancelled";
+    }
+    return "internal";
+}
+
+}  // namespace
+
+int report(const Error& error, bool json, Terminal& terminal) {
+    const int code = static_cast<int>(error.kind());
+    Terminal::Style style = terminal.style();
+    style.quiet = false;
+    terminal.set_style(style);
+    terminal.say(std::string("isoatlas: ") + error.what());
+    if (!json) return code;
+    const ErrorText& text = error.text();
+    Json document_of_error = document("error");
+    document_of_error["error"] = {{"kind", kind_name(error.kind())},
+                                  {"exit_code", code},
+                                  {"message", error.what()},
+                                  {"file", text.file},
+                                  {"where", text.where},
+                                  {"what", text.what},
+                                  {"expected", text.expected},
+                                  {"next", text.next}};
+    try {
+        print(terminal, document_of_error);
+        terminal.finish();
+    } catch (const std::exception&) {
+        // Standard output is what failed: the message above has said so.
+    }
+    return code;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,127 @@
+#include "text/terminal.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <streambuf>
+#include <string_view>
+
+#include <unistd.h>
+
+#include <isoatlas/error.h>
+#include <isoatlas/text.h>
+
+namespace isoatlas::cli {
+namespace {
+
+[[noreturn]] void output_failed(int error) {
+    throw Error(ErrorKind::resource, {.file = "standard output",
+                                      .what = std::string("cannot be written: ") + std::strerror(error),
+                                      .next = error == EPIPE ? "keep the reader of the pipe open" : "send it to a place with free space"});
+}
+
+/// A name in it may hold any byte: what is not UTF-8 or moves the cursor is escaped. Lines stay lines.
+void talk(const std::string& line) {
+    const std::string text = header_text(written_name(line), /*lines=*/true) + "\n";
+    // Talk that nobody can read is no reason to fail.
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+bool colours_wanted(int file) {
+    const char* no_color = std::getenv("NO_COLOR");
+    const char* term = std::getenv("TERM");
+    if (no_color != nullptr && *no_color != '\0') return false;
+    return ::isatty(file) != 0 && term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
+}  // namespace
+
+class Terminal::Buffer : public std::streambuf {
+public:
+    Buffer() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+
+    /// Results are text, and UTF-8 whatever names are in it. A character that is not whole yet waits for its end, unless this is the end.
+    void flush(bool is_end) {
+        const std::string_view all(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+        const std::string_view text = is_end ? all : whole_characters(all);
+        const std::string kept(all.substr(text.size()));
+        if (is_utf8(text)) {
+            write(text);
+        } else {
+            write(written_name(text));
+        }
+        empty();
+        sputn(kept.data(), static_cast<std::streamsize>(kept.size()));
+    }
+
+protected:
+    int_type overflow(int_type c) override {
+        flush(false);
+        if (!traits_type::eq_int_type(c, traits_type::eof())) sputc(traits_type::to_char_type(c));
+        return traits_type::not_eof(c);
+    }
+    int sync() override {
+        flush(true);
+        return 0;
+    }
+
+private:
+    static std::string_view whole_characters(std::string_view text) {
+        for (std::size_t kept = 1; kept <= std::min<std::size_t>(3, text.size()); ++kept) {
+            const auto byte = static_cast<unsigned char>(text[text.size() - kept]);
+            if (byte < 0x80) break;
+            if (byte >= 0xc0) return text.substr(0, text.size() - kept);
+        }
+        return text;
+    }
+    void empty() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+    void write(std::string_view text) {
+        while (!text.empty()) {
+            const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) {
+                const int error = errno;
+                empty();
+                output_failed(error);
+            }
+            text.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+
+    std::array<char, 1 << 16> bytes_;
+};
+
+Terminal::Terminal() : buffer_(std::make_unique<Buffer>()), out_(buffer_.get()) {
+    out_.exceptions(std::ios::badbit);  // so that the Error of Buffer::flush comes through
+}
+
+Terminal::~Terminal() = default;
+
+std::ostream& Terminal::out() { return out_; }
+
+void Terminal::finish() { out_.flush(); }
+
+void Terminal::say(const std::string& line) {
+    if (!style_.quiet) talk(line);
+}
+
+void Terminal::warn(const std::string& line) { talk("warning: " + line); }
+
+void Terminal::next(const std::string& command) { say("next: " + command); }
+
+void Terminal::detail(const std::string& line) {
+    if (style_.verbose > 0) talk(line);
+}
+
+bool Terminal::is_interactive() const {
+    const char* term = std::getenv("TERM");
+    return !style_.quiet && ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
+std::string Terminal::bold(const std::string& text) const {
+    return style_.no_color || !colours_wanted(STDOUT_FILENO) ? text : "\033[1m" + text + "\033[0m";
+}
+
+}  // namespace isoatlas::cli

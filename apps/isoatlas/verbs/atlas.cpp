@@ -1,0 +1,42 @@
+// isoatlas FILE: from a volume to the page that shows what is in it. Builds the store beside the page when there is none.
+#include "data/session.h"
+#include "data/store_beside.h"
+#include "text/document.h"
+#include "text/interrupt.h"
+#include "text/progress.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+
+int run_atlas(const Arguments& arguments, Terminal& terminal) {
+    const std::string page = arguments.output.empty() ? stem_of(arguments.file) + ".atlas.html" : arguments.output;
+    check_output(arguments, page, {".html"});
+    const std::string store = store_for(arguments, terminal, store_beside(page));
+    const Atlas atlas(store);
+    PageReport report;
+    {
+        Session session(arguments, terminal);
+        const WritingGuard guard;
+        const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
+        report = write_page(page, atlas, {.top = top, .top_dark = (top + 1) / 2, .source = store}, session.context());
+    }
+    if (arguments.json) {
+        Json json = document("atlas", atlas.info(), atlas.interpolant(), atlas.tunnel_height());
+        json["store"] = store;
+        json["output"] = page;
+        json["bytes"] = report.bytes;
+        json["shown"] = report.objects;
+        json["shown_dark"] = report.dark;
+        json["hidden"] = report.hidden;
+        print(terminal, json);
+        return 0;
+    }
+    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << count_text(report.dark) << " of dark objects; "
+                   << counted(report.hidden, "object") << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
+    terminal.next("open " + page + " in a browser");
+    return 0;
+}
+
+}  // namespace isoatlas::cli

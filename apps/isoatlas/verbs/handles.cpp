@@ -1,0 +1,90 @@
+// isoatlas handles: from which isovalue to which does a tunnel live?
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/document.h"
+#include "text/table.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr std::int64_t kDefaultTop = 24;
+
+Json handle_json(const Handle& handle, const VolumeInfo& info) {
+    Json json{{"opens", info.calibration.reported(handle.opens)}, {"closes", info.calibration.reported(handle.closes)}};
+    if (handle.is_open) json["open"] = true;
+    json["event"] = handle.event;
+    json["opened_at"] = handle.opened_at;
+    json["closed_at"] = handle.closed_at;
+    return json;
+}
+
+std::string place_text(const std::array<double, 3>& p) { return fmt::format("{},{},{}", p[0], p[1], p[2]); }
+
+void print_text(Terminal& terminal, Source& source, const std::vector<Handle>& handles, bool exact, std::int64_t shown) {
+    const Scale scale(source.info());
+    Table table({{"#"}, {"opens"}, {"closes"}, {"opened at", true}, {"closed at", true}});
+    for (std::int64_t i = 0; i < shown; ++i) {
+        const Handle& handle = handles[static_cast<std::size_t>(i)];
+        table.add({fmt::format("{}", i + 1), scale.brief(handle.opens), scale.brief(handle.closes), place_text(handle.opened_at),
+                   handle.is_open ? "still open, its object merges" : place_text(handle.closed_at)});
+    }
+    terminal.say(fmt::format("{}; pairs are {}; {}", counted(static_cast<std::int64_t>(handles.size()), "tunnel"),
+                             exact ? "exact" : "approximate: the tunnel that opened last closes first",
+                             interpolant_text(source.info(), source.interpolant(), source.tunnel_height())));
+    table.print(terminal);
+    if (shown < static_cast<std::int64_t>(handles.size()))
+        terminal.say(fmt::format("and {} more", count_text(static_cast<std::int64_t>(handles.size()) - shown)));
+}
+
+/// The event of --object; -1: all of them.
+std::int64_t wanted_event(const Arguments& arguments, const Analysis& analysis) {
+    if (arguments.objects.empty()) return -1;
+    const std::int64_t event = event_of_highest(analysis, arguments.objects[0]);
+    if (event >= 0) return event;
+    throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                       .what = fmt::format("voxel {} is not the highest of an object", arguments.objects[0]),
+                                       .expected = "an id of the table of objects",
+                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists ids"});
+}
+
+std::vector<Handle> find_handles(const Arguments& arguments, Source& source) {
+    const double min = source.selection().min_persistence;
+    const Analysis analysis = source.analysis(false);
+    if (!arguments.exact) return pair_handles(analysis, min);
+    return pair_handles_exactly(source.volume(), analysis, {.min_persistence = min, .event = wanted_event(arguments, analysis)},
+                                source.context());
+}
+
+void check_arguments(const Arguments& arguments) {
+    if (!arguments.exact && !arguments.objects.empty())
+        throw Error(ErrorKind::usage, {.what = "--object is for exact pairs", .next = "add --exact"});
+    if (arguments.objects.size() > 1) throw Error(ErrorKind::usage, {.what = "one object at a time", .next = "give --object once"});
+}
+
+}  // namespace
+
+int run_handles(const Arguments& arguments, Terminal& terminal) {
+    check_arguments(arguments);
+    Source source(arguments, terminal);
+    const std::vector<Handle> handles = find_handles(arguments, source);
+    const auto all = static_cast<std::int64_t>(handles.size());
+    const std::int64_t top = arguments.top > 0 ? arguments.top : kDefaultTop, shown = std::min(all, top);
+    if (!arguments.json) {
+        print_text(terminal, source, handles, arguments.exact, shown);
+        return 0;
+    }
+    Json head = document("handles", source.info(), source.interpolant(), source.tunnel_height());
+    head["pairs"] = arguments.exact ? "exact" : "approximate";
+    head["tunnels"] = all;
+    print(terminal, head, "handles", shown,
+          [&](std::int64_t i) { return handle_json(handles[static_cast<std::size_t>(i)], source.info()); });
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,199 @@
+// isoatlas info: what the file is, and what an analysis of it would cost.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "data/session.h"
+#include "text/document.h"
+#include "text/interrupt.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+/// Above this many bytes of samples the values are not read: `info` must answer at once.
+constexpr double kReadLimit = 2e9;
+
+struct Values {
+    bool known = false;
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();  ///< stored
+    std::int64_t missing = 0;                                                                               ///< NaN and infinite samples
+};
+
+template <class T>
+void look_at(std::span<const T> samples, Values& values) {
+    for (const T sample : samples) {
+        const auto value = static_cast<double>(sample);
+        if (!std::isfinite(value)) {
+            ++values.missing;
+            continue;
+        }
+        values.low = std::min(values.low, value);
+        values.high = std::max(values.high, value);
+    }
+}
+
+Values read_values(VolumeReader& reader, Session& session) {
+    const VolumeInfo& info = reader.info();
+    Values values;
+    const auto bytes = static_cast<double>(info.extent.voxels()) * static_cast<double>(size_of(info.type));
+    if (bytes > kReadLimit) return values;
+    const std::int64_t slices = info.extent.size[2];
+    const std::int64_t step = std::max<std::int64_t>(1, (std::int64_t{16} << 20) / std::max<std::int64_t>(1, info.extent.slice()));
+    const Context context = session.context();
+    for (std::int64_t z = 0; z < slices; z += step) {
+        stop_if_interrupted();
+        Volume slab;
+        slab.info.type = info.type;
+        const std::int64_t end = std::min(z + step, slices);
+        slab.bytes.resize(static_cast<std::size_t>((end - z) * info.extent.slice()) * size_of(info.type));
+        reader.read(z, end, slab.bytes);
+        visit_samples(slab, [&](auto samples) { look_at(samples, values); });
+        context.report("read values", 0, 1, static_cast<double>(end) / static_cast<double>(slices));
+    }
+    values.known = values.low <= values.high;
+    return values;
+}
+
+Json json_of(const Bounds& bounds) { return {{"least", bounds.min}, {"most", bounds.max}}; }
+
+Json to_json(const SurfacePreview& preview, double tau) {
+    return {{"tau", tau},
+            {"objects", preview.objects},
+            {"contours", preview.contours},
+            {"tunnels", preview.tunnels},
+            {"voxels", json_of(preview.voxels)},
+            {"active_cells", json_of(preview.cells)},
+            {"points", json_of(preview.points)},
+            {"triangles", json_of(preview.triangles)},
+            {"bricks", json_of(preview.bricks)},
+            {"bytes", json_of(preview.bytes)},
+            {"extents", json_of(preview.extents)}};
+}
+
+/// "1,234", or "1,200 to 1,300".
+std::string text_of(const Bounds& bounds) {
+    if (bounds.min == bounds.max) return count_text(bounds.min);
+    return count_text(bounds.min) + " to " + count_text(bounds.max);
+}
+
+void print_preview(std::ostream& out, const SurfacePreview& preview, double tau) {
+    out << fmt::format("surface      at {}: {}, {}, {}\n", tau, counted(preview.objects, "object"), counted(preview.contours, "contour"),
+                       counted(preview.tunnels, "tunnel"));
+    out << "             voxels inside " << text_of(preview.voxels) << "; active cells " << text_of(preview.cells) << "\n";
+    out << "             points " << text_of(preview.points) << "; triangles " << text_of(preview.triangles)
+        << " (compact, without articulation points)\n";
+    out << "to be read   bytes " << text_of(preview.bytes) << " in " << text_of(preview.extents) << " reads, bricks "
+        << text_of(preview.bricks) << '\n';
+}
+
+Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
+    Json json = document("info", info);
+    json["file"] = {
+        {"bytes", info.file_bytes}, {"data_file", info.data_file}, {"big_endian", info.big_endian}, {"slab_readable", info.slab_readable}};
+    json["description"] = info.description;
+    json["voxels"] = info.extent.voxels();
+    Json range = nullptr;
+    if (values.known) {
+        const double a = info.calibration.reported(values.low), b = info.calibration.reported(values.high);
+        range = {{"low", std::min(a, b)}, {"high", std::max(a, b)}, {"stored_low", values.low}, {"stored_high", values.high}};
+    }
+    json["values"] = range;
+    json["missing_samples"] = values.known || values.missing > 0 ? Json(values.missing) : Json(nullptr);
+    const auto bytes = [](double count) { return static_cast<std::int64_t>(count); };
+    json["estimate"] = {{"memory_bytes", {{"smooth", bytes(cost.memory_smooth)}, {"noise", bytes(cost.memory_noise)}}},
+                        {"seconds", {{"smooth", cost.seconds_smooth}, {"noise", cost.seconds_noise}}}};
+    return json;
+}
+
+std::string vector_text(const Vec3& v, int rank) {
+    return rank == 2 ? fmt::format("{:.7g}, {:.7g}", v[0], v[1]) : fmt::format("{:.7g}, {:.7g}, {:.7g}", v[0], v[1], v[2]);
+}
+
+void print_geometry(std::ostream& out, const VolumeInfo& info) {
+    const Geometry& geometry = info.geometry;
+    const std::string unit = geometry.unit.empty() ? "" : " " + geometry.unit;
+    const std::string no_unit = geometry.unit.empty() ? "  (the file names no unit)" : "";
+    Vec3 size{};
+    for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = geometry.spacing[axis] * static_cast<double>(info.extent.size[axis]);
+    if (geometry.coordinates[0].empty()) {
+        out << "spacing      " << vector_text(geometry.spacing, info.extent.rank) << unit << no_unit << '\n';
+        out << "size         " << vector_text(size, info.extent.rank) << unit << '\n';
+    } else {
+        out << "spacing      rectilinear: one coordinate per sample and axis" << unit << '\n';
+    }
+    out << "origin       " << vector_text(geometry.origin, info.extent.rank) << unit << '\n';
+    out << "space        " << geometry.space << (handedness(geometry) < 0 ? " (mirrored axes)" : "") << '\n';
+}
+
+void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values, const Arguments& arguments) {
+    std::ostream& out = terminal.out();
+    out << terminal.bold(shown_name(info.path)) << '\n';
+    out << "format       " << info.format << ", " << info.encoding << (info.big_endian ? ", big endian" : "")
+        << (info.data_file.empty() ? "" : ", samples in " + shown_name(info.data_file)) << '\n';
+    if (!info.description.empty()) out << "description  " << info.description << '\n';
+    out << "samples      " << extent_text(info.extent) << "  " << name_of(info.type) << "  (" << count_text(info.extent.voxels())
+        << " voxels, " << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
+    print_geometry(out, info);
+    const Scale scale(info);
+    if (!info.calibration.is_identity()) {
+        out << fmt::format("calibration  value = {:.9g} * stored + {:.9g}\n", info.calibration.slope, info.calibration.intercept);
+    }
+    if (values.known) {
+        const bool reversed = info.calibration.slope < 0;
+        out << "values       " << scale.brief(reversed ? values.high : values.low) << " .. "
+            << scale.brief(reversed ? values.low : values.high) << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
+    }
+    if (values.missing > 0)
+        out << "missing      " << counted(values.missing, "sample") << " NaN or infinite: analyse with --missing below\n";
+    for (const std::string& note : info.notes) out << "note         " << note << '\n';
+    out << "analysis     " << cost_text(info, arguments.threads) << '\n';
+}
+
+[[noreturn]] void refuse_tau(const Arguments& arguments) {
+    throw Error(ErrorKind::usage, {.file = arguments.file,
+                                   .what = "--tau asks what a surface will cost, and only a store knows before it is read",
+                                   .next = "isoatlas build " + shell_word(arguments.file) + " -o FILE.atlas; or isoatlas objects --tau T"});
+}
+
+}  // namespace
+
+int run_info(const Arguments& arguments, Terminal& terminal) {
+    Session session(arguments, terminal);
+    VolumeInfo info;
+    Values values;
+    std::optional<SurfacePreview> preview;
+    if (is_atlas(arguments.file)) {
+        const Atlas atlas(arguments.file);
+        const std::array<double, 2> range = atlas.range();
+        info = atlas.info();
+        info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()));
+        values = {true, range[0], range[1], 0};
+        if (arguments.tau) preview = atlas.preview(Scale(info).stored(*arguments.tau));
+    } else {
+        if (arguments.tau) refuse_tau(arguments);
+        const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+        info = reader->info();
+        values = read_values(*reader, session);
+        info.notes = reader->info().notes;  // what is known at the end of the file only
+    }
+    if (arguments.voxel_units) info.geometry = Geometry{};
+    if (arguments.json) {
+        Json json = to_json(info, values, cost_of_analysis(info, arguments.threads));
+        if (preview) json["preview"] = to_json(*preview, *arguments.tau);
+        print(terminal, json);
+        return 0;
+    }
+    print_text(terminal, info, values, arguments);
+    if (preview) print_preview(terminal.out(), *preview, *arguments.tau);
+    terminal.next("isoatlas objects " + shell_word(arguments.file) + reading_options(arguments));
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,129 @@
+// isoatlas label: a label volume of the objects at an isovalue, or of the zones.
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/document.h"
+#include "text/interrupt.h"
+#include "text/simplified.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+struct Labels {
+    std::vector<std::uint32_t> of_voxel;
+    std::int64_t count = 0;  ///< the largest label
+    LabelOrigin origin;
+};
+
+[[noreturn]] void too_many(const Arguments& arguments, std::int64_t count) {
+    throw Error(ErrorKind::unsupported, {.file = arguments.file,
+                                         .what = count_text(count) + " labels do not fit in 32 bits",
+                                         .next = "label the objects of one isovalue with --tau"});
+}
+
+Labels label_objects(Source& source) {
+    const Cut at = source.cut(source.tau(), true);
+    return {object_labels(at),
+            static_cast<std::int64_t>(at.objects.size()),
+            {.interpolant = at.interpolant, .tunnel_height = at.tunnel_height, .tau = at.tau}};
+}
+
+Labels label_dark(Source& source) {
+    const double tau = source.tau();
+    const Analysis analysis = source.analysis(false);
+    std::vector<std::int64_t> ids;
+    Labels labels;
+    labels.of_voxel = label_cavities(source.volume(), analysis, tau, ids, source.context());
+    labels.count = static_cast<std::int64_t>(ids.size());
+    labels.origin = {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = tau, .cavities = true};
+    return labels;
+}
+
+/// Zones of the simplified tree: label = node + 1.
+Labels label_simplified(Source& source, Terminal& terminal) {
+    const Volume& volume = source.volume();
+    const Analysis analysis = source.analysis(true);
+    const Simplified simplified = BranchHierarchy(volume, analysis, source.context()).simplify(source.selection());
+    Labels labels{{},
+                  static_cast<std::int64_t>(simplified.nodes.size()),
+                  {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
+    for (std::int64_t i = 0; i < volume.info.extent.voxels(); ++i) {
+        const std::int64_t node = simplified.node_of_event[static_cast<std::size_t>(analysis.zone(i))];
+        labels.of_voxel.push_back(static_cast<std::uint32_t>(node + 1));
+    }
+    terminal.say(hidden_text(simplified, volume.info.extent.voxels()));
+    return labels;
+}
+
+Labels label_zones(const Arguments& arguments, Source& source, Terminal& terminal) {
+    if (arguments.selects) return label_simplified(source, terminal);
+    const Analysis analysis = source.analysis(true);
+    if (analysis.event_count() > std::numeric_limits<std::uint32_t>::max()) too_many(arguments, analysis.event_count());
+    const std::int64_t voxels = source.info().extent.voxels();
+    Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)),
+                  analysis.event_count(),
+                  {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
+    for (std::int64_t i = 0; i < voxels; ++i)
+        labels.of_voxel[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(analysis.zone(i) + 1);
+    return labels;
+}
+
+void check_arguments(const Arguments& arguments) {
+    if (arguments.tau.has_value() == arguments.zones) {
+        throw Error(ErrorKind::usage, {.what = arguments.zones ? "--tau and --zones contradict each other" : "what is to be labelled?",
+                                       .expected = "--tau T for the objects at an isovalue, or --zones",
+                                       .next = "isoatlas label --help"});
+    }
+    if (arguments.dark && arguments.zones)
+        throw Error(ErrorKind::usage, {.what = "--dark and --zones contradict each other", .next = "isoatlas label --help"});
+    if (arguments.selects && !arguments.zones)
+        throw Error(ErrorKind::usage, {.what = "a selection is for --zones", .next = "isoatlas label --help"});
+    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
+}
+
+}  // namespace
+
+int run_label(const Arguments& arguments, Terminal& terminal) {
+    check_arguments(arguments);
+    Source source(arguments, terminal);
+    const Labels labels = arguments.zones  ? label_zones(arguments, source, terminal)
+                          : arguments.dark ? label_dark(source)
+                                           : label_objects(source);
+    {
+        const WritingGuard guard;
+        write_labels(arguments.output, source.info(), labels.of_voxel, labels.origin);
+    }
+    const std::string what = arguments.zones ? "zones" : arguments.dark ? "cavities" : "objects";
+    if (arguments.json) {
+        Json json = document("label", source.info(), labels.origin.interpolant, labels.origin.tunnel_height);
+        json["output"] = arguments.output;
+        json["labels_are"] = what;
+        json["tau"] = arguments.tau ? Json(*arguments.tau) : Json(nullptr);
+        json["labels"] = labels.count;
+        add_reads(json, source.reads());
+        print(terminal, json);
+        return 0;
+    }
+    terminal.out() << shown_name(arguments.output) << ": "
+                   << counted(labels.count,
+                              arguments.zones  ? "zone"
+                              : arguments.dark ? "cavity"
+                                               : "object",
+                              what)
+                   << (arguments.zones ? arguments.selects ? " (label = node of the simplified tree + 1), " : " (label = event id + 1), "
+                                       : " (label 1 is the largest, 0 is background), ")
+                   << interpolant_text(source.info(), labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
+    if (arguments.tau && !arguments.dark) {
+        terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),
+                                  reading_options(arguments), *arguments.tau));
+    }
+    return 0;
+}
+
+}  // namespace isoatlas::cli

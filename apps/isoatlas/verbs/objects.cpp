@@ -1,0 +1,246 @@
+// isoatlas objects: the table people come for, or every object at one isovalue.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/dark_table.h"
+#include "text/document.h"
+#include "text/entry_json.h"
+#include "text/simplified.h"
+#include "text/sizes.h"
+#include "text/table.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr std::int64_t kDefaultTop = 24;
+
+std::string extract_command(const Arguments& arguments, std::int64_t id, const std::string& tau) {
+    return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
+                       tau, id);
+}
+
+// The table: objects at their own best isovalues.
+
+Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
+    Json json{{"id", entry.id}, {"event", entry.event}};
+    add_isovalues(json, entry, scale);
+    const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
+    json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
+    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top), scale);
+    json["chi"] = 1 - entry.tunnels + entry.cavities;
+    json["b1"] = entry.tunnels;
+    json["b2"] = entry.cavities;
+    json["tunnels"] = entry.tunnels;
+    json["cavities"] = entry.cavities;
+    add_size_and_place(json, entry, info);
+    return json;
+}
+
+/// Objects, not lines.
+std::int64_t shown_objects(const ObjectTable& table) {
+    std::set<std::array<double, 4>> branches;  // no two objects have the same peak and the same size
+    for (const ObjectEntry& entry : table.entries) {
+        const auto top = static_cast<double>(entry.branch_top);
+        branches.insert({entry.appears, entry.merges, entry.hypervolume, top});
+    }
+    return static_cast<std::int64_t>(branches.size());
+}
+
+/// dark: listed too; null: not asked for.
+void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const CavityTable* dark = nullptr) {
+    const VolumeInfo& info = source.info();
+    const Scale scale(info);
+    Json head = document("objects", info, source.interpolant(), source.tunnel_height());
+    head["tau"] = nullptr;
+    head["branches"] = table.branches;
+    head["hidden"] = table.branches - shown_objects(table);
+    head["noise"] = table.noise * info.calibration.slope;
+    if (dark != nullptr) add_dark(head, *dark, info);
+    add_reads(head, source.reads());
+    print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
+          [&](std::int64_t i) { return entry_json(table, table.entries[static_cast<std::size_t>(i)], info, scale); });
+}
+
+std::string best_tau_text(const ObjectEntry& entry, const Scale& scale) {
+    return scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high);
+}
+
+void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
+    const VolumeInfo& info = source.info();
+    const auto lines = static_cast<std::int64_t>(table.entries.size());
+    const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * info.calibration.slope) : "";
+    terminal.say(fmt::format("{} in all, {} hidden; {} to look at, some objects at several isovalues{}; {}",
+                             counted(table.branches, "maximum", "maxima"), count_text(table.branches - shown_objects(table)),
+                             counted(lines, "line"), noise, interpolant_text(info, source.interpolant(), source.tunnel_height())));
+}
+
+/// Isovalues that no line of the table has.
+void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Scale& scale) {
+    std::set<std::pair<std::int64_t, double>> told;
+    for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top, entry.best_tau);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_top);
+        std::erase_if(others, [&](const RecommendedIsovalue& isovalue) { return !told.emplace(isovalue.branch_top, isovalue.tau).second; });
+        tell_isovalues(terminal, i, others, scale);
+    }
+}
+
+void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, const ObjectTable& table) {
+    const Scale scale(source.info());
+    const Sizes sizes(source.info(), largest_measure(table.entries));
+    std::vector<Table::Column> columns{{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
+    sizes.add_titles(columns);
+    columns.insert(columns.end(), {{"why there", true}, {"note", true}});
+    Table text(columns);
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        const ObjectEntry& entry = table.entries[i];
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
+                                     scale.brief(entry.merges), best_tau_text(entry, scale)};
+        sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
+        const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
+        row.insert(row.end(), {best ? name_of(best->reason) : "", entry.note});
+        text.add(row);
+    }
+    tell_table(terminal, source, table);
+    text.print(terminal);
+    tell_other_isovalues(terminal, table, scale);
+    if (table.entries.empty()) {
+        terminal.say("nothing rises above the noise; --all lists everything");
+        return;
+    }
+    terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], scale)));
+}
+
+/// Dark objects, after the bright ones when both are asked for.
+int list_dark(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
+    if (!arguments.both) {
+        print_dark(terminal, arguments, source, source.dark_objects(options));
+        return 0;
+    }
+    const auto [table, dark] = source.both_tables(options);
+    if (arguments.json) {
+        print_table_json(terminal, source, table, &dark);
+        return 0;
+    }
+    print_table_text(terminal, arguments, source, table);
+    terminal.out() << '\n';
+    print_dark(terminal, arguments, source, dark);
+    return 0;
+}
+
+int list_best(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.all && arguments.selects)
+        throw Error(ErrorKind::usage, {.what = "--all and a selection contradict each other", .next = "isoatlas objects --help"});
+    if (!arguments.curve.empty()) check_output(arguments, arguments.curve, {".csv", ".svg", ".json"});
+    Source source(arguments, terminal);
+    const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
+    RankOptions options{.top = top, .gate = !arguments.all};
+    if (arguments.selects) {
+        options.selection = source.selection();
+        if (arguments.top == 0) options.top = 0;
+    }
+    if (!arguments.curve.empty()) write_curves(arguments, source);
+    if (arguments.dark || arguments.both) return list_dark(arguments, terminal, source, options);
+    const ObjectTable table = source.objects(options);
+    if (arguments.json) {
+        print_table_json(terminal, source, table);
+    } else {
+        print_table_text(terminal, arguments, source, table);
+    }
+    return 0;
+}
+
+// One isovalue: every object.
+
+Json object_json(const CutObject& object, const Cut& cut) {
+    Json contours = Json::array();
+    for (std::int64_t i = 0; i < object.contour_count; ++i) {
+        const CutContour& contour = cut.contours[static_cast<std::size_t>(object.first_contour + i)];
+        contours.push_back({{"id", contour.id}, {"genus", contour.genus}, {"shell", contour.shell == Shell::outer ? "outer" : "inner"}});
+    }
+    return {{"id", object.id},
+            {"chi", object.chi},
+            {"b1", object.b1},
+            {"b2", object.b2},
+            {"voxels", object.voxels},
+            {"measure", object.measure},
+            {"box", {{"low", object.box_low}, {"high", object.box_high}}},
+            {"contours", std::move(contours)}};
+}
+
+void print_cut_json(Terminal& terminal, const Source& source, const Cut& cut, std::int64_t shown, double tau) {
+    Json head = document("objects", source.info(), cut.interpolant, cut.tunnel_height);
+    head["tau"] = tau;
+    head["object_count"] = cut.objects.size();
+    head["contour_count"] = cut.contours.size();
+    head["active_cells"] = cut.active_cells;
+    add_reads(head, source.reads());
+    print(terminal, head, "objects", shown, [&](std::int64_t i) { return object_json(cut.objects[static_cast<std::size_t>(i)], cut); });
+}
+
+std::string box_text(const CutObject& object, int rank) {
+    std::string text;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(rank); ++axis) {
+        text += fmt::format("{}{}..{}", axis > 0 ? " x " : "", object.box_low[axis], object.box_high[axis]);
+    }
+    return text;
+}
+
+void print_cut_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const Cut& cut, std::int64_t shown) {
+    const Sizes sizes(info, largest_measure(cut.objects));
+    std::vector<Table::Column> columns{{"#"}, {"id"}};
+    sizes.add_titles(columns);
+    columns.insert(columns.end(), {{"contours"}, {"box", true}});
+    Table text(columns);
+    for (std::int64_t i = 0; i < shown; ++i) {
+        const CutObject& object = cut.objects[static_cast<std::size_t>(i)];
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
+        sizes.add(row, object.voxels, object.measure, object.b1, object.b2);
+        row.insert(row.end(), {count_text(object.contour_count), box_text(object, info.extent.rank)});
+        text.add(row);
+    }
+    const auto all = static_cast<std::int64_t>(cut.objects.size());
+    terminal.say(fmt::format("{} with {} at {}; {}", counted(all, "object"),
+                             counted(static_cast<std::int64_t>(cut.contours.size()), "contour"), *arguments.tau,
+                             interpolant_text(info, cut.interpolant, cut.tunnel_height)));
+    text.print(terminal);
+    if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
+    terminal.next(extract_command(arguments, cut.objects[0].id, fmt::format("{}", *arguments.tau)));
+}
+
+int list_at(const Arguments& arguments, Terminal& terminal) {
+    Source source(arguments, terminal);
+    const Cut at = source.cut(source.tau(), false);
+    const auto all = static_cast<std::int64_t>(at.objects.size());
+    const std::int64_t shown = arguments.top > 0 ? std::min(all, arguments.top) : all;
+    if (arguments.json) {
+        print_cut_json(terminal, source, at, shown, *arguments.tau);
+    } else {
+        print_cut_text(terminal, arguments, source.info(), at, shown);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int run_objects(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.tau && (arguments.selects || !arguments.curve.empty())) {
+        throw Error(ErrorKind::usage, {.what = "a selection is for the table of best isovalues, not for one isovalue",
+                                       .next = "leave out --tau, or the selection"});
+    }
+    if (arguments.tau && (arguments.dark || arguments.both)) {
+        throw Error(ErrorKind::usage, {.what = "--tau lists the objects at an isovalue, --dark and --both the best isovalues of dark ones",
+                                       .next = "isoatlas label --dark --tau T labels the cavities at an isovalue"});
+    }
+    return arguments.tau ? list_at(arguments, terminal) : list_best(arguments, terminal);
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,170 @@
+// isoatlas tree: every topological change of a volume, as a file, as JSON, or as a summary to read.
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/interrupt.h"
+#include "text/simplified.h"
+#include "text/table.h"
+#include "text/terminal.h"
+#include "text/tree_document.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr std::int64_t kShown = 16;
+
+std::string genera_text(const std::vector<std::int64_t>& genera) {
+    std::string text;
+    for (std::size_t i = 0; i < genera.size() && i < 8; ++i) text += fmt::format("{}{}", i > 0 ? "," : "", genera[i]);
+    return text.empty() ? "-" : text + (genera.size() > 8 ? ",..." : "");
+}
+
+std::string position_text(const std::array<double, 3>& p) { return fmt::format("{:g},{:g},{:g}", p[0], p[1], p[2]); }
+
+std::string interpolant_of(const Volume& volume, const Analysis& analysis) {
+    return interpolant_text(volume.info, analysis.interpolant(), analysis.tunnel_height());
+}
+
+void print_counts(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
+    std::map<Criticality, std::int64_t> kinds;
+    for (std::int64_t id = 0; id < analysis.event_count(); ++id) ++kinds[analysis.event(id).kind];
+    Table table({{"kind", true}, {"events"}});
+    for (const auto& [kind, count] : kinds) table.add({name_of(kind), count_text(count)});
+    table.print(terminal);
+    terminal.out() << '\n'
+                   << counted(analysis.event_count(), "event") << " from " << counted(analysis.level_count(), "level") << ", "
+                   << counted(analysis.contour_arc_count(), "contour") << " (arcs), "
+                   << counted(analysis.element_count(), "critical element") << "; " << interpolant_of(volume, analysis) << "\n\n";
+}
+
+/// The largest zones, each indented below its nearest ancestor that is shown too.
+void print_largest_zones(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
+    const Scale scale(volume.info);
+    std::vector<std::pair<std::int64_t, std::int64_t>> largest;  // (-voxels, id)
+    for (std::int64_t id = 0; id < analysis.event_count(); ++id) largest.emplace_back(-analysis.event(id).zone.voxels, id);
+    const auto shown = std::min<std::ptrdiff_t>(kShown, static_cast<std::ptrdiff_t>(largest.size()));
+    std::partial_sort(largest.begin(), largest.begin() + shown, largest.end());
+    std::vector<std::int64_t> ids;
+    for (std::ptrdiff_t i = 0; i < shown; ++i) ids.push_back(largest[static_cast<std::size_t>(i)].second);
+    std::sort(ids.rbegin(), ids.rend());  // parents first
+
+    std::unordered_map<std::int64_t, int> depth;
+    std::unordered_map<std::int64_t, std::vector<std::int64_t>> below;  // shown children of a shown event; -1: top
+    for (const std::int64_t id : ids) {
+        std::int64_t ancestor = analysis.event(id).parent;
+        while (ancestor >= 0 && depth.count(ancestor) == 0) ancestor = analysis.event(ancestor).parent;
+        depth[id] = ancestor < 0 ? 0 : depth[ancestor] + 1;
+        below[ancestor].push_back(id);
+    }
+    Table table(
+        {{"zones with most voxels", true}, {"from"}, {"down to"}, {"voxels in zone"}, {"object voxels"}, {"tunnels"}, {"cavities"}});
+    std::vector<std::int64_t> stack(below[-1].rbegin(), below[-1].rend());
+    while (!stack.empty()) {
+        const std::int64_t id = stack.back();
+        stack.pop_back();
+        const Event event = analysis.event(id);
+        table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(event.kind), id),
+                   scale.brief(event.zone.tau_high), event.parent < 0 ? "bottom" : scale.brief(event.zone.tau_low),
+                   count_text(event.zone.voxels), count_text(event.object_voxels), count_text(event.b1), count_text(event.b2)});
+        const auto& children = below[id];
+        stack.insert(stack.end(), children.rbegin(), children.rend());
+    }
+    table.print(terminal);
+}
+
+void print_rest(Terminal& terminal, std::int64_t count, std::int64_t shown) {
+    if (count > shown) terminal.out() << "... and " << count_text(count - shown) << " more: -o tree.csv or --json\n";
+}
+
+void print_levels(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
+    const Scale scale(volume.info);
+    Table table({{"level"}, {"value"}, {"event"}, {"genera in", true}, {"genera out", true}});
+    const std::int64_t shown = std::min(kShown, analysis.level_count());
+    for (std::int64_t id = 0; id < shown; ++id) {
+        const Level level = analysis.level(id);
+        table.add({fmt::format("{}", id), scale.brief(level.value), fmt::format("{}", level.event), genera_text(level.in),
+                   genera_text(level.out)});
+    }
+    table.print(terminal);
+    print_rest(terminal, analysis.level_count(), shown);
+}
+
+void print_elements(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
+    const Scale scale(volume.info);
+    Table table({{"element"}, {"value"}, {"position", true}, {"h0"}, {"l0"}});
+    const std::int64_t shown = std::min(kShown, analysis.element_count());
+    for (std::int64_t id = 0; id < shown; ++id) {
+        const Element element = analysis.element(id);
+        table.add({fmt::format("{}", id), scale.brief(element.value), position_text(element.position), fmt::format("{}", element.h0),
+                   fmt::format("{}", element.l0)});
+    }
+    table.print(terminal);
+    print_rest(terminal, analysis.element_count(), shown);
+}
+
+void print_contours(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
+    const Scale scale(volume.info);
+    Table table({{"contour"}, {"from"}, {"down to"}, {"genus"}});
+    const std::int64_t shown = std::min(kShown, analysis.contour_arc_count());
+    for (std::int64_t id = 0; id < shown; ++id) {
+        const ContourArc arc = analysis.contour_arc(id);
+        table.add({fmt::format("{}", id), scale.brief(arc.value_high),
+                   arc.lower == analysis.element_count() ? "bottom" : scale.brief(arc.value_low), fmt::format("{}", arc.genus)});
+    }
+    table.print(terminal);
+    print_rest(terminal, analysis.contour_arc_count(), shown);
+}
+
+void print_summary(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
+    print_counts(terminal, volume, analysis);
+    switch (arguments.detail) {
+        case TreeDetail::events: print_largest_zones(terminal, volume, analysis); break;
+        case TreeDetail::levels: print_levels(terminal, volume, analysis); break;
+        case TreeDetail::elements: print_elements(terminal, volume, analysis); break;
+        case TreeDetail::contours: print_contours(terminal, volume, analysis); break;
+    }
+    const std::string file = shell_word(arguments.file) + reading_options(arguments);
+    terminal.next("isoatlas objects " + file + "    # which of them matter");
+    terminal.next("isoatlas tree " + file + " -o tree.json    # also .graphml .csv .vtu");
+}
+
+void write_file(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
+    {
+        const WritingGuard guard;
+        write_tree(arguments.output, volume, analysis, {.detail = arguments.detail});
+    }
+    if (!arguments.json) {
+        terminal.out() << shown_name(arguments.output) << ": " << counted(analysis.event_count(), "event") << ", detail "
+                       << detail_name(arguments.detail) << ", " << interpolant_of(volume, analysis) << '\n';
+        return;
+    }
+    print(terminal, tree_file_document(arguments, volume.info, analysis));
+}
+
+}  // namespace
+
+int run_tree(const Arguments& arguments, Terminal& terminal) {
+    if (!arguments.output.empty()) check_output(arguments, {".json", ".graphml", ".csv", ".vtu"});
+    if (arguments.selects) return run_simplified_tree(arguments, terminal);
+    Source source(arguments, terminal);
+    const Analysis analysis = source.analysis(false);
+    Volume volume;  // what is written needs its header only
+    volume.info = source.info();
+    stop_if_interrupted();
+    if (!arguments.output.empty()) {
+        write_file(terminal, arguments, volume, analysis);
+    } else if (arguments.json) {
+        write_tree_json(terminal.out(), volume, analysis, {.detail = arguments.detail});
+    } else {
+        print_summary(terminal, arguments, volume, analysis);
+    }
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,157 @@
+#include "verbs/verbs.h"
+
+#include <fmt/format.h>
+
+namespace isoatlas::cli {
+
+const std::vector<Verb>& verbs() {
+    static const std::vector<Verb> list{
+        {"atlas",
+         "VOLUME",
+         "Show what is in a volume: a page with a picture of every object that matters. `isoatlas FILE` does the same.",
+         {"isoatlas atlas scan.nii.gz", "isoatlas atlas scan.nii.gz -o scan.html --top 10", "isoatlas atlas scan.atlas --json"},
+         run_atlas},
+        {"view",
+         "VOLUME",
+         "Explore a volume in a browser: turn its objects, move their isovalues, read what they are.",
+         {"isoatlas view scan.nii.gz", "isoatlas view scan.atlas --port 8080 --no-browser", "isoatlas view scan.atlas --json"},
+         run_view},
+        {"ask",
+         "ADDRESS",
+         "Ask a running viewer: what its page asks, on standard output or in a file.",
+         {"isoatlas ask http://127.0.0.1:8080 '/api/objects?tau=300'", "isoatlas ask 8080 '/api/surface?tau=300&format=stl' -o bone.stl",
+          "isoatlas ask 8080 /api/address"},
+         run_ask},
+        {"info",
+         "VOLUME",
+         "Say what a file is and what an analysis would cost.",
+         {"isoatlas info scan.nii.gz", "isoatlas info head.raw --dims 256x256x128 --type uint16 --endian big",
+          "isoatlas info scan.nrrd --json", "isoatlas info scan.atlas --tau 300"},
+         run_info},
+        {"objects",
+         "VOLUME",
+         "List the objects of a volume and the isovalues that show them.",
+         {"isoatlas objects scan.nii.gz", "isoatlas objects scan.nii.gz --tau 300", "isoatlas objects scan.nii.gz --top 5 --json",
+          "isoatlas objects scan.nii.gz --keep 10 --both"},
+         run_objects},
+        {"extract",
+         "VOLUME",
+         "Write the surface at an isovalue: everything, some objects, or some shells.",
+         {"isoatlas extract scan.nii.gz --tau 300 -o bone.ply", "isoatlas extract scan.nii.gz --object 81275 -o part.stl",
+          "isoatlas extract scan.nii.gz --tau 300 --shell outer -o skin.glb"},
+         run_extract},
+        {"render",
+         "VOLUME",
+         "Draw a picture: objects at their isovalues, nested, transparent or cut open.",
+         {"isoatlas render scan.nii.gz -o best.png", "isoatlas render scan.nii.gz --tau 300 --tau 1200 --cut octant -o head.png",
+          "isoatlas render scan.atlas --object 81275 --object 90210@150 --view front -o parts.png"},
+         run_render},
+        {"animate",
+         "VOLUME",
+         "Make an animation: things turn around, or appear and merge while the isovalue moves.",
+         {"isoatlas animate scan.nii.gz --tau 300 -o turn.gif",
+          "isoatlas animate scan.atlas --from 1200 --to 300 --steps 48 -o evolution.webp",
+          "isoatlas animate scan.nii.gz --top 3 --cut half --steps 72 --fps 24 -o turn.mp4"},
+         run_animate},
+        {"tree",
+         "VOLUME",
+         "Show or write the criticality tree: every topological change of the volume.",
+         {"isoatlas tree scan.nii.gz", "isoatlas tree scan.nii.gz -o tree.graphml", "isoatlas tree scan.nii.gz --detail levels --json",
+          "isoatlas tree scan.nii.gz --keep 10"},
+         run_tree},
+        {"label",
+         "VOLUME",
+         "Write a label volume: the objects at an isovalue, or the zone of every voxel.",
+         {"isoatlas label scan.nii.gz --tau 300 -o objects.nii.gz", "isoatlas label scan.nii.gz --zones -o zones.nrrd",
+          "isoatlas label stack.tif --tau 90 -o labels.tif"},
+         run_label},
+        {"spectrum",
+         "VOLUME",
+         "Show what there is at every isovalue: objects, contours, tunnels, cavities, and how large the surface is.",
+         {"isoatlas spectrum scan.nii.gz", "isoatlas spectrum scan.nii.gz -o spectrum.svg",
+          "isoatlas spectrum scan.atlas --samples 100 --json"},
+         run_spectrum},
+        {"handles",
+         "VOLUME",
+         "List the tunnels of all objects and the isovalues between which each is open.",
+         {"isoatlas handles scan.nii.gz", "isoatlas handles scan.nii.gz --persistence 10%", "isoatlas handles scan.nii.gz --exact",
+          "isoatlas handles scan.atlas --top 100 --json"},
+         run_handles},
+        {"build",
+         "VOLUME",
+         "Put a volume, its trees and its bricks into one file; the other verbs take it wherever they take a volume.",
+         {"isoatlas build scan.nii.gz -o scan.atlas", "isoatlas build scan.nii.gz -o smooth.atlas --gaussian 1.5",
+          "isoatlas build scan.nii.gz -o scan.atlas --json"},
+         run_build},
+        {"convert",
+         "VOLUME",
+         "Write the samples of a volume, or those that a store was built of, as a volume file.",
+         {"isoatlas convert scan.atlas -o scan.nrrd", "isoatlas convert scan.nii.gz -o smooth.nrrd --gaussian 1.5",
+          "isoatlas convert scan.nrrd -o part.npy --box 40:60,50:70,30:50"},
+         run_convert},
+        {"phantom",
+         "NAME",
+         "Generate a volume with known answers.",
+         {"isoatlas phantom --list", "isoatlas phantom torus-chain --genus 4 -o chain.nrrd",
+          "isoatlas phantom nested-shells --shells 5 --size 96 --quantise 256 -o shells.mha"},
+         run_phantom},
+        {"verify",
+         "MESH|VOLUME",
+         "Prove the guarantees for a surface file, a volume or a store; exit code 7 when one fails.",
+         {"isoatlas verify bone.ply", "isoatlas verify scan.nii.gz --levels 20", "isoatlas verify scan.atlas --full",
+          "isoatlas verify part.stl --json"},
+         run_verify},
+        {"table131",
+         "VOLUME",
+         "Print table 13.1 of the dissertation for a volume: what a search for active cells visits and loads, over all isovalues.",
+         {"isoatlas table131 scan.nii.gz", "isoatlas table131 scan.nii.gz --gaussian 1.5 --box 40:60,50:70,30:50",
+          "isoatlas table131 scan.nii.gz --json"},
+         run_table131},
+        {"dump",
+         "STORE",
+         "Print any part of a store: header, contents, an array or some of its numbers, a brick.",
+         {"isoatlas dump scan.atlas", "isoatlas dump scan.atlas elements/value[10:20]", "isoatlas dump scan.atlas brick 17",
+          "isoatlas dump scan.atlas voxel 40,41,42 --json"},
+         run_dump},
+        {"completion",
+         "SHELL",
+         "Print a completion script for bash.",
+         {"isoatlas completion bash", "source <(isoatlas completion bash)",
+          "isoatlas completion bash > ~/.local/share/bash-completion/completions/isoatlas"},
+         run_completion},
+    };
+    return list;
+}
+
+const Verb* find_verb(const std::string& name) {
+    for (const Verb& verb : verbs()) {
+        if (verb.name == name) return &verb;
+    }
+    return nullptr;
+}
+
+std::string greeting() {
+    return "isoatlas " ISOATLAS_VERSION
+           ": which objects are in a volume, and at which isovalues?\n"
+           "\n"
+           "  isoatlas scan.nii.gz                                  a page that shows them\n"
+           "  isoatlas objects scan.nii.gz                          list them\n"
+           "  isoatlas extract scan.nii.gz --tau 300 -o bone.ply    write a watertight surface\n"
+           "  isoatlas phantom --list                               no data at hand? make some\n"
+           "\n"
+           "All verbs: isoatlas --help. One verb: isoatlas help VERB.\n";
+}
+
+std::string overview() {
+    std::string text = greeting() + "\nVerbs:\n";
+    for (const Verb& verb : verbs()) text += fmt::format("  {:<11} {:<12} {}\n", verb.name, verb.operand, verb.summary);
+    text +=
+        "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
+        "Results go to standard output, talk and progress to standard error.\n"
+        "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti, TIFF files and folders of TIFF slices.\n"
+        "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
+        "6 no such object or isovalue, 7 a guarantee does not hold, 130 stopped.\n";
+    return text;
+}
+
+}  // namespace isoatlas::cli

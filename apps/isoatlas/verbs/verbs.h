@@ -1,0 +1,55 @@
+// The verbs of the command line, one file each. A verb returns the exit code or throws Error.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "options/arguments.h"
+
+namespace isoatlas::cli {
+
+class Terminal;
+
+int run_atlas(const Arguments& arguments, Terminal& terminal);
+int run_view(const Arguments& arguments, Terminal& terminal);
+int run_info(const Arguments& arguments, Terminal& terminal);
+int run_tree(const Arguments& arguments, Terminal& terminal);
+int run_objects(const Arguments& arguments, Terminal& terminal);
+int run_extract(const Arguments& arguments, Terminal& terminal);
+int run_render(const Arguments& arguments, Terminal& terminal);
+int run_animate(const Arguments& arguments, Terminal& terminal);
+/// What the options say about a build of a volume.
+[[nodiscard]] BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info);
+/// Builds arguments.output and says what there is to say about it. watch: hears the progress too; may be empty.
+BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
+                        const std::function<void(const Progress&)>& watch = {});
+int run_build(const Arguments& arguments, Terminal& terminal);
+int run_label(const Arguments& arguments, Terminal& terminal);
+int run_convert(const Arguments& arguments, Terminal& terminal);
+int run_phantom(const Arguments& arguments, Terminal& terminal);
+int run_handles(const Arguments& arguments, Terminal& terminal);
+int run_spectrum(const Arguments& arguments, Terminal& terminal);
+int run_table131(const Arguments& arguments, Terminal& terminal);
+int run_ask(const Arguments& arguments, Terminal& terminal);
+int run_dump(const Arguments& arguments, Terminal& terminal);
+int run_verify(const Arguments& arguments, Terminal& terminal);
+int run_completion(const Arguments& arguments, Terminal& terminal);
+
+struct Verb {
+    std::string name, operand, summary;
+    std::vector<std::string> examples;  ///< full command lines
+    int (*run)(const Arguments&, Terminal&);
+};
+
+/// In the order in which people need them.
+[[nodiscard]] const std::vector<Verb>& verbs();
+
+/// nullptr when there is no such verb.
+[[nodiscard]] const Verb* find_verb(const std::string& name);
+
+/// What `isoatlas` alone prints, and what `isoatlas --help` prints.
+[[nodiscard]] std::string greeting();
+[[nodiscard]] std::string overview();
+
+}  // namespace isoatlas::cli

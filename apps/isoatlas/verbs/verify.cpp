@@ -1,0 +1,103 @@
+// isoatlas verify: the guarantees, one by one; exit code 7 when one does not hold.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/document.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+bool is_mesh(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension == ".ply" || extension == ".stl" || extension == ".obj" || extension == ".vtp" || extension == ".glb";
+}
+
+int exit_code(const std::vector<CheckResult>& checks) {
+    const bool all = std::all_of(checks.begin(), checks.end(), [](const CheckResult& check) { return check.holds; });
+    return all ? 0 : static_cast<int>(ErrorKind::verification);
+}
+
+void print_json(Terminal& terminal, Json head, const std::vector<CheckResult>& checks) {
+    head["holds"] = exit_code(checks) == 0;
+    head["checks"] = Json::array();
+    for (const CheckResult& check : checks) {
+        head["checks"].push_back({{"name", check.name}, {"holds", check.holds}, {"detail", check.detail}});
+    }
+    print(terminal, head);
+}
+
+/// One line per guarantee and a last one for all, ended by `of_what`; with --quiet only what fails and the last one.
+void print_text(Terminal& terminal, const Arguments& arguments, const std::vector<CheckResult>& checks, const std::string& of_what) {
+    const auto all = static_cast<std::int64_t>(checks.size());
+    std::int64_t failed = 0;
+    for (const CheckResult& check : checks) {
+        failed += check.holds ? 0 : 1;
+        if (check.holds && arguments.quiet) continue;
+        terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<25} ", check.name) << check.detail << '\n';
+    }
+    terminal.out() << shown_name(arguments.file) << ": "
+                   << (failed == 0 ? "all " + counted(all, "guarantee") + " hold"
+                                   : fmt::format("{} of {} FAIL", failed, counted(all, "guarantee")))
+                   << of_what << '\n';
+}
+
+std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
+    const Mesh mesh = read_mesh(arguments.file);
+    head["file"] = arguments.file;
+    head["points"] = mesh.points.size();
+    head["triangles"] = mesh.triangles.size();
+    return verify_mesh(mesh);
+}
+
+std::string sample_text(const VerifyOptions& options) {
+    const std::string isovalues = fmt::format("{} isovalues drawn with seed {} and both ends of the range", options.levels, options.seed);
+    return options.full
+               ? "all objects at " + isovalues
+               : fmt::format("{} objects at each of {}; --full takes all objects and makes the tree anew", options.objects, isovalues);
+}
+
+}  // namespace
+
+int run_verify(const Arguments& arguments, Terminal& terminal) {
+    Json head = document("verify");
+    std::vector<CheckResult> checks;
+    std::string of_what;
+    if (is_mesh(arguments.file)) {
+        head["what"] = "mesh";
+        checks = check_mesh(arguments, head);
+    } else {
+        Source source(arguments, terminal);
+        const VerifyOptions options{.levels = arguments.levels,
+                                    .interpolant = source.interpolant(),
+                                    .tunnel_height = source.tunnel_height(),
+                                    .full = arguments.full,
+                                    .seed = arguments.seed};
+        checks = source.is_store() ? verify_atlas(source.atlas(), options, source.context())
+                                   : verify_volume(source.volume(), options, source.context());
+        of_what = ", " + interpolant_text(source.info(), options.interpolant, options.tunnel_height);
+        head = document("verify", source.info(), options.interpolant, options.tunnel_height);
+        head["what"] = source.is_store() ? "store" : "volume";
+        head["levels"] = arguments.levels;
+        if (source.is_store()) {
+            head["sample"] = {{"full", options.full}, {"levels", options.levels}, {"seed", options.seed}};
+            if (!options.full) head["sample"]["objects"] = options.objects;
+            of_what += "; " + sample_text(options);
+        }
+    }
+    if (arguments.json) {
+        print_json(terminal, std::move(head), checks);
+    } else {
+        print_text(terminal, arguments, checks, of_what);
+    }
+    if (exit_code(checks) != 0) terminal.warn(arguments.file + ": a guarantee does not hold");
+    return exit_code(checks);
+}
+
+}  // namespace isoatlas::cli

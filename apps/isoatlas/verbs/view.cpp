@@ -1,0 +1,146 @@
+// isoatlas view FILE: a store behind a local address, and the page that explores it in a browser.
+#include <cstdlib>
+#include <optional>
+#include <thread>
+
+#include <malloc.h>
+#include <poll.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include "data/store_awaited.h"
+#include "text/document.h"
+#include "text/interrupt.h"
+#include "text/report.h"
+#include "text/terminal.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+/// Asks the desktop, where there is one, to open an address, and does not wait for it. Nothing happens elsewhere.
+void open_in_browser(const std::string& address) {
+    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+    std::string program = "xdg-open", word = address;
+    char* words[] = {program.data(), word.data(), nullptr};
+    pid_t process = 0;
+    (void)posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ);
+}
+
+/// Does somebody type who can be asked to press a key?
+bool has_keyboard() { return ::isatty(STDIN_FILENO) == 1 && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
+
+void print_address(const Arguments& arguments, Terminal& terminal, Server& server, const std::string& store) {
+    if (arguments.json) {
+        Json json = document("view");
+        json["store"] = store;
+        json["address"] = server.address_for_one_use();
+        json["server"] = server.address();
+        json["port"] = server.port();
+        print(terminal, json);
+    } else {
+        terminal.out() << server.address_for_one_use() << '\n';
+        const std::string another = has_keyboard() ? "Enter" : "isoatlas ask " + server.address() + " /api/address";
+        terminal.next("open it in a browser, where it opens once; " + another + " gives one for another browser; Ctrl-C ends the viewer");
+    }
+    terminal.out() << std::flush;
+}
+
+/// A server that answers from now on.
+class Answering {
+public:
+    explicit Answering(Server& server) : server_(server), thread_([&server] { server.run(); }) {}
+    Answering(const Answering&) = delete;
+    Answering& operator=(const Answering&) = delete;
+    ~Answering() {
+        server_.stop();
+        thread_.join();
+    }
+
+private:
+    Server& server_;
+    std::thread thread_;
+};
+
+/// Every arena of the allocator keeps what its largest answer has needed: few of them, not one for each connection.
+void keep_memory_flat() { (void)::mallopt(M_ARENA_MAX, 2); }
+
+Context context_of(const Arguments& arguments) {
+    Context context;
+    context.threads = arguments.threads;
+    return context;
+}
+
+/// While the browser starts.
+void prepare(Server& server) {
+    Context context;
+    context.cancelled = interrupted;
+    server.prepare(context);
+}
+
+/// The token is set by who starts the viewer, or found by other commands of this user.
+ServerOptions server_options(const Arguments& arguments) {
+    const char* token = std::getenv("ISOATLAS_TOKEN");
+    return {.port = arguments.port, .token = token == nullptr ? "" : token, .memory = arguments.memory};
+}
+
+void keep_token(Server& server, Terminal& terminal) {
+    try {
+        server.keep_token();
+    } catch (const Error& error) {
+        terminal.say(std::string("note: `isoatlas ask` will not find this viewer by itself: ") + error.what());
+    }
+}
+
+/// A new address at each Enter.
+void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& server) {
+    constexpr int kLook = 100;  // milliseconds
+    while (!interrupted()) {
+        pollfd keyboard{.fd = has_keyboard() && !arguments.json ? STDIN_FILENO : -1, .events = POLLIN, .revents = 0};
+        if (::poll(&keyboard, 1, kLook) <= 0 || (keyboard.revents & POLLIN) == 0) continue;
+        char typed[256];
+        if (::read(STDIN_FILENO, typed, sizeof typed) > 0) {
+            terminal.out() << server.address_for_one_use() << '\n' << std::flush;
+        } else {
+            std::this_thread::sleep_for(std::chrono::milliseconds(kLook));  // the end of input: nothing will be typed
+        }
+    }
+}
+
+}  // namespace
+
+int run_view(const Arguments& arguments, Terminal& terminal) {
+    keep_memory_flat();
+    const std::string store = store_to_view(arguments);
+    const AtlasOptions options{.cache_bytes = arguments.memory};
+    std::optional<Atlas> atlas;
+    if (is_ready(arguments, terminal, store)) {
+        atlas.emplace(store, options);
+        check_is_volume(arguments, atlas->info());
+    }
+    Server server(server_options(arguments), context_of(arguments));
+    keep_token(server, terminal);
+    if (atlas) server.open(*atlas);
+    const Answering answering(server);
+    print_address(arguments, terminal, server, store);
+    if (!arguments.no_browser) open_in_browser(server.address_for_one_use());
+    int code = 0;
+    if (!atlas) {
+        try {
+            await_store(arguments, terminal, store, [&server](const BuildState& state) { server.report_progress(state); });
+            atlas.emplace(store, options);
+            server.open(*atlas);
+        } catch (const Error& error) {
+            if (interrupted()) return 0;
+            server.fail(error);  // it stays there for the page, which tells it too
+            code = report(error, arguments.json, terminal);
+            terminal.say("note: there is no store to show, and the page says why; Ctrl-C ends the viewer with exit code " +
+                         std::to_string(code));
+        }
+    }
+    if (atlas) prepare(server);
+    wait_for_the_end(arguments, terminal, server);
+    return code;
+}
+
+}  // namespace isoatlas::cli
