@@ -76,7 +76,7 @@ std::int64_t peak_of(const std::string& name, const Arguments& arguments) {
 }
 
 ordered_json record_of(const std::string& name, const Arguments& arguments, bool with_sort) {
-    Response answer{};
+    Answer answer{};
     Options options = arguments.options;
     options.sort = with_sort;
     const isoatlas::Volume volume = make(name, arguments.sources);

@@ -45,8 +45,8 @@ private:
     Clock::time_point start_;
 };
 
-Response answer_of(const isoatlas::Analysis& analysis) {
-    Response answer{analysis.element_count(), 0, analysis.event_count(), analysis.contour_arc_count()};
+Answer answer_of(const isoatlas::Analysis& analysis) {
+    Answer answer{analysis.element_count(), 0, analysis.event_count(), analysis.contour_arc_count()};
     std::int64_t euler = 0;
     for (std::int64_t id = 0; id < answer.elements; ++id) {
         const isoatlas::Element element = analysis.element(id);
@@ -59,7 +59,7 @@ Response answer_of(const isoatlas::Analysis& analysis) {
 
 struct Run {
     double seconds;
-    Response answer;
+    Answer answer;
     std::vector<std::pair<std::string, double>> phases;
 };
 
@@ -77,13 +77,13 @@ Run run(const isoatlas::Volume& volume, int threads, isoatlas::Interpolant inter
     return {seconds, answer_of(analysis), phases.phases()};
 }
 
-void require_equal(const Response& answer, const Response& other) {
+void require_equal(const Answer& answer, const Answer& other) {
     if (!(answer == other)) throw std::runtime_error("wrong answer: two runs of the analysis do not agree");
 }
 
 }  // namespace
 
-Timing measure(const isoatlas::Volume& volume, const Options& options, Response& answer) {
+Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& answer) {
     answer = run(volume, options.threads).answer;  // also warms up
     if (const std::int64_t maxima = count_maxima(volume); maxima != answer.maxima) {
         throw std::runtime_error("wrong answer: " + std::to_string(answer.maxima) + " maxima, but there are " + std::to_string(maxima));

@@ -20,9 +20,9 @@ struct Timing {
     std::vector<std::pair<std::string, double>> phases;  ///< seconds by phase of the last parallel run, as the engine reports them
 };
 
-struct Response {
+struct Answer {
     std::int64_t elements, maxima, events, arcs;
-    bool operator==(const Response&) const = default;
+    bool operator==(const Answer&) const = default;
 };
 
 struct Options {
@@ -33,6 +33,6 @@ struct Options {
 
 /// Runs sort, analyse, sort, analyse, ... and gives medians. Throws std::runtime_error when an answer is wrong: the sum of l0 - h0 over the
 /// critical elements is not 1, the number of maxima is not the counted one, or one thread and several do not agree.
-[[nodiscard]] Timing measure(const isoatlas::Volume& volume, const Options& options, Response& answer);
+[[nodiscard]] Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& answer);
 
 }  // namespace bench

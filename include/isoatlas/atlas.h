@@ -114,7 +114,7 @@ public:
 
     /// The table of dark objects, as from rank_cavities(). Cost: as objects(); with any selection the volume is read and analysed
     /// again.
-    [[nodiscard]] CavityTable dark_objects(const RankOptions& options = {}, const Context& context = {}) const;
+    [[nodiscard]] CavityTable cavities(const RankOptions& options = {}, const Context& context = {}) const;
 
     /// The branches of the criticality tree, for selections and simplified trees. Cost: reads the trees and no sample. Of volumes with more
     /// than one critical element for three voxels, of grids with uneven steps, and of stores of early versions, all samples are read and

@@ -49,8 +49,8 @@ struct CavityTable {
                                         const Context& context = {});
 
 struct ObjectsAndCavities {
-    ObjectTable bright;
-    CavityTable dark;
+    ObjectTable objects;
+    CavityTable cavities;
 };
 
 /// Both tables, as rank_objects() and rank_cavities(), for little more than one of them. analysis: with zones.

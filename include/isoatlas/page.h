@@ -10,17 +10,17 @@ namespace isoatlas {
 
 struct PageOptions {
     std::int64_t top = 24;            ///< at most so many pictures of bright objects
-    std::int64_t top_dark = 12;       ///< and of dark ones
+    std::int64_t top_cavities = 12;   ///< and of dark ones
     std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
     std::int64_t frames = 12;         ///< of a turntable, 1 to 64
     std::string source{};             ///< what commands on the page name: the volume or the store; empty: the store
 };
 
 struct PageReport {
-    std::int64_t objects = 0;  ///< entries, with a picture each
-    std::int64_t dark = 0;     ///< of these: dark objects
-    std::int64_t hidden = 0;   ///< objects of the volume, bright and dark, that have no picture
-    std::int64_t bytes = 0;    ///< of the page
+    std::int64_t objects = 0;   ///< entries, with a picture each
+    std::int64_t cavities = 0;  ///< of these: dark objects
+    std::int64_t hidden = 0;    ///< objects of the volume, bright and dark, that have no picture
+    std::int64_t bytes = 0;     ///< of the page
 };
 
 /// Ranks the bright and dark objects of a store, draws them and writes the page. Throws Error: usage (options), input (damaged store),

@@ -74,7 +74,7 @@ public:
     /// What a selection keeps, by rank. Cost: O(branches).
     [[nodiscard]] std::vector<std::int64_t> kept(const Selection& selection) const;
     /// What noise does not explain and is not tiny: the automatic choice, by rank.
-    [[nodiscard]] const std::vector<std::int64_t>& essential() const;
+    [[nodiscard]] const std::vector<std::int64_t>& significant() const;
     /// Cost: O(events).
     [[nodiscard]] Simplified simplify(const Selection& selection) const;
     /// The same for any kept branches: with a branch its parent must be among them, the main branch always.

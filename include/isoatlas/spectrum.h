@@ -28,9 +28,10 @@ struct LevelCounts {
 
 /// The isovalues (low, high] between neighbouring values of events, in which no count changes; low is -infinity for the last one.
 struct SpectrumInterval {
-    double low, high;       ///< stored values
-    LevelCounts all;        ///< of all objects
-    LevelCounts essential;  ///< of the objects that hold an essential one (ObjectTable): as many objects as essential branches are there
+    double low, high;  ///< stored values
+    LevelCounts all;   ///< of all objects
+    LevelCounts
+        significant;  ///< of the objects that hold an significant one (ObjectTable): as many objects as significant branches are there
 };
 
 /// The closed surface of an isovalue, as extract() makes it.
@@ -57,12 +58,12 @@ struct Spectrum {
     std::vector<SpectrumAdvice> advice;       ///< of every object of the ObjectTable, by rank: its lines, then its other isovalues
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
-    bool selected = false;     ///< essential is what SpectrumOptions::selection keeps
+    bool selected = false;     ///< significant is what SpectrumOptions::selection keeps
 };
 
 struct SpectrumOptions {
     std::int64_t samples = 24;             ///< isovalues that are measured: the middles of so many equal parts of the range; 0: none
-    std::optional<Selection> selection{};  ///< says what is essential; none: what noise does not explain
+    std::optional<Selection> selection{};  ///< says what is significant; none: what noise does not explain
 };
 
 /// analysis: of this volume, with zones. Cost: O(events) and rank_objects(), and for every measured isovalue that of extract().

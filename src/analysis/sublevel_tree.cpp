@@ -25,7 +25,7 @@ constexpr std::size_t kBlock = 1024;  // samples that climb together
 
 /// Events of the low tree, with the elements numbered backwards.
 template <class Id>
-CriticalityTree<Id> dark_events(const AnalysisArrays<Id>& arrays, std::span<const double> height, int rank) {
+CriticalityTree<Id> sublevel_events(const AnalysisArrays<Id>& arrays, std::span<const double> height, int rank) {
     const std::size_t n = arrays.value.size();
     const SplitTree<Id> low = split_tree_of(arrays.contours);
     const BigVector<LevelKind> kinds =
@@ -97,11 +97,11 @@ BigVector<Id> basins_of_minima(const Extent& extent, std::span<const std::uint8_
 
 /// Basins in dark.zone become zones in place.
 template <class T, class Id>
-void label_zones(const GridView<T>& grid, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, SublevelTree<Id>& dark,
+void label_zones(const GridView<T>& grid, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, SublevelTree<Id>& sublevel,
                  const Context& context) {
     using Value = ComparisonValue<T>;
     const std::int64_t slice = grid.extent.slice();
-    for_each_slab(context, {"dark zones", 0, 1}, {grid.extent.size[2], slice}, [&](const Slab& slab) {
+    for_each_slab(context, {"sublevel zones", 0, 1}, {grid.extent.size[2], slice}, [&](const Slab& slab) {
         std::vector<Value> height(kBlock);
         std::vector<Id> minimum(kBlock);
         std::vector<std::uint32_t> scratch(kBlock);
@@ -110,16 +110,16 @@ void label_zones(const GridView<T>& grid, const HeavyPathDecomposition<Id, Compa
             const std::size_t count = std::min(kBlock, end - first);
             for (std::size_t i = 0; i < count; ++i) {
                 height[i] = -static_cast<Value>(grid.samples[first + i]);
-                minimum[i] = Basins<Id>::number(dark.zone[first + i]);
+                minimum[i] = Basins<Id>::number(sublevel.zone[first + i]);
             }
-            paths.zones({height.data(), count}, {minimum.data(), count}, scratch, std::span<Id>(dark.zone).subspan(first, count));
+            paths.zones({height.data(), count}, {minimum.data(), count}, scratch, std::span<Id>(sublevel.zone).subspan(first, count));
         }
     });
-    fill_fresh(dark.voxels, dark.tree.size(), Id{0});
+    fill_fresh(sublevel.voxels, sublevel.tree.size(), Id{0});
     BudgetPoll memory;
-    for (const Id zone : dark.zone) {
+    for (const Id zone : sublevel.zone) {
         memory.step(BudgetPoll::kTouch / 4);  // zones of neighbours are often the same
-        ++dark.voxels[zone];
+        ++sublevel.voxels[zone];
     }
 }
 
@@ -133,20 +133,20 @@ SublevelTree<Id> make_sublevel_tree(const GridView<T>& grid, const AnalysisArray
     height[0] = -std::nextafter(static_cast<double>(lowest), -std::numeric_limits<double>::infinity());
     BudgetPoll memory;
     for (std::size_t x = 0; x < n; ++x) height[n - x] = -arrays.value[x], memory.step();
-    SublevelTree<Id> dark;
-    dark.tree = dark_events(arrays, height, grid.extent.rank);
-    dark.contours = count_contours(arrays.contours, dark.tree);
-    dark.height.resize(dark.tree.size());
-    for (std::size_t e = 0; e < dark.tree.size(); ++e) {
+    SublevelTree<Id> sublevel;
+    sublevel.tree = sublevel_events(arrays, height, grid.extent.rank);
+    sublevel.contours = count_contours(arrays.contours, sublevel.tree);
+    sublevel.height.resize(sublevel.tree.size());
+    for (std::size_t e = 0; e < sublevel.tree.size(); ++e) {
         memory.step(BudgetPoll::kTouch);
-        dark.height[e] = height[dark.tree.top[e]];
+        sublevel.height[e] = height[sublevel.tree.top[e]];
     }
     const BigVector<Id> minima = elements_of_minima<Id>(arrays.code, grid.extent);
-    const HeavyPathDecomposition<Id, ComparisonValue<T>> paths({dark.tree.parent, height, dark.tree.top, dark.tree.event_of_element},
-                                                               minima, context.threads);
-    dark.zone = basins_of_minima<Id>(grid.extent, links_of_grid(grid, context), context);
-    label_zones(grid, paths, dark, context);
-    return dark;
+    const HeavyPathDecomposition<Id, ComparisonValue<T>> paths(
+        {sublevel.tree.parent, height, sublevel.tree.top, sublevel.tree.event_of_element}, minima, context.threads);
+    sublevel.zone = basins_of_minima<Id>(grid.extent, links_of_grid(grid, context), context);
+    label_zones(grid, paths, sublevel, context);
+    return sublevel;
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type

@@ -54,8 +54,8 @@ template <class Id>
 
 /// Voxel of the lowest element of an event; -1: the outside.
 template <class Id>
-[[nodiscard]] std::int64_t lowest_voxel(const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& dark, std::size_t event) {
-    const std::size_t element = dark.element(event);
+[[nodiscard]] std::int64_t lowest_voxel(const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& sublevel, std::size_t event) {
+    const std::size_t element = sublevel.element(event);
     return element == arrays.code.size() ? -1 : ElementCode{arrays.code[element]}.index();
 }
 

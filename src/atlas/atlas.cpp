@@ -169,9 +169,9 @@ ObjectTable Atlas::objects(const RankOptions& options, const Context& context) c
     return rank_objects(whole, zoned_analysis_of(data_->store, whole, context), options, context);
 }
 
-CavityTable Atlas::dark_objects(const RankOptions& options, const Context& context) const {
-    if (has_dark(data_->store) && options.gate && !options.selection) {
-        CavityTable stored = dark_of(data_->store);
+CavityTable Atlas::cavities(const RankOptions& options, const Context& context) const {
+    if (has_cavities(data_->store) && options.gate && !options.selection) {
+        CavityTable stored = cavities_of(data_->store);
         if (is_whole(stored) || (options.top > 0 && options.top <= std::ssize(stored.entries)))
             return first_entries(std::move(stored), options.top);
     }

@@ -32,7 +32,7 @@ void for_members(Visit&& visit) {
 
 /// The same for CavityEntry.
 template <class Visit>
-void for_dark_members(Visit&& visit) {
+void for_cavity_members(Visit&& visit) {
     visit("dark/id", "int64", &CavityEntry::id);
     visit("dark/appears", "float64", &CavityEntry::appears);
     visit("dark/merges", "float64", &CavityEntry::merges);
@@ -168,19 +168,19 @@ bool knows_branches(const ObjectTable& table) {
     return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
 }
 
-std::vector<PackedArray> dark_arrays(const CavityTable& table) {
+std::vector<PackedArray> cavity_arrays(const CavityTable& table) {
     std::vector<PackedArray> arrays;
-    add_arrays([](const auto& visit) { for_dark_members(visit); }, table.entries, arrays);
+    add_arrays([](const auto& visit) { for_cavity_members(visit); }, table.entries, arrays);
     add_arrays([](const auto& visit) { for_isovalue_members("dark_isovalues", visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("dark/branches", "int64", {table.branches}));
     arrays.push_back(owned<double>("dark/noise", "float64", {table.noise}));
     return arrays;
 }
 
-bool has_dark(const Container& store) { return store.contents().has_array("dark/id"); }
+bool has_cavities(const Container& store) { return store.contents().has_array("dark/id"); }
 
-CavityTable dark_of(const Container& store) {
-    CavityTable table{lines_of<CavityEntry>(store, "dark/id", "int64", [](const auto& visit) { for_dark_members(visit); })};
+CavityTable cavities_of(const Container& store) {
+    CavityTable table{lines_of<CavityEntry>(store, "dark/id", "int64", [](const auto& visit) { for_cavity_members(visit); })};
     const auto branches = store.all<std::int64_t>("dark/branches", "int64");
     const auto noise = store.all<double>("dark/noise", "float64");
     if (branches.size() != 1 || noise.size() != 1) contradiction(store);

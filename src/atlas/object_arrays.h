@@ -1,4 +1,4 @@
-// The table of essential objects (isoatlas/objects.h) as arrays of a store, and back: nobody should have to analyse the volume again to
+// The table of significant objects (isoatlas/objects.h) as arrays of a store, and back: nobody should have to analyse the volume again to
 // ask which objects are in it.
 //
 //   objects/id, event, voxels, tunnels, cavities, inside, branch_top      int64, per entry, by rank
@@ -38,9 +38,9 @@ inline constexpr std::int64_t kStoredEntries = 1024;
 [[nodiscard]] bool knows_branches(const ObjectTable& table);
 
 /// The table of dark objects, the same way: dark/id, ... as in CavityEntry, dark/branches, noise.
-[[nodiscard]] std::vector<PackedArray> dark_arrays(const CavityTable& table);
-[[nodiscard]] bool has_dark(const Container& store);
+[[nodiscard]] std::vector<PackedArray> cavity_arrays(const CavityTable& table);
+[[nodiscard]] bool has_cavities(const Container& store);
 /// Without notes. Throws Error{input} when it contradicts itself.
-[[nodiscard]] CavityTable dark_of(const Container& store);
+[[nodiscard]] CavityTable cavities_of(const Container& store);
 
 }  // namespace isoatlas

@@ -11,16 +11,16 @@ namespace {
 
 /// Are both tables stored, and whole?
 bool has_tables(const Container& store) {
-    if (!has_objects(store) || !has_dark(store)) return false;
-    const ObjectTable bright = objects_of(store);
-    return is_whole(bright) && knows_branches(bright) && is_whole(dark_of(store));
+    if (!has_objects(store) || !has_cavities(store)) return false;
+    const ObjectTable objects = objects_of(store);
+    return is_whole(objects) && knows_branches(objects) && is_whole(cavities_of(store));
 }
 
 }  // namespace
 
 Overview overview_of(const Atlas& atlas, const Context& context) {
     if (has_tables(AtlasAccess::store(atlas)))
-        return {atlas.objects({.top = 0}, context), atlas.dark_objects({.top = 0}, context), atlas.hierarchy(context)};
+        return {atlas.objects({.top = 0}, context), atlas.cavities({.top = 0}, context), atlas.hierarchy(context)};
     const Volume whole = atlas.volume(context);
     Analysis zoned = zoned_analysis_of(AtlasAccess::store(atlas), whole, context);
     stop_if_cancelled(context);
@@ -28,7 +28,7 @@ Overview overview_of(const Atlas& atlas, const Context& context) {
     stop_if_cancelled(context);
     BranchHierarchy hierarchy(whole, zoned, context);
     AtlasAccess::keep(atlas, std::move(zoned));
-    return {std::move(tables.bright), std::move(tables.dark), std::move(hierarchy)};
+    return {std::move(tables.objects), std::move(tables.cavities), std::move(hierarchy)};
 }
 
 }  // namespace isoatlas

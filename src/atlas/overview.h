@@ -7,8 +7,8 @@
 namespace isoatlas {
 
 struct Overview {
-    ObjectTable bright;  ///< all that pass the gate
-    CavityTable dark;
+    ObjectTable objects;  ///< all that pass the gate
+    CavityTable cavities;
     BranchHierarchy hierarchy;
 };
 

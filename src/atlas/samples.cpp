@@ -72,7 +72,7 @@ Volume Atlas::samples(const SampleBox& box, std::int64_t step, const Context& co
 
 CoarseVolume Atlas::coarse(std::int64_t max, const Context& context) const {
     constexpr std::int64_t kLargestCube = 8;  // that lies in one brick
-    if (max < 1) throw Error(ErrorKind::usage, {.where = "most", .what = "no values would be left", .expected = "1 or more"});
+    if (max < 1) throw Error(ErrorKind::usage, {.where = "max", .what = "no values would be left", .expected = "1 or more"});
     CoarseVolume result{.step = 1, .extent = info().extent, .mean = {}};
     while (result.extent.voxels() > max && result.step < kLargestCube) {
         result.step *= 2;

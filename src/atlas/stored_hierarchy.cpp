@@ -40,7 +40,7 @@ std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas, const Contex
     const Container& store = AtlasAccess::store(atlas);
     if (!has_objects(store)) return std::nullopt;
     const ObjectTable table = objects_of(store);
-    if (!is_whole(table) || !knows_branches(table)) return std::nullopt;  // essential ones may be missing
+    if (!is_whole(table) || !knows_branches(table)) return std::nullopt;  // significant ones may be missing
     std::vector<std::int64_t> tops;
     for (const ObjectEntry& entry : table.entries) tops.push_back(entry.branch_top);
     std::ranges::sort(tops);

@@ -16,8 +16,8 @@ void add_tables(const Analysis& analysis, const VolumeView& volume, const Contex
     const ObjectsAndCavities tables = rank_both(volume, analysis, {.top = kStoredEntries}, quiet);
     done(0.9);
     const auto add = [&phase](std::vector<PackedArray> more) { std::ranges::move(more, std::back_inserter(phase.arrays)); };
-    add(object_arrays(tables.bright));
-    add(dark_arrays(tables.dark));
+    add(object_arrays(tables.objects));
+    add(cavity_arrays(tables.cavities));
     if (!stores_events(analysis)) return;
     add(event_arrays(analysis));
     phase.sums = sum_zones(volume, analysis);

@@ -16,16 +16,16 @@ void widen(LevelCounts& min, LevelCounts& max, const LevelCounts& counts) {
 }
 
 CountColumn column_of(const SpectrumInterval& interval, double low, double high) {
-    return {low, high, interval.all, interval.all, interval.essential, interval.essential};
+    return {low, high, interval.all, interval.all, interval.significant, interval.significant};
 }
 
 /// Ascending, what is the same joined.
 std::vector<SpectrumInterval> clipped_intervals(std::span<const SpectrumInterval> intervals, double low, double high) {
     std::vector<SpectrumInterval> inside;
     for (const SpectrumInterval& whole : std::views::reverse(intervals)) {
-        const SpectrumInterval clipped{std::max(whole.low, low), std::min(whole.high, high), whole.all, whole.essential};
+        const SpectrumInterval clipped{std::max(whole.low, low), std::min(whole.high, high), whole.all, whole.significant};
         if (!(clipped.high > clipped.low)) continue;
-        if (!inside.empty() && inside.back().all == clipped.all && inside.back().essential == clipped.essential) {
+        if (!inside.empty() && inside.back().all == clipped.all && inside.back().significant == clipped.significant) {
             inside.back().high = clipped.high;
         } else {
             inside.push_back(clipped);
@@ -54,7 +54,7 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
         CountColumn column = column_of(inside[first], left, right);
         for (std::size_t i = first; i < inside.size() && inside[i].low < right; ++i) {
             widen(column.min, column.max, inside[i].all);
-            widen(column.min_essential, column.max_essential, inside[i].essential);
+            widen(column.min_significant, column.max_significant, inside[i].significant);
         }
         result.push_back(column);
         left = right;

@@ -14,7 +14,7 @@ namespace isoatlas {
 /// For isovalues in (low, high] the counts take their values between least and most, both of them.
 struct CountColumn {
     double low, high;  ///< stored values
-    LevelCounts min, max, min_essential, max_essential;
+    LevelCounts min, max, min_significant, max_significant;
 };
 
 /// Columns by ascending isovalue that cover the part of `intervals` (as in Spectrum) that lies in (low, scale.high]. When there are at most

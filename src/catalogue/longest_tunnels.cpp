@@ -14,7 +14,7 @@ std::unordered_map<std::int64_t, std::size_t> branches_of_events(const PageConte
     std::unordered_map<std::int64_t, std::size_t> branch_of;
     for (std::size_t b = 0; b < contents.branches.size(); ++b) {
         const PageBranch& branch = contents.branches[b];
-        if (branch.dark || branch.shape.empty()) continue;
+        if (branch.is_cavity || branch.shape.empty()) continue;
         for (const std::int64_t event : events_of(analysis, branch.top, branch.merges)) branch_of.emplace(event, b);
     }
     return branch_of;

@@ -35,17 +35,17 @@ public:
         const double low = atlas_.range()[0];
         contents_.scale = page_axis(atlas_, context_);
         stop_if_cancelled(context_);
-        contents_.spectrum = count_columns(count_intervals(analysis_, found_.bright), low, contents_.scale, kColumns);
-        const ObjectTable table = first_entries(found_.bright, options_.top);
-        CavityTable dark = found_.dark;
-        contents_.bright = table.branches, contents_.noise = table.noise;
-        contents_.bright_standing_out = static_cast<std::int64_t>(hierarchy_.essential().size());
-        contents_.dark = dark.branches, contents_.dark_standing_out = static_cast<std::int64_t>(dark.entries.size());
-        if (static_cast<std::int64_t>(dark.entries.size()) > options_.top_dark)
-            dark.entries.resize(static_cast<std::size_t>(options_.top_dark));
-        add_bright_branches(table);
-        add_bright_entries(table);
-        add_dark(dark);
+        contents_.spectrum = count_columns(count_intervals(analysis_, found_.objects), low, contents_.scale, kColumns);
+        const ObjectTable table = first_entries(found_.objects, options_.top);
+        CavityTable cavities = found_.cavities;
+        contents_.objects = table.branches, contents_.noise = table.noise;
+        contents_.significant_objects = static_cast<std::int64_t>(hierarchy_.significant().size());
+        contents_.cavities = cavities.branches, contents_.significant_cavities = static_cast<std::int64_t>(cavities.entries.size());
+        if (static_cast<std::int64_t>(cavities.entries.size()) > options_.top_cavities)
+            cavities.entries.resize(static_cast<std::size_t>(options_.top_cavities));
+        add_object_branches(table);
+        add_object_entries(table);
+        add_cavities(cavities);
         stop_if_cancelled(context_);
         contents_.histogram = make_histogram(atlas_, contents_.scale, context_);
         contents_.curve = thin_curve(hierarchy_.curves().front(), kCurvePoints);
@@ -55,10 +55,10 @@ public:
 
 private:
     /// Those of the table, and the first ones by rank.
-    void add_bright_branches(const ObjectTable& table) {
+    void add_object_branches(const ObjectTable& table) {
         const std::span<const BranchInfo> all = hierarchy_.branches();
-        std::vector<bool> is_essential(all.size(), false), is_shown(all.size(), false);
-        for (const std::int64_t i : hierarchy_.essential()) is_essential[i] = true;
+        std::vector<bool> is_significant(all.size(), false), is_shown(all.size(), false);
+        for (const std::int64_t i : hierarchy_.significant()) is_significant[i] = true;
         std::unordered_map<std::int64_t, std::size_t> of_top;
         for (std::size_t i = 0; i < all.size(); ++i) of_top.emplace(all[i].top, i);
         for (const ObjectEntry& entry : table.entries) is_shown[of_top.at(entry.branch_top)] = true;
@@ -82,7 +82,7 @@ private:
                                           .voxels = b.voxels,
                                           .measure = b.measure,
                                           .joined = joined[i],
-                                          .stands_out = is_essential[i],
+                                          .stands_out = is_significant[i],
                                           .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{},
                                           .top = b.top});
             if (!is_shown[i]) continue;
@@ -98,7 +98,7 @@ private:
         return count_columns(intervals, std::max(atlas_.range()[0], b.merges), contents_.scale, kShapeColumns);
     }
 
-    void add_bright_entries(const ObjectTable& table) {
+    void add_object_entries(const ObjectTable& table) {
         for (const ObjectEntry& entry : table.entries) {
             contents_.entries.push_back({.branch = place_of_top_.at(entry.branch_top),
                                          .id = entry.id,
@@ -125,13 +125,13 @@ private:
     }
 
     /// A dark object merges into the one around it, or into the outside.
-    void add_dark(const CavityTable& dark) {
+    void add_cavities(const CavityTable& cavities) {
         const auto first_branch = static_cast<std::int64_t>(contents_.branches.size());
         const auto first_entry = static_cast<std::int64_t>(contents_.entries.size());
-        for (const CavityEntry& entry : dark.entries) {
-            const std::int64_t inside = entry.inside < static_cast<std::int64_t>(dark.entries.size()) ? entry.inside : -1;
+        for (const CavityEntry& entry : cavities.entries) {
+            const std::int64_t inside = entry.inside < static_cast<std::int64_t>(cavities.entries.size()) ? entry.inside : -1;
             const auto branch = static_cast<std::int64_t>(contents_.branches.size());
-            contents_.branches.push_back({.dark = true,
+            contents_.branches.push_back({.is_cavity = true,
                                           .id = entry.id,
                                           .rank = branch - first_branch,
                                           .appears = entry.appears,
@@ -141,7 +141,7 @@ private:
                                           .voxels = entry.voxels,
                                           .measure = entry.measure,
                                           .stands_out = true,
-                                          .isovalues = isovalues_of(dark.isovalues, entry.branch_minimum)});
+                                          .isovalues = isovalues_of(cavities.isovalues, entry.branch_minimum)});
             std::erase_if(contents_.branches.back().isovalues,
                           [&](const RecommendedIsovalue& isovalue) { return isovalue.tau == entry.best_tau; });
             contents_.entries.push_back({.branch = branch,
@@ -159,18 +159,18 @@ private:
         }
     }
     /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.
-    std::int64_t entry_around(const CavityEntry& dark) const {
-        const ActiveObjects there = atlas_.active(dark.best_tau, false);
-        const auto object = std::ranges::find(there.objects, dark.object, &ActiveObject::id);
+    std::int64_t entry_around(const CavityEntry& cavity) const {
+        const ActiveObjects there = atlas_.active(cavity.best_tau, false);
+        const auto object = std::ranges::find(there.objects, cavity.object, &ActiveObject::id);
         if (object == there.objects.end()) return -1;
         const std::int64_t branch = branch_of_event_[object->event];
         std::int64_t closest = -1;
         double distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < contents_.entries.size(); ++i) {
             const PageEntry& entry = contents_.entries[i];
-            if (entry.branch != branch || std::abs(entry.tau - dark.best_tau) >= distance) continue;
+            if (entry.branch != branch || std::abs(entry.tau - cavity.best_tau) >= distance) continue;
             closest = static_cast<std::int64_t>(i);
-            distance = std::abs(entry.tau - dark.best_tau);
+            distance = std::abs(entry.tau - cavity.best_tau);
         }
         return closest;
     }
@@ -192,9 +192,9 @@ PageContents page_contents(const Atlas& atlas, const Overview& found, const Page
     return Gatherer(atlas, found, options, context).gather();
 }
 
-Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context) {
+Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context) {
     ExtractOptions chosen;
-    (dark ? chosen.contours : chosen.objects) = {entry.id};
+    (is_cavity ? chosen.contours : chosen.objects) = {entry.id};
     return atlas.extract(entry.tau, chosen, context);
 }
 
@@ -211,7 +211,7 @@ void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions
             entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
             continue;
         }
-        Surface surface = surface_of(atlas, contents.branches[entry.branch].dark, entry, silent);
+        Surface surface = surface_of(atlas, contents.branches[entry.branch].is_cavity, entry, silent);
         entry.picture = draw_turntable(std::move(surface), entry.colour, options, silent);
     }
 }

@@ -23,7 +23,7 @@ struct PageTunnel {
 
 /// An object of the volume, as long as it is on its own: for isovalues between appears and merges.
 struct PageBranch {
-    bool dark = false;
+    bool is_cavity = false;
     std::int64_t id = 0;
     std::int64_t rank = 0;           ///< among all of its side, from 0: BranchHierarchy::branches(), CavityTable::entries
     double appears = 0, merges = 0;  ///< merges of the main branch: -infinity
@@ -56,10 +56,10 @@ struct PageEntry {
 };
 
 struct PageContents {
-    std::vector<PageBranch> branches;                             ///< bright ones by rank, then dark ones by rank
-    std::vector<PageEntry> entries;                               ///< in the same order
-    std::int64_t bright = 0, dark = 0;                            ///< objects in all
-    std::int64_t bright_standing_out = 0, dark_standing_out = 0;  ///< of these, what noise does not explain and is not tiny
+    std::vector<PageBranch> branches;                                ///< bright ones by rank, then dark ones by rank
+    std::vector<PageEntry> entries;                                  ///< in the same order
+    std::int64_t objects = 0, cavities = 0;                          ///< in all
+    std::int64_t significant_objects = 0, significant_cavities = 0;  ///< of these, what noise does not explain and is not tiny
     double noise = 0;
     AxisScale scale;
     SelectionCurve curve;  ///< of hypervolume, thinned
@@ -71,7 +71,7 @@ struct PageContents {
 /// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context);
 /// What an entry shows of a 3D volume. dark: of its id, which is that of a contour. Cost: Atlas::extract().
-[[nodiscard]] Surface surface_of(const Atlas& atlas, bool dark, const PageEntry& entry, const Context& context);
+[[nodiscard]] Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context);
 /// Cost: options.frames pictures for every entry.
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);
 

@@ -34,21 +34,21 @@ void add(LevelCounts& counts, const LevelCounts& more, std::int64_t times) {
 template <class Id>
 std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std::vector<ObjectEntry>& entries) {
     const CriticalityTree<Id>& tree = arrays.tree;
-    std::vector<bool> essential(tree.size(), false);
+    std::vector<bool> significant(tree.size(), false);
     for (const ObjectEntry& entry : entries) {
         if (entry.branch_top < 0 || entry.branch_top >= static_cast<std::int64_t>(tree.size())) contradiction();
         for (auto e = static_cast<std::size_t>(entry.branch_top); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
-            if (essential[e]) break;  // another entry of the branch: branches have no event in common
-            essential[e] = true;
+            if (significant[e]) break;  // another entry of the branch: branches have no event in common
+            significant[e] = true;
             if (tree.is_root(e)) break;
         }
     }
-    return essential;
+    return significant;
 }
 
 // Events come in descending order. A zone begins to count at its own value and ends at that of its parent.
 template <class Id>
-std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& essential) {
+std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& significant) {
     const CriticalityTree<Id>& tree = arrays.tree;
     std::vector<SpectrumInterval> intervals;
     std::vector<Id> place(tree.size());
@@ -62,7 +62,7 @@ std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, 
         const LevelCounts counts = counts_of(arrays, e, rank);
         const auto change = [&](SpectrumInterval& interval, std::int64_t times) {
             add(interval.all, counts, times);
-            if (essential[e]) add(interval.essential, counts, times);
+            if (significant[e]) add(interval.significant, counts, times);
         };
         change(intervals[place[e]], 1);
         if (!tree.is_root(e)) change(intervals[place[tree.parent[e]]], -1);
@@ -70,7 +70,7 @@ std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, 
     for (std::size_t i = 1; i < intervals.size(); ++i) {
         intervals[i - 1].low = intervals[i].high;
         add(intervals[i].all, intervals[i - 1].all, 1);
-        add(intervals[i].essential, intervals[i - 1].essential, 1);
+        add(intervals[i].significant, intervals[i - 1].significant, 1);
     }
     return intervals;
 }
@@ -83,7 +83,7 @@ std::vector<SpectrumInterval> count_intervals(const Analysis& analysis, const Ob
 
 #define ISOATLAS_COUNT_INTERVALS(Id)                                                                          \
     template std::vector<bool> events_of_entries(const AnalysisArrays<Id>&, const std::vector<ObjectEntry>&); \
-    template std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>&, int, const std::vector<bool>& essential);
+    template std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>&, int, const std::vector<bool>& significant);
 ISOATLAS_COUNT_INTERVALS(std::uint32_t)
 ISOATLAS_COUNT_INTERVALS(std::uint64_t)
 #undef ISOATLAS_COUNT_INTERVALS

@@ -15,11 +15,12 @@ namespace isoatlas {
 template <class Id>
 [[nodiscard]] std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std::vector<ObjectEntry>& entries);
 
-/// Intervals between neighbouring values of events, descending. essential: per event. Cost: O(events).
+/// Intervals between neighbouring values of events, descending. significant: per event. Cost: O(events).
 template <class Id>
-[[nodiscard]] std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& essential);
+[[nodiscard]] std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank,
+                                                            const std::vector<bool>& significant);
 
-/// The same; essential is what a table of these trees lists.
+/// The same; significant is what a table of these trees lists.
 [[nodiscard]] std::vector<SpectrumInterval> count_intervals(const Analysis& analysis, const ObjectTable& table);
 
 }  // namespace isoatlas

@@ -125,8 +125,8 @@ public:
              const FaceRows<T>& values, SlabScan& out) const {
         for (std::size_t begin = 0; begin < links.size(); begin += kTogether) {
             const std::size_t count = std::min(links.size() - begin, kTogether);
-            const std::uint32_t some = count == kTogether ? which_matter<kTogether>(links.data() + begin, faces + begin, count)
-                                                          : which_matter<0>(links.data() + begin, faces + begin, count);
+            const std::uint32_t some = count == kTogether ? which_are_significant<kTogether>(links.data() + begin, faces + begin, count)
+                                                          : which_are_significant<0>(links.data() + begin, faces + begin, count);
             for (std::uint32_t rest = some; rest != 0; rest &= rest - 1) {
                 const std::size_t x = begin + static_cast<std::size_t>(std::countr_zero(rest));
                 const std::int64_t i = first + static_cast<std::int64_t>(x);
@@ -142,7 +142,7 @@ private:
 
     /// Bit k: voxel k is critical or has an ambiguous face. Count, where it is not 0, is known to the compiler.
     template <std::size_t Count>
-    [[nodiscard]] std::uint32_t which_matter(const std::uint8_t* links, const std::uint8_t* faces, std::size_t count) const {
+    [[nodiscard]] std::uint32_t which_are_significant(const std::uint8_t* links, const std::uint8_t* faces, std::size_t count) const {
         std::uint32_t some = 0;
         for (std::size_t k = 0; k < (Count != 0 ? Count : count); ++k) {
             some |= static_cast<std::uint32_t>((is_critical_ >> links[k] & 1) | unsigned{faces[k] != 0}) << k;

@@ -37,12 +37,12 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_bright() const { return tree_.sign > 0; }
+    [[nodiscard]] bool is_superlevel() const { return tree_.sign > 0; }
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
     /// Whatever is selected. By rank.
     [[nodiscard]] std::vector<std::int64_t> standing_out(const NoiseModel& noise) const {
-        return essential_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
+        return significant_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
     }
 
     /// By rank.
@@ -98,7 +98,7 @@ private:
             const Branch& b = branches_.branch[kept[k]];
             std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
             std::size_t rows = 1;
-            if (k == 0 && is_bright()) {  // the dark main branch is the outside, which has no rows
+            if (k == 0 && is_superlevel()) {  // the dark main branch is the outside, which has no rows
                 const std::vector<BranchIsovalue> more = before_merges(branches_, standing_out(noise), result.histograms[k], own, noise);
                 own.insert(std::ranges::find(own, kOutline, &BranchIsovalue::reason), more.begin(), more.end());
                 rows = arrange_main_branch(own, volume_.info->extent.voxels());
@@ -141,7 +141,7 @@ private:
     /// branch lives in (merges, appears], a dark one in [merges, appears) as heights go.
     [[nodiscard]] double alive(double tau, const Branch& b) const {
         const double end = std::max(b.merges, lowest());
-        if (is_bright()) return std::clamp(tau, std::nextafter(end, b.appears), b.appears);
+        if (is_superlevel()) return std::clamp(tau, std::nextafter(end, b.appears), b.appears);
         return std::clamp(tau, end, std::nextafter(b.appears, end));
     }
 
@@ -153,7 +153,7 @@ private:
     }
 
     /// Does a sample of a height belong to the object of its branch at tau?
-    [[nodiscard]] bool belongs(double height, double tau) const { return is_bright() ? height >= tau : height > tau; }
+    [[nodiscard]] bool belongs(double height, double tau) const { return is_superlevel() ? height >= tau : height > tau; }
 
     /// The event of every row, and the voxels of its object at tau.
     void measure(std::vector<Candidate>& rows) const {

@@ -6,8 +6,8 @@ template <class Id>
 CavityCandidates<Id> make_cavity_candidates(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const NoiseModel& noise,
                                             const RankOptions& options, const Context& context) {
     CavityCandidates<Id> side;
-    side.dark = make_sublevel_tree(volume, arrays, context);
-    side.tree = side.dark.side();  // its spans stay where they are when the side moves
+    side.sublevel = make_sublevel_tree(volume, arrays, context);
+    side.tree = side.sublevel.side();  // its spans stay where they are when the side moves
     side.branches = decompose_branches(side.tree, sum_zones(side.tree, volume));
     RankOptions with_outside = options;
     with_outside.top = 0;

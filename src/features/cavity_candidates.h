@@ -9,14 +9,14 @@ namespace isoatlas {
 
 template <class Id>
 struct CavityCandidates {
-    SublevelTree<Id> dark;
+    SublevelTree<Id> sublevel;
     ObjectTree<Id> tree;
     BranchDecomposition branches;
     CandidateTable chosen;  ///< without the outside; one row a branch
 
     /// Lowest voxel of the dark object of an event; -1: the outside.
     [[nodiscard]] std::int64_t voxel(const AnalysisArrays<Id>& arrays, std::int64_t event) const {
-        return lowest_voxel(arrays, dark, static_cast<std::size_t>(branches.highest[event]));
+        return lowest_voxel(arrays, sublevel, static_cast<std::size_t>(branches.highest[event]));
     }
 };
 

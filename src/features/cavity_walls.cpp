@@ -16,16 +16,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Per dark branch: the row of the closest branch that has one, itself or one it ends in; -1: there is none.
 template <class Id>
-BigVector<std::int64_t> rows_of_branches(const CavityCandidates<Id>& dark) {
-    const std::vector<Candidate>& rows = dark.chosen.rows;
-    BigVector<std::int64_t> own = filled<std::int64_t>(dark.branches.branch.size(), std::int64_t{-1});
+BigVector<std::int64_t> rows_of_branches(const CavityCandidates<Id>& candidates) {
+    const std::vector<Candidate>& rows = candidates.chosen.rows;
+    BigVector<std::int64_t> own = filled<std::int64_t>(candidates.branches.branch.size(), std::int64_t{-1});
     for (std::size_t row = 0; row < rows.size(); ++row) own[rows[row].branch] = static_cast<std::int64_t>(row);
     BigVector<std::int64_t> result(own.size());
     BudgetPoll memory;
     for (std::size_t i = 0; i < result.size(); ++i) {
         memory.step(BudgetPoll::kTouch);
         result[i] = own[i];
-        for (auto b = static_cast<std::int64_t>(i); b >= 0 && result[i] < 0; b = dark.branches.branch[b].parent) result[i] = own[b];
+        for (auto b = static_cast<std::int64_t>(i); b >= 0 && result[i] < 0; b = candidates.branches.branch[b].parent) result[i] = own[b];
     }
     return result;
 }
@@ -42,12 +42,12 @@ double joins(const BranchDecomposition& branches, std::int64_t event, double val
 
 /// While a dark branch lies in another one it is closed as long as that is.
 template <class Id>
-void widen(std::vector<std::vector<Enclosure>>& all, const CavityCandidates<Id>& dark) {
-    const std::vector<Candidate>& rows = dark.chosen.rows;
-    const BigVector<std::int64_t> row_of = rows_of_branches(dark);
+void widen(std::vector<std::vector<Enclosure>>& all, const CavityCandidates<Id>& candidates) {
+    const std::vector<Candidate>& rows = candidates.chosen.rows;
+    const BigVector<std::int64_t> row_of = rows_of_branches(candidates);
     const std::vector<std::vector<Enclosure>> own = all;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (std::int64_t b = dark.branches.branch[rows[i].branch].parent; b >= 0; b = dark.branches.branch[b].parent) {
+        for (std::int64_t b = candidates.branches.branch[rows[i].branch].parent; b >= 0; b = candidates.branches.branch[b].parent) {
             if (row_of[b] < 0) break;
             b = rows[row_of[b]].branch;
             for (const Enclosure& outer : own[row_of[b]]) {
@@ -79,14 +79,14 @@ bool is_new(double tau, const BranchHistogram& histogram, const std::vector<Bran
 template <class Id>
 class Walls {
 public:
-    Walls(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& bright, const BranchDecomposition& branches,
-          const CandidateTable& chosen, const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around)
+    Walls(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& objects, const BranchDecomposition& branches,
+          const CandidateTable& chosen, const CavityCandidates<Id>& candidates, const std::vector<std::int64_t>& around)
         : volume_(volume),
           arrays_(arrays),
           chosen_(chosen),
-          dark_(dark),
-          enclosures_(enclosures(bright, branches, dark, around)),
-          filled_(fill_cavities(volume, bright, branches, chosen.histograms, dark, enclosures_)) {}
+          candidates_(candidates),
+          enclosures_(enclosures(objects, branches, candidates, around)),
+          filled_(fill_cavities(volume, objects, branches, chosen.histograms, candidates, enclosures_)) {}
 
     [[nodiscard]] std::vector<BranchIsovalue> all() const {
         std::vector<BranchIsovalue> result;
@@ -109,7 +109,7 @@ private:
 
     /// A cavity of a branch at an isovalue?
     [[nodiscard]] bool is_cavity(std::size_t row, std::int64_t branch, double tau) const {
-        if (!(-dark_.chosen.rows[row].appears < tau)) return false;
+        if (!(-candidates_.chosen.rows[row].appears < tau)) return false;
         const auto around = std::ranges::find(enclosures_[row], branch, &Enclosure::branch);
         return around != enclosures_[row].end() && tau <= around->closed;
     }
@@ -131,12 +131,12 @@ private:
     void add_inner(const BranchHistogram& filled, std::vector<BranchIsovalue>& result) const {
         std::size_t count = 0;
         for (std::size_t row = 0; row < enclosures_.size() && count < kMaxCavities; ++row) {
-            const Candidate& cavity = dark_.chosen.rows[row];
-            const auto why = std::ranges::find(dark_.chosen.isovalues, cavity.branch, &BranchIsovalue::branch);
+            const Candidate& cavity = candidates_.chosen.rows[row];
+            const auto why = std::ranges::find(candidates_.chosen.isovalues, cavity.branch, &BranchIsovalue::branch);
             const double tau = -cavity.tau;
             if (why->reason != IsovalueReason::stable || !is_around(row, filled.branch, tau)) continue;
             if (!is_new(tau, filled, chosen_.isovalues)) continue;
-            result.push_back({filled.branch, tau, why->prominence, IsovalueReason::inner, dark_.voxel(arrays_, cavity.event)});
+            result.push_back({filled.branch, tau, why->prominence, IsovalueReason::inner, candidates_.voxel(arrays_, cavity.event)});
             ++count;
         }
     }
@@ -144,7 +144,7 @@ private:
     const VolumeView& volume_;
     const AnalysisArrays<Id>& arrays_;
     const CandidateTable& chosen_;
-    const CavityCandidates<Id>& dark_;
+    const CavityCandidates<Id>& candidates_;
     std::vector<std::vector<Enclosure>> enclosures_;
     std::vector<BranchHistogram> filled_;
 };
@@ -152,13 +152,14 @@ private:
 }  // namespace
 
 template <class Id>
-std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& dark) {
+std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays,
+                                         const CavityCandidates<Id>& candidates) {
     std::vector<std::int64_t> around;
     const ActiveIndex index(analysis);
-    for (const Candidate& row : dark.chosen.rows) {
-        const Branch& b = dark.branches.branch[row.branch];
+    for (const Candidate& row : candidates.chosen.rows) {
+        const Branch& b = candidates.branches.branch[row.branch];
         const ActiveObjects there = index.at(-b.merges);
-        const std::int64_t id = lowest_voxel(arrays, dark.dark, static_cast<std::size_t>(b.highest));
+        const std::int64_t id = lowest_voxel(arrays, candidates.candidates, static_cast<std::size_t>(b.highest));
         const auto wall = std::ranges::find_if(
             there.contours, [id](const ActiveContour& contour) { return contour.shell == Shell::inner && contour.id == id; });
         if (wall == there.contours.end()) throw Error(ErrorKind::internal, {.what = "a cavity without a wall"});
@@ -168,38 +169,38 @@ std::vector<std::int64_t> objects_around(const Analysis& analysis, const Analysi
 }
 
 template <class Id>
-std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& bright, const BranchDecomposition& branches,
-                                               const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around) {
+std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& objects, const BranchDecomposition& branches,
+                                               const CavityCandidates<Id>& candidates, const std::vector<std::int64_t>& around) {
     std::vector<std::vector<Enclosure>> all(around.size());
     for (std::size_t row = 0; row < around.size(); ++row) {
-        const double appears = -dark.chosen.rows[row].appears;
-        double closed = -dark.chosen.rows[row].merges;
-        for (std::int64_t e = around[row]; appears < closed; e = static_cast<std::int64_t>(bright.parent[e])) {
+        const double appears = -candidates.chosen.rows[row].appears;
+        double closed = -candidates.chosen.rows[row].merges;
+        for (std::int64_t e = around[row]; appears < closed; e = static_cast<std::int64_t>(objects.parent[e])) {
             const std::int64_t branch = branches.of_event[e];
             if (all[row].empty() || all[row].back().branch != branch) all[row].push_back({branch, closed});
-            if (bright.is_root(e)) break;
-            closed = bright.height[bright.parent[e]];
+            if (objects.is_root(e)) break;
+            closed = objects.height[objects.parent[e]];
         }
     }
     return all;
 }
 
 template <class Id>
-std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const ObjectTree<Id>& bright, const BranchDecomposition& branches,
-                                           std::vector<BranchHistogram> histograms, const CavityCandidates<Id>& dark,
+std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const ObjectTree<Id>& objects, const BranchDecomposition& branches,
+                                           std::vector<BranchHistogram> histograms, const CavityCandidates<Id>& candidates,
                                            const std::vector<std::vector<Enclosure>>& enclosures) {
     std::vector<std::vector<Enclosure>> filled = enclosures;
-    widen(filled, dark);
+    widen(filled, candidates);
     const std::vector<std::int64_t> slot = slots(histograms, branches.branch.size());
     for (std::vector<Enclosure>& one : filled) std::erase_if(one, [&](const Enclosure& e) { return slot[e.branch] < 0; });
-    const BigVector<std::int64_t> row_of = rows_of_branches(dark);
+    const BigVector<std::int64_t> row_of = rows_of_branches(candidates);
     BudgetPoll memory;
-    bright.for_heights(volume, [&](std::size_t v, double value) {
+    objects.for_heights(volume, [&](std::size_t v, double value) {
         memory.step(2 * BudgetPoll::kTouch);
-        const std::int64_t row = row_of[dark.branches.of_event[dark.tree.zone[v]]];
+        const std::int64_t row = row_of[candidates.branches.of_event[candidates.tree.zone[v]]];
         if (row < 0) return;
         for (const Enclosure& around : filled[row]) {
-            const double from = joins(branches, static_cast<std::int64_t>(bright.zone[v]), value, around.branch);
+            const double from = joins(branches, static_cast<std::int64_t>(objects.zone[v]), value, around.branch);
             if (!(from < around.closed)) continue;
             BranchHistogram& histogram = histograms[slot[around.branch]];
             histogram.added.back() += 1;  // it was there before, in the cavity
@@ -210,10 +211,10 @@ std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const Objec
 }
 
 template <class Id>
-std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& bright,
+std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& objects,
                                            const BranchDecomposition& branches, const CandidateTable& chosen,
-                                           const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around) {
-    return Walls<Id>(volume, arrays, bright, branches, chosen, dark, around).all();
+                                           const CavityCandidates<Id>& candidates, const std::vector<std::int64_t>& around) {
+    return Walls<Id>(volume, arrays, objects, branches, chosen, candidates, around).all();
 }
 
 #define ISOATLAS_WALLS(Id)                                                                                                              \

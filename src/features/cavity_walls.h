@@ -15,7 +15,7 @@ namespace isoatlas {
 /// isovalue (isoatlas/active.h) for each.
 template <class Id>
 [[nodiscard]] std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays,
-                                                       const CavityCandidates<Id>& dark);
+                                                       const CavityCandidates<Id>& candidates);
 
 /// A bright branch that a dark one lies in, for isovalues (dark branch appears, closed].
 struct Enclosure {
@@ -26,16 +26,17 @@ struct Enclosure {
 /// Per row of dark.chosen: the bright branches that it is a cavity of one after the other, as the isovalue falls. around: of
 /// objects_around().
 template <class Id>
-[[nodiscard]] std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& bright, const BranchDecomposition& branches,
-                                                             const CavityCandidates<Id>& dark, const std::vector<std::int64_t>& around);
+[[nodiscard]] std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& objects, const BranchDecomposition& branches,
+                                                             const CavityCandidates<Id>& candidates,
+                                                             const std::vector<std::int64_t>& around);
 
 /// The histograms of bright branches with their cavities filled: V(tau) counts the voxels of the object and those that lie in one of these
 /// cavities at some isovalue up to tau, objects inside included. As cavities open they stay filled, so that their opening is no loss of
 /// volume. Cost: one pass over the samples.
 template <class Id>
-[[nodiscard]] std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const ObjectTree<Id>& bright,
+[[nodiscard]] std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const ObjectTree<Id>& objects,
                                                          const BranchDecomposition& branches, std::vector<BranchHistogram> histograms,
-                                                         const CavityCandidates<Id>& dark,
+                                                         const CavityCandidates<Id>& candidates,
                                                          const std::vector<std::vector<Enclosure>>& enclosures);
 
 /// What else shows the branches of chosen: reasons outer and inner, grouped by branch by rank; of each first the outer boundary by
@@ -43,8 +44,8 @@ template <class Id>
 /// further from the isovalues of the branch than the smoothing tells apart. Cost: one pass over the samples.
 template <class Id>
 [[nodiscard]] std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays,
-                                                         const ObjectTree<Id>& bright, const BranchDecomposition& branches,
-                                                         const CandidateTable& chosen, const CavityCandidates<Id>& dark,
+                                                         const ObjectTree<Id>& objects, const BranchDecomposition& branches,
+                                                         const CandidateTable& chosen, const CavityCandidates<Id>& candidates,
                                                          const std::vector<std::int64_t>& around);
 
 }  // namespace isoatlas

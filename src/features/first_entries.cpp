@@ -10,7 +10,7 @@ namespace isoatlas {
 
 const char* name_of(IsovalueReason reason) {
     switch (reason) {
-        case IsovalueReason::stable: return "steady";
+        case IsovalueReason::stable: return "stable";
         case IsovalueReason::outline: return "outline";
         case IsovalueReason::outer: return "outer";
         case IsovalueReason::inner: return "inner";

@@ -18,7 +18,7 @@ struct BranchHierarchy::Data {
     BranchDecomposition branches;
     std::vector<BranchInfo> info;
     BigVector<double> measure;  ///< per branch
-    std::vector<std::int64_t> essential;
+    std::vector<std::int64_t> significant;
 
     [[nodiscard]] bool is_root(std::int64_t e) const { return parent[e] == e; }
 };
@@ -26,7 +26,7 @@ struct BranchHierarchy::Data {
 /// analysis: with zones.
 [[nodiscard]] ZoneSums sum_zones(const VolumeView& volume, const Analysis& analysis);
 
-/// Of a grid with uniform steps. analysis: with voxel counts. tops: of the essential branches, ascending. Cost: O(events log events).
+/// Of a grid with uniform steps. analysis: with voxel counts. tops: of the significant branches, ascending. Cost: O(events log events).
 [[nodiscard]] BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, const ZoneSums& zones,
                                            std::span<const std::int64_t> tops);
 

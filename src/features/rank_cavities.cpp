@@ -23,14 +23,14 @@ template <class Id>
 CavityEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& side, const Candidate& row) {
     CavityEntry entry{};
     entry.id = side.voxel(arrays, row.event);
-    entry.branch_minimum = lowest_voxel(arrays, side.dark, static_cast<std::size_t>(side.branches.branch[row.branch].top));
+    entry.branch_minimum = lowest_voxel(arrays, side.sublevel, static_cast<std::size_t>(side.branches.branch[row.branch].top));
     entry.appears = -row.appears, entry.merges = -row.merges, entry.best_tau = -row.tau;
     entry.reason = std::ranges::find(side.chosen.isovalues, row.branch, &BranchIsovalue::branch)->reason;  // it has one row
     entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
-    entry.islands = static_cast<std::int64_t>(side.dark.contours[row.event]) - 1;
-    entry.tau_low = -side.dark.height[row.event];
+    entry.islands = static_cast<std::int64_t>(side.sublevel.contours[row.event]) - 1;
+    entry.tau_low = -side.sublevel.height[row.event];
     entry.tau_high =
-        side.tree.is_root(row.event) ? std::numeric_limits<double>::infinity() : -side.dark.height[side.tree.parent[row.event]];
+        side.tree.is_root(row.event) ? std::numeric_limits<double>::infinity() : -side.sublevel.height[side.tree.parent[row.event]];
     const std::array<std::int64_t, 3> voxel = volume.info->extent.voxel(entry.id);
     for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
     return entry;
@@ -44,7 +44,7 @@ void add_isovalues(const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>&
         std::int64_t event = top;
         while (!side.tree.is_root(event) && side.tree.height[side.tree.parent[event]] > own.tau)
             event = static_cast<std::int64_t>(side.tree.parent[event]);
-        const std::int64_t minimum = lowest_voxel(arrays, side.dark, static_cast<std::size_t>(top));
+        const std::int64_t minimum = lowest_voxel(arrays, side.sublevel, static_cast<std::size_t>(top));
         table.isovalues.push_back({minimum, -own.tau, own.prominence, own.reason, side.voxel(arrays, event)});
     }
 }
@@ -63,21 +63,21 @@ void add_walls(const Analysis& analysis, CavityTable& table) {
 }
 
 template <class Id>
-std::vector<std::uint32_t> label(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& dark, double tau,
+std::vector<std::uint32_t> label(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& sublevel, double tau,
                                  std::vector<std::int64_t>& ids) {
-    const std::size_t events = dark.tree.size();
+    const std::size_t events = sublevel.tree.size();
     // Parents before their children: the low component at tau that every Low event lies in.
     BigVector<Id> at(events), lowest(events);
     std::iota(lowest.begin(), lowest.end(), Id{0});
     for (std::size_t e = events; e-- > 0;) {
         at[e] = static_cast<Id>(e);
-        if (!dark.tree.is_root(e) && -dark.height[dark.tree.parent[e]] < tau) at[e] = at[dark.tree.parent[e]];
+        if (!sublevel.tree.is_root(e) && -sublevel.height[sublevel.tree.parent[e]] < tau) at[e] = at[sublevel.tree.parent[e]];
     }
     BigVector<std::int64_t> voxels(events, std::int64_t{0});
     const auto for_lows = [&](auto&& visit) {
         visit_samples(volume, [&](auto samples) {
             for (std::size_t v = 0; v < samples.size(); ++v) {
-                if (static_cast<double>(samples[v]) < tau) visit(v, at[dark.zone[v]]);
+                if (static_cast<double>(samples[v]) < tau) visit(v, at[sublevel.zone[v]]);
             }
         });
     };
@@ -89,14 +89,14 @@ std::vector<std::uint32_t> label(const VolumeView& volume, const AnalysisArrays<
     };
     std::vector<Cavity> cavities;
     for (std::size_t e = 0; e < events; ++e) {
-        const std::int64_t id = voxels[e] > 0 ? lowest_voxel(arrays, dark, lowest[e]) : -1;
+        const std::int64_t id = voxels[e] > 0 ? lowest_voxel(arrays, sublevel, lowest[e]) : -1;
         if (id >= 0) cavities.push_back({voxels[e], id, static_cast<Id>(e)});
     }
     std::ranges::sort(cavities, [](const Cavity& p, const Cavity& q) { return p.voxels != q.voxels ? p.voxels > q.voxels : p.id < q.id; });
     BigVector<std::uint32_t> number(events, std::uint32_t{0});
     ids.clear();
     for (const Cavity& cavity : cavities) ids.push_back(cavity.id), number[cavity.event] = static_cast<std::uint32_t>(ids.size());
-    std::vector<std::uint32_t> labels(dark.zone.size(), 0);
+    std::vector<std::uint32_t> labels(sublevel.zone.size(), 0);
     for_lows([&](std::size_t v, Id event) { labels[v] = number[event]; });
     return labels;
 }

@@ -1,4 +1,4 @@
-// The table of essential objects: gate, isovalues, sizes (docs/theory/7-which-objects-matter.md).
+// The table of significant objects: gate, isovalues, sizes (docs/theory/7-which-objects-matter.md).
 #include <algorithm>
 #include <limits>
 
@@ -25,15 +25,15 @@ public:
           branches_(decompose_branches(tree_, sum_zones(tree_, volume_))) {}
 
     /// around: as for wall_isovalues().
-    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const CavityCandidates<Id>& dark,
-                                    const std::vector<std::int64_t>& around_dark) const {
+    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const CavityCandidates<Id>& cavities,
+                                    const std::vector<std::int64_t>& around_cavities) const {
         ObjectTable table;
         table.noise = noise.sigma;
         BudgetPoll memory;
         for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges, memory.step(sizeof b);
         CandidateTable chosen = find_candidates(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
-        const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, dark, around_dark);
+        const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, cavities, around_cavities);
         chosen.isovalues.insert(chosen.isovalues.end(), walls.begin(), walls.end());
         std::ranges::stable_sort(chosen.isovalues, {}, &BranchIsovalue::branch);
         for (const BranchIsovalue& own : chosen.isovalues)
@@ -80,9 +80,9 @@ auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankO
     return analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
         const AnalysisArrays<Id>& arrays = held.arrays;
         if (arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
-        const CavityCandidates<Id> dark = make_cavity_candidates(volume, arrays, noise, {.top = 0}, context);
+        const CavityCandidates<Id> cavities = make_cavity_candidates(volume, arrays, noise, {.top = 0}, context);
         const Ranking<Id> ranking(volume, arrays, analysis.extent().rank == 3);
-        return use(arrays, noise, dark, ranking.table(noise, options, dark, objects_around(analysis, arrays, dark)));
+        return use(arrays, noise, cavities, ranking.table(noise, options, cavities, objects_around(analysis, arrays, cavities)));
     });
 }
 
@@ -99,11 +99,11 @@ ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const R
 
 ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     return with_tables(volume, analysis, options, context,
-                       [&](const auto& arrays, const NoiseModel& noise, const auto& dark, ObjectTable table) {
+                       [&](const auto& arrays, const NoiseModel& noise, const auto& cavities, ObjectTable table) {
                            const bool is_same = options.gate && !options.selection;  // as what matters for the bright ones
-                           CavityTable dark_ones = is_same ? cavity_table(volume, analysis, arrays, dark, noise, options.top)
-                                                           : rank_cavities(volume, analysis, options, context);
-                           return ObjectsAndCavities{std::move(table), std::move(dark_ones)};
+                           CavityTable cavity_rows = is_same ? cavity_table(volume, analysis, arrays, cavities, noise, options.top)
+                                                             : rank_cavities(volume, analysis, options, context);
+                           return ObjectsAndCavities{std::move(table), std::move(cavity_rows)};
                        });
 }
 

@@ -73,8 +73,8 @@ std::int64_t min_voxels(std::int64_t voxels) {
 
 double noise_height(double noise, std::int64_t voxels) { return 1.1 * std::sqrt(2 * std::log(static_cast<double>(voxels))) * noise; }
 
-std::vector<std::int64_t> essential_branches(const BranchDecomposition& branches, std::int64_t voxels, const NoiseModel& noise,
-                                             double sign) {
+std::vector<std::int64_t> significant_branches(const BranchDecomposition& branches, std::int64_t voxels, const NoiseModel& noise,
+                                               double sign) {
     const double hypervolumes = 2 * std::pow(static_cast<double>(voxels), 2.0 / 3);  // in standard deviations
     const std::int64_t min = min_voxels(voxels);
     std::vector<std::int64_t> kept{0};

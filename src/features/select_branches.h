@@ -26,7 +26,7 @@ template <class Id>
 
 /// Branches that noise does not explain and that are not tiny beside the largest; the main branch first. The noise is that
 /// around the value where they merge. voxels: of the volume; sign: of ObjectTree. Cost: O(branches that are large enough).
-[[nodiscard]] std::vector<std::int64_t> essential_branches(const BranchDecomposition& branches, std::int64_t voxels,
-                                                           const NoiseModel& noise, double sign);
+[[nodiscard]] std::vector<std::int64_t> significant_branches(const BranchDecomposition& branches, std::int64_t voxels,
+                                                             const NoiseModel& noise, double sign);
 
 }  // namespace isoatlas

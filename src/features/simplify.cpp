@@ -60,7 +60,7 @@ std::vector<std::int64_t> node_of_events(const Data& data, const std::vector<std
 }
 
 SelectionCurve curve_of(const Data& data, const std::string& size, const auto& size_of) {
-    SelectionCurve curve{size, {}, {}, 0, static_cast<std::int64_t>(data.essential.size())};
+    SelectionCurve curve{size, {}, {}, 0, static_cast<std::int64_t>(data.significant.size())};
     std::vector<double> sizes;
     for (const BranchInfo& b : data.info) sizes.push_back(size_of(b));
     std::ranges::sort(sizes, std::greater<>());
@@ -70,7 +70,7 @@ SelectionCurve curve_of(const Data& data, const std::string& size, const auto& s
         curve.kept.push_back(static_cast<std::int64_t>(i) + 1);
     }
     curve.automatic_threshold = std::numeric_limits<double>::infinity();
-    for (const std::int64_t i : data.essential) curve.automatic_threshold = std::min(curve.automatic_threshold, size_of(data.info[i]));
+    for (const std::int64_t i : data.significant) curve.automatic_threshold = std::min(curve.automatic_threshold, size_of(data.info[i]));
     return curve;
 }
 
@@ -90,7 +90,7 @@ BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, c
         gather(info, held.arrays, zones, *data);
     });
     for (std::size_t i = 0; i < data->info.size(); ++i) {
-        if (std::ranges::binary_search(tops, data->info[i].top)) data->essential.push_back(static_cast<std::int64_t>(i));
+        if (std::ranges::binary_search(tops, data->info[i].top)) data->significant.push_back(static_cast<std::int64_t>(i));
     }
     return BranchHierarchy(std::move(data));
 }
@@ -114,7 +114,7 @@ BranchHierarchy::BranchHierarchy(const Volume& volume, const Analysis& analysis,
         data_->value = event_values(held.arrays);
         gather(volume.info, held.arrays, sum_zones(VolumeView(volume), analysis), *data_);
     });
-    data_->essential = essential_branches(data_->branches, volume.info.extent.voxels(), fit_noise(VolumeView(volume)), 1);
+    data_->significant = significant_branches(data_->branches, volume.info.extent.voxels(), fit_noise(VolumeView(volume)), 1);
 }
 BranchHierarchy::BranchHierarchy(std::unique_ptr<Data> data) : data_(std::move(data)) {}
 BranchHierarchy::BranchHierarchy(BranchHierarchy&&) noexcept = default;
@@ -122,7 +122,7 @@ BranchHierarchy& BranchHierarchy::operator=(BranchHierarchy&&) noexcept = defaul
 BranchHierarchy::~BranchHierarchy() = default;
 
 std::span<const BranchInfo> BranchHierarchy::branches() const { return data_->info; }
-const std::vector<std::int64_t>& BranchHierarchy::essential() const { return data_->essential; }
+const std::vector<std::int64_t>& BranchHierarchy::significant() const { return data_->significant; }
 
 std::vector<std::int64_t> BranchHierarchy::kept(const Selection& selection) const {
     return select_branches(data_->branches, data_->measure, selection);

@@ -25,7 +25,7 @@ void check(const PageOptions& options) {
     if (options.picture_size < 32 || options.picture_size > 1024) refuse("the size of the pictures is out of range", "32 to 1024");
     if (options.frames < 1 || options.frames > 64) refuse("the number of frames is out of range", "1 to 64");
     if (options.frames * options.picture_size > 16383) refuse("a turntable is too wide", "frames times size at most 16383");
-    if (options.top < 1 || options.top_dark < 0) refuse("the number of objects is out of range", "1 or more, of dark ones 0 or more");
+    if (options.top < 1 || options.top_cavities < 0) refuse("the number of objects is out of range", "1 or more, of cavities 0 or more");
 }
 
 PageReport report_of(const PageContents& contents) {
@@ -33,10 +33,10 @@ PageReport report_of(const PageContents& contents) {
     std::set<std::int64_t> shown;
     for (const PageEntry& entry : contents.entries) {
         shown.insert(entry.branch);
-        report.dark += contents.branches[entry.branch].dark;
+        report.cavities += contents.branches[entry.branch].is_cavity;
     }
     report.objects = static_cast<std::int64_t>(contents.entries.size());
-    report.hidden = contents.bright + contents.dark - static_cast<std::int64_t>(shown.size());
+    report.hidden = contents.objects + contents.cavities - static_cast<std::int64_t>(shown.size());
     return report;
 }
 

@@ -47,7 +47,7 @@ public:
         : json_(json), atlas_(atlas), contents_(contents), scale_(atlas.info().calibration), source_(shell_word(source)) {}
 
     void write() {
-        json_.begin_object().key("schema").value("isoatlas/page/2").key("version").value(ISOATLAS_VERSION).line();
+        json_.begin_object().key("schema").value("isoatlas/page/3").key("version").value(ISOATLAS_VERSION).line();
         write_volume();
         json_.key("interpolant").value(name_of(atlas_.interpolant()));
         write_counts();
@@ -101,11 +101,11 @@ private:
 
     void write_counts() {
         const auto put = [&](const char* name, std::int64_t all, std::int64_t standing_out) {
-            json_.key(name).begin_object().key("all").value(all).key("standingOut").value(standing_out).end_object();
+            json_.key(name).begin_object().key("all").value(all).key("significant").value(standing_out).end_object();
         };
-        json_.key("objects").begin_object();
-        put("bright", contents_.bright, contents_.bright_standing_out);
-        put("dark", contents_.dark, contents_.dark_standing_out);
+        json_.key("found").begin_object();
+        put("objects", contents_.objects, contents_.significant_objects);
+        put("cavities", contents_.cavities, contents_.significant_cavities);
         json_.end_object();
     }
 
@@ -125,7 +125,7 @@ private:
         json_.end_object();
     }
 
-    /// Columns as one array for each number; "least" is left out where it is "most".
+    /// Columns as one array for each number; "min" is left out where it is "max".
     void put_columns(const std::vector<CountColumn>& columns, bool all_counts) {
         if (columns.empty()) {
             json_.null();
@@ -137,10 +137,10 @@ private:
         const auto put = [&](LevelCounts CountColumn::* min, LevelCounts CountColumn::* max) {
             const auto put_count = [&](const char* name, std::int64_t LevelCounts::* count) {
                 json_.key(name).begin_object();
-                put_array(json_, "most", columns, [&](const CountColumn& column) { return (column.*max).*count; });
+                put_array(json_, "max", columns, [&](const CountColumn& column) { return (column.*max).*count; });
                 const bool same =
                     std::ranges::all_of(columns, [&](const CountColumn& column) { return (column.*min).*count == (column.*max).*count; });
-                if (!same) put_array(json_, "least", columns, [&](const CountColumn& column) { return (column.*min).*count; });
+                if (!same) put_array(json_, "min", columns, [&](const CountColumn& column) { return (column.*min).*count; });
                 json_.end_object();
             };
             if (all_counts) {
@@ -153,8 +153,8 @@ private:
         if (all_counts) {
             json_.key("all").begin_object();
             put(&CountColumn::min, &CountColumn::max);
-            json_.end_object().key("essential").begin_object();
-            put(&CountColumn::min_essential, &CountColumn::max_essential);
+            json_.end_object().key("significant").begin_object();
+            put(&CountColumn::min_significant, &CountColumn::max_significant);
             json_.end_object();
         } else {
             put(&CountColumn::min, &CountColumn::max);
@@ -172,7 +172,7 @@ private:
     }
 
     void write_branch(const PageBranch& branch) {
-        json_.line().begin_object().key("side").value(branch.dark ? "dark" : "bright").key("id").value(branch.id);
+        json_.line().begin_object().key("side").value(branch.is_cavity ? "cavity" : "object").key("id").value(branch.id);
         json_.key("rank").value(branch.rank);
         put_value("appears", branch.appears);
         put_value("merges", branch.merges);  // null: never
@@ -190,7 +190,7 @@ private:
 
     void write_tunnels(const PageBranch& branch) {
         json_.key("tunnels").begin_object().key("exact").value(contents_.exact_tunnels);
-        json_.key("standingOut").value(branch.standing_tunnels).key("longest").begin_array();
+        json_.key("significant").value(branch.standing_tunnels).key("longest").begin_array();
         for (const PageTunnel& tunnel : branch.tunnels) {
             json_.begin_object();
             put_value("opens", tunnel.opens);
@@ -214,7 +214,7 @@ private:
     /// The dark entry whose wall it is; -1: that is not on the page.
     std::int64_t cavity_entry(const RecommendedIsovalue& isovalue) const {
         const auto entry = std::ranges::find_if(contents_.entries, [&](const PageEntry& e) {
-            return contents_.branches[e.branch].dark && e.id == isovalue.cavity && e.tau == isovalue.tau;
+            return contents_.branches[e.branch].is_cavity && e.id == isovalue.cavity && e.tau == isovalue.tau;
         });
         return entry == contents_.entries.end() ? -1 : entry - contents_.entries.begin();
     }
@@ -247,10 +247,10 @@ private:
         const auto put = [&](const char* name, const std::string& verb, const std::string& options) {
             json_.begin_object().key("name").value(name).key("line").value("isoatlas " + verb + " " + source_ + options).end_object();
         };
-        if (contents_.branches[entry.branch].dark) {
-            const std::string name = " -o dark-" + std::to_string(i + 1);
+        if (contents_.branches[entry.branch].is_cavity) {
+            const std::string name = " -o cavity-" + std::to_string(i + 1);
             put("its wall as a surface", "extract", " --contour " + id + " --tau " + tau + name + ".ply");
-            put("labels of all dark objects there", "label", " --dark --tau " + tau + name + ".nrrd");
+            put("labels of all cavities there", "label", " --cavities --tau " + tau + name + ".nrrd");
             return;
         }
         const std::string name = " -o object-" + std::to_string(i + 1);

@@ -111,7 +111,7 @@ std::string at_json(const AtVoxel& at) {
 
 std::string transfer_json(std::span<const OpacityTent> bumps, const Calibration& calibration) {
     return document("transfer", [&](JsonStream& json) {
-        json.key("bumps").begin_array();
+        json.key("tents").begin_array();
         for (const OpacityTent& bump : bumps) {
             json.line().begin_object().key("tau").value(calibration.reported(bump.tau));
             json.key("low").value(calibration.reported(bump.low)).key("high").value(calibration.reported(bump.high));

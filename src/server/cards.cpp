@@ -33,7 +33,7 @@ std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int
     own.threads = 1;  // surfaces that somebody waits for go first
     own.cancelled = [&job] { return job->is_cancelled(); };
     const PageOptions options{.picture_size = kPixels, .frames = frames};
-    Surface surface = coarse_surface(surface_of(atlas, subject.dark, subject.entry, own), kMaxTriangles);
+    Surface surface = coarse_surface(surface_of(atlas, subject.is_cavity, subject.entry, own), kMaxTriangles);
     std::string answer = card_json(subject.name, draw_turntable(std::move(surface), subject.entry.colour, options, own));
     answers_.keep(name, answer);
     return answer;

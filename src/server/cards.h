@@ -15,7 +15,7 @@ namespace isoatlas {
 /// What is drawn, and its name among all that may be: "entry 3".
 struct CardSubject {
     std::string name;
-    bool dark = false;
+    bool is_cavity = false;
     PageEntry entry{};
 };
 

@@ -13,7 +13,7 @@ template <class Write>
 [[nodiscard]] std::string document(const char* kind, Write&& write) {
     std::string text;
     JsonStream json([&text](std::string_view piece) { text += piece; });
-    json.begin_object().key("schema").value("isoatlas/server/1").key("kind").value(kind);
+    json.begin_object().key("schema").value("isoatlas/server/2").key("kind").value(kind);
     std::forward<Write>(write)(json);
     json.end_object().finish();
     return text;

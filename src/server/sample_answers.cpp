@@ -45,7 +45,7 @@ Response slice_answer(const Atlas& atlas, const Request& request, const Context&
     const std::int64_t size = box.end[*axis];
     const std::optional<std::int64_t> index = words.whole("index", 0, size - 1);
     if (!index) missing("index", "0 to " + std::to_string(size - 1));
-    const std::int64_t max = words.whole("most", 1, kMaxSliceSamples).value_or(kSliceSamples);
+    const std::int64_t max = words.whole("max", 1, kMaxSliceSamples).value_or(kSliceSamples);
     words.reject_unknown();
     box.begin[*axis] = *index, box.end[*axis] = *index + 1;
     std::int64_t step = 1;
@@ -61,7 +61,7 @@ Response slice_answer(const Atlas& atlas, const Request& request, const Context&
 Response volume_answer(const Atlas& atlas, const Request& request, const Context& context) {
     require_volume(atlas);
     QueryParameters words(request.words);
-    const std::int64_t max = words.whole("most", 1, kMaxVolumeValues).value_or(kVolumeValues);
+    const std::int64_t max = words.whole("max", 1, kMaxVolumeValues).value_or(kVolumeValues);
     words.reject_unknown();
     return {200, kBytes, wire_volume(atlas.coarse(max, context), atlas.range(), atlas.info().calibration), {}};
 }
@@ -85,7 +85,7 @@ Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, c
     for (const NumberAt& contour : contours) found.contours.push_back(sample.cavity(stored_isovalue(info, contour.at)) == contour.number);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const NamedEntry& entry = entries[i];
-        const std::optional<std::int64_t> holder = entry.dark ? sample.cavity(entry.tau) : sample.object(entry.tau);
+        const std::optional<std::int64_t> holder = entry.is_cavity ? sample.cavity(entry.tau) : sample.object(entry.tau);
         if (holder == entry.id) found.entries.push_back(static_cast<std::int64_t>(i));
     }
     std::ranges::stable_sort(found.entries, {}, [&](std::int64_t i) { return entries[i].voxels; });

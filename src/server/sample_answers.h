@@ -13,7 +13,7 @@ struct NamedEntry {
     std::int64_t id;  ///< of the object, or of the contour around the dark object
     double tau;       ///< stored
     std::int64_t voxels;
-    bool dark;
+    bool is_cavity;
 };
 
 /// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store), cancelled. entries: in the order of

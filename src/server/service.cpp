@@ -30,7 +30,7 @@ constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre
 
 /// What every page shows first; null: nothing, or a dark object.
 const NamedEntry* first_of(const StoreCatalogue& known) {
-    return known.entries.empty() || known.entries.front().dark ? nullptr : &known.entries.front();
+    return known.entries.empty() || known.entries.front().is_cavity ? nullptr : &known.entries.front();
 }
 
 int status_of(ErrorKind kind) {
@@ -241,7 +241,7 @@ CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& 
                                            .expected = "less than " + std::to_string(entries.size())});
     }
     const PageEntry& drawn = entries[static_cast<std::size_t>(*entry)];
-    return {"entry " + std::to_string(*entry), known.contents.branches[static_cast<std::size_t>(drawn.branch)].dark, drawn};
+    return {"entry " + std::to_string(*entry), known.contents.branches[static_cast<std::size_t>(drawn.branch)].is_cavity, drawn};
 }
 
 Response Service::card_answer(const Request& request) {
@@ -264,7 +264,7 @@ Response Service::surface_answer(const Request& request) {
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
     options.ids = format.has_value();
-    const std::int64_t max = words.whole("most", 1, kMaxTriangles).value_or(kMaxTriangles);
+    const std::int64_t max = words.whole("max", 1, kMaxTriangles).value_or(kMaxTriangles);
     words.reject_unknown();
 
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);

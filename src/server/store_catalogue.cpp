@@ -12,8 +12,8 @@ constexpr std::int64_t kTransferObjects = 5;  ///< as `isoatlas render --volume`
 std::vector<NamedEntry> named_entries(const PageContents& contents) {
     std::vector<NamedEntry> entries;
     for (const PageEntry& entry : contents.entries) {
-        const bool is_dark = contents.branches[static_cast<std::size_t>(entry.branch)].dark;
-        entries.push_back({entry.id, entry.tau, entry.voxels, is_dark});
+        const bool is_cavity = contents.branches[static_cast<std::size_t>(entry.branch)].is_cavity;
+        entries.push_back({entry.id, entry.tau, entry.voxels, is_cavity});
     }
     return entries;
 }
@@ -25,7 +25,7 @@ StoreCatalogue load_catalogue(const Atlas& atlas, const Context& context) {
     PageContents contents = page_contents(atlas, found, {}, context);
     (void)atlas.active_index();  // what asks for objects at an isovalue should not wait for it
     const std::vector<OpacityTent> bumps =
-        propose_transfer(first_entries(std::move(found.bright), kTransferObjects), atlas.info(), atlas.range());
+        propose_transfer(first_entries(std::move(found.objects), kTransferObjects), atlas.info(), atlas.range());
     std::vector<NamedEntry> entries = named_entries(contents);
     std::string json = atlas_json(atlas, contents);
     return {std::move(contents), std::move(found.hierarchy), std::move(entries), std::move(json),

@@ -39,13 +39,13 @@ class Atlas(harness.CliTest):
         self.assertTrue((self.folder / "demo.atlas").is_file())
         table = self.run_json("objects", "demo.atlas", "--both")
         branches, entries = page["branches"], page["entries"]
-        of_side = {side: [entry for entry in entries if branches[entry["branch"]]["side"] == side] for side in ("bright", "dark")}
-        self.assertGreater(len(of_side["dark"]), 0)
-        for side, expected in (("bright", table["objects"]), ("dark", table["dark"])):
+        of_side = {side: [entry for entry in entries if branches[entry["branch"]]["side"] == side] for side in ("object", "cavity")}
+        self.assertGreater(len(of_side["cavity"]), 0)
+        for side, expected in (("object", table["objects"]), ("cavity", table["cavities"])):
             self.assertEqual([entry["id"] for entry in of_side[side]], [entry["id"] for entry in expected])
             self.assertEqual([entry["tunnels"] for entry in of_side[side]], [entry["tunnels"] for entry in expected])
-        self.assertEqual(page["objects"]["bright"]["all"], table["branches"])
-        self.assertEqual(page["objects"]["dark"]["all"], table["dark_branches"])
+        self.assertEqual(page["found"]["objects"]["all"], table["branches"])
+        self.assertEqual(page["found"]["cavities"]["all"], table["cavity_branches"])
         for entry in entries:
             self.assertTrue(entry["picture"]["image"].startswith("data:image/webp;base64,"))
         self.assertEqual(re.findall(r"""(?:src|href)=["']?(?!data:)[a-z]+:""", text), [])
@@ -64,8 +64,8 @@ class Atlas(harness.CliTest):
                 count = page["spectrum"][which][name]
                 for k, (low, high) in enumerate(zip(page["spectrum"]["edges"], page["spectrum"]["edges"][1:])):
                     there = [i[which][name] for i in intervals if i["high"] > low and (i["low"] is None or i["low"] < high)]
-                    self.assertEqual(max(there), count["most"][k])
-                    self.assertEqual(min(there), count.get("least", count["most"])[k])
+                    self.assertEqual(max(there), count["max"][k])
+                    self.assertEqual(min(there), count.get("min", count["max"])[k])
 
     def test_the_curve_says_what_every_threshold_keeps(self):
         self.run_ok("demo.nrrd", "-o", "curve.html", "--top", "1")
@@ -76,7 +76,7 @@ class Atlas(harness.CliTest):
         self.assertTrue(all(point in full["points"] for point in points))
         self.assertEqual((points[0], points[-1]), (full["points"][0], full["points"][-1]))
         self.assertEqual(page["curve"]["automaticKept"], full["automatic"]["kept"])
-        self.assertEqual(page["objects"]["bright"]["standingOut"], full["automatic"]["kept"])
+        self.assertEqual(page["found"]["objects"]["significant"], full["automatic"]["kept"])
 
     def test_objects_merge_into_others_of_the_page(self):
         self.run_ok("demo.nrrd", "-o", "merge.html")
@@ -94,7 +94,7 @@ class Atlas(harness.CliTest):
     def test_commands_of_the_page_run(self):
         self.run_ok("atlas", "demo.nrrd", "--top", "2", "-o", "two words.html")
         page = self.page("two words.html")[1]
-        dark = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "dark"]
+        dark = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "cavity"]
         self.assertEqual(len(page["entries"]) - len(dark), 2)
         for command in page["entries"][1]["commands"] + dark[0]["commands"]:
             words = shlex.split(command["line"])
@@ -181,7 +181,7 @@ class Atlas(harness.CliTest):
         told = self.run_json("field.nrrd")
         text, page = self.page("field.atlas.html")
         shown = {entry["branch"] for entry in page["entries"]}
-        self.assertEqual(len(shown) + told["hidden"], page["objects"]["bright"]["all"] + page["objects"]["dark"]["all"])
+        self.assertEqual(len(shown) + told["hidden"], page["found"]["objects"]["all"] + page["found"]["cavities"]["all"])
         self.assertEqual((told["shown"], told["bytes"]), (len(page["entries"]), len(text.encode())))
         self.assertGreater(told["hidden"], 10000)
         self.assertLess(told["bytes"], 3_000_000)
@@ -198,7 +198,7 @@ class Atlas(harness.CliTest):
         sizes = sorted((entry["voxels"], entry["tunnels"], entry["cavities"]) for entry in bright)
         sticks, plates, joined, around = [(72, 0, 0)] * 3, [(288, 0, 0)] * 2, [(768, 1, 0)], [(2784, 0, 1)]
         self.assertEqual(sizes[:-1], sticks + plates + joined + around)  # the last one is the outline
-        (dark,) = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "dark"]
+        (dark,) = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "cavity"]
         self.assertEqual((dark["voxels"], dark["tunnels"], dark["cavities"]), (288, 0, 0))
         self.assertEqual(page["entries"][dark["around"]]["cavities"], 1)
 

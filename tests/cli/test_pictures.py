@@ -145,7 +145,7 @@ class Pictures(CliTest):
         """What the labels of an evolution say: essential counts of every frame."""
         document = self.run_json("animate", name, "--from", taus[0], "--to", taus[1], "--steps", taus[2], *selection, *self.small, "-o", "e.gif")
         self.assert_schema(document, "animate")
-        return [frame["essential"] for frame in document["frames"]], document["frames"]
+        return [frame["significant"] for frame in document["frames"]], document["frames"]
 
     def test_labels_of_a_noisy_evolution_are_those_of_the_clean_one(self):
         clean, frames = self.events_of("figure.nrrd")
@@ -159,7 +159,7 @@ class Pictures(CliTest):
             self.assertGreater(sum(frame["tunnels"] for frame in frames), sum(e["tunnels"] for e in noisy))
             _, frames = self.events_of("noisy.nrrd", taus=("100", "0", "11"))  # in the plateaus, where noise makes hundreds
             self.assertGreater(max(frame["tunnels"] for frame in frames), 100)
-            self.assertEqual([sum(frame["essential"][name] for frame in frames) for name in ("appeared", "merged")], [3, 3])
+            self.assertEqual([sum(frame["significant"][name] for frame in frames) for name in ("appeared", "merged")], [3, 3])
         self.run_ok("build", "noisy.nrrd", "-o", "noisy.atlas")
         self.assertEqual(self.events_of("noisy.atlas")[0], clean)
 

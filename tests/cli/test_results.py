@@ -36,7 +36,7 @@ class Results(CliTest):
 
     def test_info(self):
         info = self.run_json("info", "figure.nrrd")
-        self.assertEqual(info["schema"], "isoatlas/info/1")
+        self.assertEqual(info["schema"], "isoatlas/info/2")
         self.assertEqual(info["volume"]["dims"], [24, 24, 24])
         self.assertEqual(info["volume"]["type"], "uint8")
         self.assertEqual(info["voxels"], 24 ** 3)
@@ -64,7 +64,7 @@ class Results(CliTest):
 
     def test_objects_at_tau_have_the_known_topology(self):
         at = self.run_json("objects", "shells.nrrd", "--tau", "0.5")
-        self.assertEqual((at["schema"], at["interpolant"], at["boundary"]), ("isoatlas/objects/1", "trilinear", "closed"))
+        self.assertEqual((at["schema"], at["interpolant"], at["boundary"]), ("isoatlas/objects/2", "trilinear", "closed"))
         self.assertEqual([(o["chi"], o["b1"], o["b2"]) for o in at["objects"]], [(2, 0, 1)] * 2)
         for o in at["objects"]:
             self.assertEqual([(c["genus"], c["shell"]) for c in o["contours"]], [(0, "outer"), (0, "inner")])

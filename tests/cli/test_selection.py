@@ -81,8 +81,8 @@ class Selection(harness.CliTest):
         label = self.run_json("label", "figure.nrrd", "--zones", "--keep", "2", "-o", "z.nrrd")
         self.assertEqual((label["labels"], label["labels_are"]), (3, "zones"))
 
-    def test_dark_and_stores(self):
-        self.assertEqual(len(self.run_json("objects", "noise.nrrd", "--dark", "--keep", "3")["objects"]), 3)
+    def test_cavities_and_stores(self):
+        self.assertEqual(len(self.run_json("objects", "noise.nrrd", "--cavities", "--keep", "3")["objects"]), 3)
         self.run_ok("build", "noise.nrrd", "-o", "noise.atlas")
         for words in (["objects", "--keep", "7"], ["objects", "--persistence", "30%"]):
             self.assertEqual(self.run_json(words[0], "noise.nrrd", *words[1:])["objects"], self.run_json(words[0], "noise.atlas", *words[1:])["objects"])

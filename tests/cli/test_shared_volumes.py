@@ -30,7 +30,7 @@ class SharedVolumes(harness.CliTest):
 
     def check(self, volume, low, high):
         self.run_ok("build", volume, "-o", "a.atlas", "--threads", "1")
-        least = self.run_json("build", volume, "-o", "b.atlas", "--dry-run")["estimate"]["memory_least"]
+        least = self.run_json("build", volume, "-o", "b.atlas", "--dry-run")["estimate"]["min_memory"]
         told = self.run_json("build", volume, "-o", "b.atlas", "--memory", f"{(least >> 20) + 1}M", "--threads", "3")
         if not harness.SANITIZED:
             self.assertLess(told["peak_memory"], ((least >> 20) + 1) * 2 ** 20 * 1.1, volume)

@@ -53,11 +53,11 @@ class Spectrum(harness.CliTest):
         whole = self.run_json("spectrum", "noise.nrrd", "--top", "100%", "--samples", "0")
         self.assertTrue(whole["selected"])
         for interval in whole["intervals"]:
-            self.assertEqual(interval["all"], interval["essential"])
+            self.assertEqual(interval["all"], interval["significant"])
         for source in ("noise.nrrd", "noise.atlas"):
             kept = self.run_json("spectrum", source, "--keep", "3", "--samples", "0")
             self.assert_schema(kept, "spectrum")
-            self.assertEqual(max(i["essential"]["objects"] for i in kept["intervals"]), 3)
+            self.assertEqual(max(i["significant"]["objects"] for i in kept["intervals"]), 3)
             self.assertEqual([i["all"] for i in kept["intervals"]], [i["all"] for i in whole["intervals"]])
         self.run_ok("spectrum", "noise.nrrd", "--keep", "3", "-o", "k.svg")
         self.assertIn("Of the selected objects", (self.folder / "k.svg").read_text())

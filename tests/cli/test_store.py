@@ -20,7 +20,7 @@ class Stores(harness.CliTest):
         return (self.folder / name).read_bytes()
 
     def test_build_says_what_it_made(self):
-        self.assertEqual(self.built["schema"], "isoatlas/build/1")
+        self.assertEqual(self.built["schema"], "isoatlas/build/2")
         self.assertEqual(self.built["bytes"], len(self.read("noise.atlas")))
         self.assertEqual(self.built["sample_bytes"], 20 ** 3 * 1)
         self.assertEqual(self.built["interpolant"], "trilinear")
@@ -120,8 +120,8 @@ class Stores(harness.CliTest):
         self.assertEqual(preview["voxels"], {"least": voxels, "most": voxels})
         reads = self.run_json("extract", "noise.atlas", "--tau", "31", "-o", "x.ply")["reads"]
         for name in ("bytes", "extents", "bricks"):
-            self.assertLessEqual(preview[name]["least"], reads[name])
-            self.assertGreaterEqual(preview[name]["most"], reads[name])
+            self.assertLessEqual(preview[name]["min"], reads[name])
+            self.assertGreaterEqual(preview[name]["max"], reads[name])
         self.assertIn("to be read", self.run_ok("info", "noise.atlas", "--tau", "31").stdout)
         self.run_error(2, "info", "noise.nrrd", "--tau", "31", next_says="build")
 

@@ -137,7 +137,7 @@ class View(harness.CliTest):
         self.assertEqual(found["objects"], [True, False])
         transfer = self.json_of("/api/transfer")
         self.assert_schema(transfer, "server-transfer")
-        self.assertGreater(len(transfer["bumps"]), 0)
+        self.assertGreater(len(transfer["tents"]), 0)
 
     def test_the_command_line_asks(self):
         address = self.viewer.document["server"]

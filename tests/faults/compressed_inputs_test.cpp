@@ -14,7 +14,7 @@ TEST(CompressedInputs, SeedsReadAsTheirSamples) {
     const test::TestFolder folder;
     for (const test::CompressedSeed& seed : test::compressed_seeds(folder)) {
         SCOPED_TRACE(seed.name);
-        const test::Response answer = test::answer_of(folder / seed.name, seed.time_step);
+        const test::Answer answer = test::answer_of(folder / seed.name, seed.time_step);
         ASSERT_TRUE(answer.read) << answer.message;
         EXPECT_EQ(answer.samples, seed.time_step < 0 ? test::compressed_samples() : test::compressed_samples().substr(0, 48));
     }

@@ -14,7 +14,7 @@
 namespace isoatlas {
 namespace {
 
-using test::Request;
+using test::Question;
 
 constexpr const char* kPath = "small.atlas";
 
@@ -51,7 +51,7 @@ protected:
 
     void build(const Volume& volume, double tau, std::int64_t voxel) {
         build_atlas(kPath, volume);
-        for (Request& question : test::questions(tau, voxel)) {
+        for (Question& question : test::questions(tau, voxel)) {
             WatchedFiles watched(memory_);
             const ReplacedFileSystem in_use(watched);
             answers_.push_back({question, question.ask(Atlas(kPath)), std::move(watched.was_read)});
@@ -120,7 +120,7 @@ protected:
 
 private:
     struct Answered {
-        Request question;
+        Question question;
         std::string right;
         std::vector<bool> was_read;
     };

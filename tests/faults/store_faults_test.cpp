@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-using test::Request;
+using test::Question;
 
 constexpr const char* kPath = "noise.atlas";
 constexpr double kTau = 24.5;
@@ -25,11 +25,11 @@ protected:
         build_atlas(kPath, make_phantom("noise", {.size = 34, .quantise = 32}));
         const Atlas atlas(kPath);
         questions_ = test::questions(kTau, atlas.cut(kTau).objects.at(3).id);
-        for (const Request& question : questions_) right_.push_back(question.ask(atlas));
+        for (const Question& question : questions_) right_.push_back(question.ask(atlas));
     }
 
     test::MemoryFiles memory_;
-    std::vector<Request> questions_;
+    std::vector<Question> questions_;
     std::vector<std::string> right_;
 };
 

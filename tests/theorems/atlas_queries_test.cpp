@@ -174,7 +174,7 @@ std::string text(const isoatlas::BranchHierarchy& hierarchy, const isoatlas::Sel
     for (const isoatlas::BranchInfo& b : hierarchy.branches())
         out << b.id << ' ' << b.top << ' ' << b.parent << ' ' << b.merges << ' ' << b.hypervolume << ' ' << b.voxels << ' ' << b.measure
             << '\n';
-    out << join(hierarchy.essential()) << '\n' << join(hierarchy.simplify(selection).node_of_event);
+    out << join(hierarchy.significant()) << '\n' << join(hierarchy.simplify(selection).node_of_event);
     return out.str();
 }
 
@@ -200,7 +200,7 @@ RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
     isoatlas::build_atlas(path_, volume);
     const Atlas atlas(path_);
     for (const std::int64_t top : {0, 2})
-        RC_ASSERT(text(atlas.dark_objects({.top = top})) == text(rank_cavities(volume, isoatlas::analyse(volume), {.top = top})));
+        RC_ASSERT(text(atlas.cavities({.top = top})) == text(rank_cavities(volume, isoatlas::analyse(volume), {.top = top})));
 }
 
 /// A store of the same volume without its tables, as one of noise with too many critical elements is.

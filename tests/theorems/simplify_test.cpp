@@ -193,7 +193,7 @@ RC_GTEST_PROP(Simplification, CurvesCountWhatIsKept, ()) {
     for (const isoatlas::SelectionCurve& curve : hierarchy.curves()) {
         RC_ASSERT(std::is_sorted(curve.threshold.rbegin(), curve.threshold.rend()));
         RC_ASSERT(curve.kept.back() == static_cast<Index>(hierarchy.branches().size()));
-        RC_ASSERT(curve.automatic_kept == static_cast<Index>(hierarchy.essential().size()));
+        RC_ASSERT(curve.automatic_kept == static_cast<Index>(hierarchy.significant().size()));
         const auto i = *rc::gen::inRange<std::size_t>(0, curve.threshold.size());
         Selection selection;
         if (curve.size == "hypervolume") selection.min_hypervolume = curve.threshold[i];
@@ -313,12 +313,12 @@ TEST(Simplification, ChangesOnlyNearTheThresholdOnRealVolumes) {
         const Volume volume = isoatlas::load_volume((data / name).string());
         const Bright clean(volume);
         const double threshold = clean.hierarchy.curves()[0].automatic_threshold;
-        const auto essential = static_cast<double>(clean.hierarchy.essential().size());
+        const auto significant = static_cast<double>(clean.hierarchy.significant().size());
         for (const std::uint32_t seed : {7U, 8U, 9U}) {
             const Bright noisy(with_noise(volume, seed));
             EXPECT_GE(expect_found(clean, noisy, threshold), 1);
             EXPECT_GE(expect_found(noisy, clean, threshold), 1);
-            EXPECT_NEAR(essential, static_cast<double>(noisy.hierarchy.essential().size()), 1);
+            EXPECT_NEAR(significant, static_cast<double>(noisy.hierarchy.significant().size()), 1);
         }
     }
 }

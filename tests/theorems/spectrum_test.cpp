@@ -42,7 +42,7 @@ LevelCounts all_of(const Cut& cut) {
 }
 
 /// The objects that contain the maximum at which a branch of the table begins, while the branch is there.
-LevelCounts essential_of(const Cut& cut, const Volume& volume, const Analysis& analysis, const isoatlas::ObjectTable& table) {
+LevelCounts significant_of(const Cut& cut, const Volume& volume, const Analysis& analysis, const isoatlas::ObjectTable& table) {
     std::set<Index> objects;
     std::map<Index, bool> alive;
     for (const isoatlas::ObjectEntry& entry : table.entries) {
@@ -89,7 +89,7 @@ RC_GTEST_PROP(TheSpectrum, IsWhatACutFindsAtEveryIsovalue, ()) {
         RC_ASSERT(at.low < tau);
         RC_ASSERT(tau <= at.high);
         RC_ASSERT(at.all == all_of(cut));
-        RC_ASSERT(at.essential == essential_of(cut, volume, analysis, table));
+        RC_ASSERT(at.significant == significant_of(cut, volume, analysis, table));
     }
 }
 
@@ -124,7 +124,7 @@ RC_GTEST_FIXTURE_PROP(Stores, MeasureTheSpectrumOfTheirVolume, ()) {
     RC_ASSERT(direct.intervals.size() == stored.intervals.size());
     for (std::size_t i = 0; i < direct.intervals.size(); ++i) {
         RC_ASSERT(direct.intervals[i].all == stored.intervals[i].all);
-        RC_ASSERT(direct.intervals[i].essential == stored.intervals[i].essential);
+        RC_ASSERT(direct.intervals[i].significant == stored.intervals[i].significant);
     }
     for (std::size_t i = 0; i < direct.sizes.size(); ++i) {
         const SpectrumSize &size = direct.sizes[i], &other = stored.sizes[i];

@@ -95,14 +95,14 @@ ObjectTable Source::objects(const RankOptions& options) {
     return table;
 }
 
-CavityTable Source::dark_objects(const RankOptions& options) {
+CavityTable Source::cavities(const RankOptions& options) {
     if (!atlas_ || arguments_.voxel_units) return rank_cavities(volume(), analysis(false), options, context());
-    return atlas_->dark_objects(options, context());
+    return atlas_->cavities(options, context());
 }
 
-ObjectsAndCavities Source::both_tables(const RankOptions& options) {
+ObjectsAndCavities Source::objects_and_cavities(const RankOptions& options) {
     if (!atlas_) return rank_both(volume(), analysis(true), options, context());
-    return {objects(options), dark_objects(options)};
+    return {objects(options), cavities(options)};
 }
 
 BranchHierarchy Source::hierarchy() {

@@ -40,8 +40,8 @@ public:
     [[nodiscard]] Surface extract(double tau, ExtractOptions options);
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
-    [[nodiscard]] CavityTable dark_objects(const RankOptions& options);
-    [[nodiscard]] ObjectsAndCavities both_tables(const RankOptions& options);
+    [[nodiscard]] CavityTable cavities(const RankOptions& options);
+    [[nodiscard]] ObjectsAndCavities objects_and_cavities(const RankOptions& options);
     /// The branches that selections choose from.
     [[nodiscard]] BranchHierarchy hierarchy();
     /// The same, with the trees that its events belong to.

@@ -119,9 +119,9 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         app.add_option("--curve", arguments.curve, "Write how many objects there are for every threshold (.csv .svg .json)")
             ->type_name("FILE");
         app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
-        CLI::Option* dark =
-            app.add_flag("--dark", arguments.dark, "Dark objects instead: cavities, and what is darker than its surroundings");
-        app.add_flag("--both", arguments.both, "Bright and dark objects")->excludes(dark);
+        CLI::Option* cavities =
+            app.add_flag("--cavities", arguments.cavities, "Cavities instead: voids, and regions of lower values inside of objects");
+        app.add_flag("--both", arguments.both, "Objects and cavities")->excludes(cavities);
     } else if (verb == "extract") {
         add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
         add_number(app, "--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
@@ -143,7 +143,7 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_output(app, arguments, ".gif .webp .png .apng .mp4", true);
     } else if (verb == "label") {
         add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
-        app.add_flag("--dark", arguments.dark, "With --tau: label the cavities instead, 1 is the largest");
+        app.add_flag("--cavities", arguments.cavities, "With --tau: label the cavities instead, 1 is the largest");
         app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
         add_selection(app, typed.selection, true);
         add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);

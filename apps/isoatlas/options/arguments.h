@@ -42,7 +42,7 @@ struct Arguments {
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
     bool exact = false;  ///< handles: exact pairs
-    bool best = false, all = false, zones = false, list = false, dark = false, both = false;
+    bool best = false, all = false, zones = false, list = false, cavities = false, both = false;
     std::int64_t top = 0;  ///< 0: not given
     Selection selection;   ///< as typed: reported units
     bool selects = false, persistence_in_percent = false;

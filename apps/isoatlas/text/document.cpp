@@ -1,6 +1,7 @@
 #include "text/document.h"
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "text/terminal.h"
@@ -60,7 +61,10 @@ Json volume_json(const VolumeInfo& info) {
 
 }  // namespace
 
-Json document(const std::string& name) { return {{"schema", "isoatlas/" + name + "/1"}, {"version", ISOATLAS_VERSION}}; }
+Json document(const std::string& name) {
+    static const std::set<std::string> kSecond{"animate", "ask", "atlas", "build", "info", "objects", "spectrum"};  // CHANGES.md, 0.2.0
+    return {{"schema", "isoatlas/" + name + (kSecond.contains(name) ? "/2" : "/1")}, {"version", ISOATLAS_VERSION}};
+}
 
 Json document(const std::string& name, const VolumeInfo& info) {
     Json json = document(name);

@@ -21,7 +21,7 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
     }
     RankOptions options{.top = 0};
     if (arguments.selects) options.selection = source.selection();
-    mark_kept(hierarchy, options.selection ? hierarchy.kept(*options.selection) : hierarchy.essential());
+    mark_kept(hierarchy, options.selection ? hierarchy.kept(*options.selection) : hierarchy.significant());
 
     double min = options.selection ? options.selection->min_persistence : 0;
     if (min == 0) min = noise_height(source.objects({.top = 1}).noise, source.info().extent.voxels());
@@ -31,8 +31,8 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
         if (rank_of_event_[static_cast<std::size_t>(handle.event)] >= 0) tunnels_.push_back({handle.opens, handle.closes});
     }
     std::set<std::array<double, 3>> known;  // several lines may show the same dark object
-    for (const CavityEntry& dark : source.dark_objects(options).entries) {
-        if (known.insert(dark.position).second) cavities_.push_back({dark.merges, dark.appears});
+    for (const CavityEntry& cavities : source.cavities(options).entries) {
+        if (known.insert(cavities.position).second) cavities_.push_back({cavities.merges, cavities.appears});
     }
 }
 

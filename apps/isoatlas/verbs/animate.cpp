@@ -176,7 +176,7 @@ void print_json(const Arguments& arguments, Terminal& terminal, Source& source, 
         const Frame& frame = made.frames[static_cast<std::size_t>(i)];
         Json json{{"tau", scale.reported(frame.tau)}, {"events", frame.events}};
         json.update(census_json(frame.all));
-        json["essential"] = census_json(frame.kept);
+        json["significant"] = census_json(frame.kept);
         return json;
     });
 }

@@ -39,7 +39,7 @@ int run_ask(const Arguments& arguments, Terminal& terminal) {
     const std::size_t bytes = ask_server(arguments.file, question, arguments.output);
     if (arguments.json) {
         Json json = document("ask");
-        json["question"] = question;
+        json["request"] = question;
         json["output"] = arguments.output;
         json["bytes"] = bytes;
         print(terminal, json);

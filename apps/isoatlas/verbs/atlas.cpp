@@ -20,7 +20,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         Session session(arguments, terminal);
         const WritingGuard guard;
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
-        report = write_page(page, atlas, {.top = top, .top_dark = (top + 1) / 2, .source = store}, session.context());
+        report = write_page(page, atlas, {.top = top, .top_cavities = (top + 1) / 2, .source = store}, session.context());
     }
     if (arguments.json) {
         Json json = document("atlas", atlas.info(), atlas.interpolant(), atlas.tunnel_height());
@@ -28,12 +28,12 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         json["output"] = page;
         json["bytes"] = report.bytes;
         json["shown"] = report.objects;
-        json["shown_dark"] = report.dark;
+        json["shown_cavities"] = report.cavities;
         json["hidden"] = report.hidden;
         print(terminal, json);
         return 0;
     }
-    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << count_text(report.dark) << " of dark objects; "
+    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << count_text(report.cavities) << " of dark objects; "
                    << counted(report.hidden, "object") << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
     terminal.next("open " + page + " in a browser");
     return 0;

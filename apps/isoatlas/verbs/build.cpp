@@ -40,7 +40,7 @@ Json estimate_json(const BuildEstimate& estimate) {
     Json json;
     json["critical_elements"] = estimate.critical_elements;
     json["memory"] = estimate.memory;
-    json["memory_least"] = estimate.min_memory;
+    json["min_memory"] = estimate.min_memory;
     json["budget"] = estimate.budget;
     json["uses_scratch"] = estimate.uses_scratch;
     json["disk"] = estimate.disk;

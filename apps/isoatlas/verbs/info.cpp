@@ -61,7 +61,7 @@ Values read_values(VolumeReader& reader, Session& session) {
     return values;
 }
 
-Json json_of(const Bounds& bounds) { return {{"least", bounds.min}, {"most", bounds.max}}; }
+Json json_of(const Bounds& bounds) { return {{"min", bounds.min}, {"max", bounds.max}}; }
 
 Json to_json(const SurfacePreview& preview, double tau) {
     return {{"tau", tau},

@@ -34,7 +34,7 @@ Labels label_objects(Source& source) {
             {.interpolant = at.interpolant, .tunnel_height = at.tunnel_height, .tau = at.tau}};
 }
 
-Labels label_dark(Source& source) {
+Labels label_cavity_voxels(Source& source) {
     const double tau = source.tau();
     const Analysis analysis = source.analysis(false);
     std::vector<std::int64_t> ids;
@@ -80,8 +80,8 @@ void check_arguments(const Arguments& arguments) {
                                        .expected = "--tau T for the objects at an isovalue, or --zones",
                                        .next = "isoatlas label --help"});
     }
-    if (arguments.dark && arguments.zones)
-        throw Error(ErrorKind::usage, {.what = "--dark and --zones contradict each other", .next = "isoatlas label --help"});
+    if (arguments.cavities && arguments.zones)
+        throw Error(ErrorKind::usage, {.what = "--cavities and --zones contradict each other", .next = "isoatlas label --help"});
     if (arguments.selects && !arguments.zones)
         throw Error(ErrorKind::usage, {.what = "a selection is for --zones", .next = "isoatlas label --help"});
     check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
@@ -92,14 +92,14 @@ void check_arguments(const Arguments& arguments) {
 int run_label(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Source source(arguments, terminal);
-    const Labels labels = arguments.zones  ? label_zones(arguments, source, terminal)
-                          : arguments.dark ? label_dark(source)
-                                           : label_objects(source);
+    const Labels labels = arguments.zones      ? label_zones(arguments, source, terminal)
+                          : arguments.cavities ? label_cavity_voxels(source)
+                                               : label_objects(source);
     {
         const WritingGuard guard;
         write_labels(arguments.output, source.info(), labels.of_voxel, labels.origin);
     }
-    const std::string what = arguments.zones ? "zones" : arguments.dark ? "cavities" : "objects";
+    const std::string what = arguments.zones ? "zones" : arguments.cavities ? "cavities" : "objects";
     if (arguments.json) {
         Json json = document("label", source.info(), labels.origin.interpolant, labels.origin.tunnel_height);
         json["output"] = arguments.output;
@@ -112,14 +112,14 @@ int run_label(const Arguments& arguments, Terminal& terminal) {
     }
     terminal.out() << shown_name(arguments.output) << ": "
                    << counted(labels.count,
-                              arguments.zones  ? "zone"
-                              : arguments.dark ? "cavity"
-                                               : "object",
+                              arguments.zones      ? "zone"
+                              : arguments.cavities ? "cavity"
+                                                   : "object",
                               what)
                    << (arguments.zones ? arguments.selects ? " (label = node of the simplified tree + 1), " : " (label = event id + 1), "
                                        : " (label 1 is the largest, 0 is background), ")
                    << interpolant_text(source.info(), labels.origin.interpolant, labels.origin.tunnel_height) << '\n';
-    if (arguments.tau && !arguments.dark) {
+    if (arguments.tau && !arguments.cavities) {
         terminal.next(fmt::format("isoatlas objects {}{} --tau {}    # the objects in the order of the labels", shell_word(arguments.file),
                                   reading_options(arguments), *arguments.tau));
     }

@@ -55,7 +55,7 @@ std::int64_t shown_objects(const ObjectTable& table) {
 }
 
 /// dark: listed too; null: not asked for.
-void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const CavityTable* dark = nullptr) {
+void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const CavityTable* cavities = nullptr) {
     const VolumeInfo& info = source.info();
     const Scale scale(info);
     Json head = document("objects", info, source.interpolant(), source.tunnel_height());
@@ -63,7 +63,7 @@ void print_table_json(Terminal& terminal, Source& source, const ObjectTable& tab
     head["branches"] = table.branches;
     head["hidden"] = table.branches - shown_objects(table);
     head["noise"] = table.noise * info.calibration.slope;
-    if (dark != nullptr) add_dark(head, *dark, info);
+    if (cavities != nullptr) add_cavities(head, *cavities, info);
     add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
           [&](std::int64_t i) { return entry_json(table, table.entries[static_cast<std::size_t>(i)], info, scale); });
@@ -120,19 +120,19 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
 }
 
 /// Dark objects, after the bright ones when both are asked for.
-int list_dark(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
+int list_cavities(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
     if (!arguments.both) {
-        print_dark(terminal, arguments, source, source.dark_objects(options));
+        print_cavities(terminal, arguments, source, source.cavities(options));
         return 0;
     }
-    const auto [table, dark] = source.both_tables(options);
+    const auto [table, cavities] = source.objects_and_cavities(options);
     if (arguments.json) {
-        print_table_json(terminal, source, table, &dark);
+        print_table_json(terminal, source, table, &cavities);
         return 0;
     }
     print_table_text(terminal, arguments, source, table);
     terminal.out() << '\n';
-    print_dark(terminal, arguments, source, dark);
+    print_cavities(terminal, arguments, source, cavities);
     return 0;
 }
 
@@ -148,7 +148,7 @@ int list_best(const Arguments& arguments, Terminal& terminal) {
         if (arguments.top == 0) options.top = 0;
     }
     if (!arguments.curve.empty()) write_curves(arguments, source);
-    if (arguments.dark || arguments.both) return list_dark(arguments, terminal, source, options);
+    if (arguments.cavities || arguments.both) return list_cavities(arguments, terminal, source, options);
     const ObjectTable table = source.objects(options);
     if (arguments.json) {
         print_table_json(terminal, source, table);
@@ -236,9 +236,10 @@ int run_objects(const Arguments& arguments, Terminal& terminal) {
         throw Error(ErrorKind::usage, {.what = "a selection is for the table of best isovalues, not for one isovalue",
                                        .next = "leave out --tau, or the selection"});
     }
-    if (arguments.tau && (arguments.dark || arguments.both)) {
-        throw Error(ErrorKind::usage, {.what = "--tau lists the objects at an isovalue, --dark and --both the best isovalues of dark ones",
-                                       .next = "isoatlas label --dark --tau T labels the cavities at an isovalue"});
+    if (arguments.tau && (arguments.cavities || arguments.both)) {
+        throw Error(ErrorKind::usage,
+                    {.what = "--tau lists the objects at an isovalue, --cavities and --both the best isovalues of cavities",
+                     .next = "isoatlas label --cavities --tau T labels the cavities at an isovalue"});
     }
     return arguments.tau ? list_at(arguments, terminal) : list_best(arguments, terminal);
 }

@@ -26,7 +26,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Spectrum& spec
     const Scale scale(info);
     Table table({{"tau"},
                  {"objects"},
-                 {spectrum.selected ? "selected" : "essential"},
+                 {spectrum.selected ? "selected" : "significant"},
                  {"contours"},
                  {flat ? "holes" : "tunnels"},
                  {"cavities"},
@@ -36,7 +36,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Spectrum& spec
                  {flat ? "area" : "volume"}});
     for (const SpectrumSize& size : spectrum.sizes) {
         const SpectrumInterval at = counts_at(spectrum, size.tau);
-        table.add({scale.brief(size.tau), count_text(at.all.objects), count_text(at.essential.objects), count_text(at.all.contours),
+        table.add({scale.brief(size.tau), count_text(at.all.objects), count_text(at.significant.objects), count_text(at.all.contours),
                    count_text(at.all.tunnels), count_text(at.all.cavities), voxels_text(size.voxels), count_text(size.facets),
                    size_text(size.area), size_text(size.measure)});
     }

@@ -22,7 +22,7 @@ void put_isovalue(ByteWriter& out, const char* kind, const VolumeInfo& info, con
     for (int end = 0; end < 2; ++end) put_real(out, info.calibration.reported(tau));
     const SpectrumInterval counts = counts_at(spectrum, tau);
     put_counts(out, counts.all);
-    put_counts(out, counts.essential);
+    put_counts(out, counts.significant);
 }
 
 void put_advice(ByteWriter& out, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumAdvice& advice) {
@@ -46,7 +46,7 @@ void write_spectrum_csv(AtomicFile& file, const VolumeInfo& info, const Spectrum
         put_real(out, info.calibration.reported(interval.low));
         put_real(out, info.calibration.reported(interval.high));
         put_counts(out, interval.all);
-        put_counts(out, interval.essential);
+        put_counts(out, interval.significant);
         out.text(",,,,,,,,,\n");
     }
     for (const SpectrumSize& size : spectrum.sizes) {

@@ -20,7 +20,7 @@ void put_intervals(JsonStream& json, const VolumeInfo& info, const Spectrum& spe
         json.line().begin_object().key("low").value(info.calibration.reported(interval.low));
         json.key("high").value(info.calibration.reported(interval.high));
         put_counts(json, "all", interval.all);
-        put_counts(json, "essential", interval.essential);
+        put_counts(json, "significant", interval.significant);
         json.end_object();
     }
     json.line().end_array();
@@ -30,7 +30,7 @@ void put_sizes(JsonStream& json, const VolumeInfo& info, const Spectrum& spectru
     json.line().key("sizes").begin_array();
     for (const SpectrumSize& size : spectrum.sizes) {
         json.line().begin_object().key("tau").value(info.calibration.reported(size.tau));
-        json.key("voxels").begin_object().key("least").value(size.voxels.min).key("most").value(size.voxels.max).end_object();
+        json.key("voxels").begin_object().key("min").value(size.voxels.min).key("max").value(size.voxels.max).end_object();
         json.key("cells").value(size.cells).key(info.extent.rank == 3 ? "triangles" : "segments").value(size.facets);
         json.key("area").value(size.area).key("measure").value(size.measure).end_object();
     }
@@ -53,7 +53,7 @@ void put_advice(JsonStream& json, const VolumeInfo& info, const Spectrum& spectr
 
 void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
     JsonStream json(sink);
-    json.begin_object().line().key("schema").value("isoatlas/spectrum/1").key("version").value(kVersion);
+    json.begin_object().line().key("schema").value("isoatlas/spectrum/2").key("version").value(kVersion);
     put_members(json.line(), {spectrum.interpolant, info.calibration.reported_difference(spectrum.tunnel_height)});
     json.key("boundary").value("closed");
     put_volume(json, info);

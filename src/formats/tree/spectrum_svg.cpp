@@ -1,4 +1,4 @@
-// The spectrum as a plot: counts of all, counts of what is essential, and sizes below, over one axis of isovalues.
+// The spectrum as a plot: counts of all, counts of what is significant, and sizes below, over one axis of isovalues.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,7 +115,7 @@ void write_spectrum_svg(AtomicFile& file, const VolumeInfo& info, const Spectrum
     const Range range = range_of(info, spectrum);
     const std::string some = spectrum.selected ? "the selected objects" : "the essential objects, which noise does not explain";
     std::vector<Plot> plots{plot_of_counts("How many there are at each isovalue", info, spectrum, range, &SpectrumInterval::all),
-                            plot_of_counts("Of " + some, info, spectrum, range, &SpectrumInterval::essential)};
+                            plot_of_counts("Of " + some, info, spectrum, range, &SpectrumInterval::significant)};
     if (!spectrum.sizes.empty()) plots.push_back(plot_of_sizes(info, spectrum, range));
     file.write(svg_of(plots));
     file.commit();

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-const BuildState kState{.phase = "dark zones",
+const BuildState kState{.phase = "sublevel zones",
                         .phase_index = 3,
                         .phase_count = 8,
                         .fraction = 0.43,

@@ -67,7 +67,7 @@ Scene arbitrary_scene() {
 }
 
 /// As bricks/brick_surroundings.h says in words, sample by sample. In an image nothing lies before or behind it.
-bool matters_to_some_other(const Scene& scene, const Box& box, bool own) {
+bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
     const std::int64_t reach_z = scene.grid.extent.rank == 2 ? 0 : 2;
     for (std::int64_t z = box.begin[2] - reach_z; z < box.end[2] + reach_z; ++z) {
         for (std::int64_t y = box.begin[1] - 2; y < box.end[1] + 2; ++y) {
@@ -113,7 +113,8 @@ RC_GTEST_PROP(BricksBesideASurface, HaveAnotherClassAmongWhatMatters, ()) {
     std::vector<std::int64_t> expected;
     for (std::int64_t b = 0; b < scene.grid.count(); ++b) {
         const BrickClass own = bricks.classes[static_cast<std::size_t>(b)];
-        if (own != BrickClass::divided && matters_to_some_other(scene, scene.grid.box(b), own == BrickClass::high)) expected.push_back(b);
+        if (own != BrickClass::divided && is_significant_to_another(scene, scene.grid.box(b), own == BrickClass::high))
+            expected.push_back(b);
     }
     RC_ASSERT(beside_surface(high, bricks, sides, 1) == expected);
 }

@@ -81,7 +81,7 @@ TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
         EXPECT_EQ(json["tunnels"][i], object->b1);
         EXPECT_EQ(json["cavities"][i], object->b2);
     }
-    EXPECT_EQ(standing_out, hierarchy.essential().size());
+    EXPECT_EQ(standing_out, hierarchy.significant().size());
 }
 
 TEST_F(ServiceTest, BranchesAreChosenAsOnTheCommandLine) {

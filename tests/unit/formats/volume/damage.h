@@ -10,15 +10,15 @@
 namespace isoatlas::test {
 
 /// What a file says: its samples as they are stored, in host byte order, or that it is refused.
-struct Response {
+struct Answer {
     bool read = false;
     std::string samples{}, message{};
     ValueType type = ValueType::u8;
     Extent extent{};
 };
 
-inline Response answer_of(const std::string& path, std::int64_t time_step) {
-    Response answer;
+inline Answer answer_of(const std::string& path, std::int64_t time_step) {
+    Answer answer;
     OpenOptions options;
     if (time_step >= 0) options.time_step = time_step;
     try {
@@ -69,7 +69,7 @@ public:
 private:
     Outcome compare(const std::string& content) const {
         const Replaced replaced(damaged_, content);
-        const Response answer = answer_of(path_, time_step_);
+        const Answer answer = answer_of(path_, time_step_);
         if (!answer.read) return Outcome::refused;
         const bool as_declared = answer.type == sound_.type && answer.extent == sound_.extent;
         if (answer.samples == sound_.samples) return as_declared ? Outcome::same : Outcome::declared_otherwise;
@@ -78,7 +78,7 @@ private:
 
     std::string path_, damaged_, content_;
     std::int64_t time_step_;
-    Response sound_;
+    Answer sound_;
     mutable std::array<int, 4> counts_{};
 };
 

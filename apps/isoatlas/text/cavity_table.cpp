@@ -32,7 +32,7 @@ std::string best_tau_text(const CavityEntry& entry, const Scale& scale) {
 void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const CavityTable& table) {
     const Scale scale(info);
     const Sizes sizes(info, largest_measure(table.entries));
-    std::vector<Table::Column> columns{{"dark"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
+    std::vector<Table::Column> columns{{"cavity"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
     sizes.add_titles(columns, "islands");
     columns.insert(columns.end(), {{"inside of"}, {"why there", true}, {"note", true}});
     Table text(columns);
@@ -45,7 +45,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
         text.add(row);
     }
     terminal.say(fmt::format("{} in all; {} to look at", counted(table.branches, "cavity", "cavities"),
-                             counted(static_cast<std::int64_t>(table.entries.size()), "dark object")));
+                             counted(static_cast<std::int64_t>(table.entries.size()), "cavity", "cavities")));
     text.print(terminal);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_minimum);
@@ -57,22 +57,22 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
         return;
     }
     const CavityEntry& first = table.entries[0];
-    terminal.next(fmt::format("isoatlas extract {}{} --tau {} --contour {} -o dark.ply", shell_word(arguments.file),
+    terminal.next(fmt::format("isoatlas extract {}{} --tau {} --contour {} -o cavity.ply", shell_word(arguments.file),
                               reading_options(arguments), best_tau_text(first, scale), first.id));
 }
 
 }  // namespace
 
-void add_dark(Json& json, const CavityTable& table, const VolumeInfo& info) {
-    json["dark_branches"] = table.branches;
-    Json& list = json["dark"] = Json::array();
+void add_cavities(Json& json, const CavityTable& table, const VolumeInfo& info) {
+    json["cavity_branches"] = table.branches;
+    Json& list = json["cavities"] = Json::array();
     for (const CavityEntry& entry : table.entries) list.push_back(entry_json(table, entry, info));
 }
 
-void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table) {
+void print_cavities(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table) {
     const VolumeInfo& info = source.info();
     if (!arguments.json) return print_text(terminal, arguments, info, table);
-    Json head = document("dark-objects", info, source.interpolant(), source.tunnel_height());
+    Json head = document("cavities", info, source.interpolant(), source.tunnel_height());
     head["branches"] = table.branches;
     head["noise"] = table.noise * info.calibration.slope;
     add_reads(head, source.reads());

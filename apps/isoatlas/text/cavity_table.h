@@ -9,9 +9,9 @@ namespace isoatlas::cli {
 class Source;
 class Terminal;
 
-/// Members "cavity_branches" and "dark": [...].
-void add_dark(Json& json, const CavityTable& table, const VolumeInfo& info);
+/// Members "cavity_branches" and "cavities": [...].
+void add_cavities(Json& json, const CavityTable& table, const VolumeInfo& info);
 /// The table alone, or with --json its own document.
-void print_dark(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table);
+void print_cavities(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table);
 
 }  // namespace isoatlas::cli
