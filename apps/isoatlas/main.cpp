@@ -1,4 +1,4 @@
-// isoatlas VERB: which objects are in a volume, and at which isovalues?
+// The command line: isoatlas VERB.
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -46,7 +46,7 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
     return code;
 }
 
-/// A wrong option always has a next step, reading what the verb takes; a stop says what it left.
+/// Adds the next step to usage errors, and the state of the output to an interrupt.
 Error completed(const Error& error, const std::vector<std::string>& words) {
     isoatlas::ErrorText text = error.text();
     if (error.kind() == ErrorKind::cancelled) text.what = "stopped; nothing was written";
@@ -57,7 +57,7 @@ Error completed(const Error& error, const std::vector<std::string>& words) {
     return {error.kind(), text};
 }
 
-/// Whatever goes wrong becomes one Error.
+/// Converts every exception to an Error.
 int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
     const bool json = std::count(words.begin(), words.end(), "--json") > 0;
     try {
@@ -67,7 +67,7 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
     }
 }
 
-/// Before the objects of all files are made, and main().
+/// Runs before static initialisation of other files and main().
 [[gnu::constructor(101)]] void prepare_for_the_worst() { end_with_exit_codes(); }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Analysis: every topological change of a volume, exactly: criticality tree, contour tree, genus, zones.
 //
-// Words: tau is an isovalue. A sample is High at tau when value >= tau. An *object* is a connected set of Highs, a *low component*
-// a connected set of Lows (everything outside the volume is Low), a *contour* the closed surface between one object and one low component.
+// Terms: tau is an isovalue. A sample is High at tau when value >= tau. An *object* is a connected set of Highs, a *low component* a
+// connected set of Lows (everything outside the volume is Low), a *contour* the closed surface between one object and one low component.
 // Three views of the same changes, from fine to coarse (docs/theory/3-trees.md#equal-values):
 //   elements  critical voxels and face points, in the symbolic order; ties between equal values are broken by voxel number
 //   levels    elements of one value that touch the same contours, contracted: independent of voxel numbering

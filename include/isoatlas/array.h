@@ -1,7 +1,7 @@
 // Array: a std::vector for large results.
 //
 // Freed memory is kept for the next array (fresh pages cost more than much of the work done on them), but never more than was in use at
-// once; trim_memory_pool() gives it back. New elements are not initialised: resize() before writing every element.
+// once; trim_memory_pool() releases it. New elements are not initialised: resize() before writing every element.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace isoatlas {
 /// Memory for `bytes`, aligned to huge pages if it is large; throws std::bad_alloc.
 [[nodiscard]] void* allocate_big(std::size_t bytes);
 void free_big(void* memory, std::size_t bytes) noexcept;
-/// Gives the memory that is kept for reuse back to the system.
+/// Returns the memory that is kept for reuse to the system.
 void trim_memory_pool() noexcept;
 
 template <class T>

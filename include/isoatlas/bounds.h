@@ -1,4 +1,4 @@
-// Bounds: a number that is known within limits.
+// Bounds: an interval that contains a number.
 #pragma once
 
 #include <cstdint>

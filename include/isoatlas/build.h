@@ -1,9 +1,9 @@
 // Building a store from a volume of any size, within a memory budget, in phases that survive a crash.
 //
 // Phases: trees (critical elements, criticality tree, contour tree), zones (their sizes), pack (bricks and trees into one file). What a
-// finished phase has found lies in the folder PATH.build, written, synced and renamed, until the store is there; a second build of the
-// same volume with the same parameters goes on behind it. What a phase was made of and with is told in it and compared member by member,
-// samples included. Anybody can ask where a build is: build_state().
+// finished phase has found lies in the folder PATH.build, written, synced and renamed, until the store is there; a second build of the same
+// volume with the same parameters resumes after it. Each phase records its input and parameters, which are compared member by member,
+// samples included. Progress of a running build: build_state().
 #pragma once
 
 #include <chrono>
@@ -26,14 +26,14 @@ struct BuildOptions {
     double tunnel_height_percent = 0;
     double gaussian = 0;      ///< filters the samples first: sigma as of gaussian_filter(); 0: off
     std::int64_t memory = 0;  ///< bytes for the whole process, 64 MiB or more; 0: half of what the machine or its control group has
-    bool restart = false;     ///< forgets finished phases
-    /// Which volume of its file the reader reads, as in OpenOptions: told when phases and stores are compared.
+    bool restart = false;     ///< discards finished phases
+    /// Which volume of its file the reader reads, as in OpenOptions: recorded to compare phases and stores.
     std::optional<std::int64_t> time_step{};
-    /// Marks the store as one that its maker keeps beside a page and may make anew with other options. The mark changes no answer.
+    /// Marks the store as a by-product of a page, which may be rebuilt with other options. The mark changes no result.
     bool is_replaceable = false;
 };
 
-/// What a build will take; critical elements are counted in a few slabs of the volume.
+/// Estimated cost of a build; critical elements are counted in a few slabs of the volume.
 struct BuildEstimate {
     std::int64_t critical_elements = 0;
     std::int64_t memory = 0;       ///< that all arrays would take at once, bytes
@@ -57,7 +57,7 @@ struct BuildReport {
     /// Phases that had been finished and were made again, and why: "trees, zones of an earlier build are not used: spacing 1 x 1 x 1
     /// there, 2 x 2 x 2 here".
     std::vector<std::string> not_used;
-    std::int64_t peak_memory = 0;  ///< most resident memory of the process, bytes
+    std::int64_t peak_memory = 0;  ///< peak of the resident memory of the process, bytes
     std::int64_t bytes = 0;        ///< of the store
     std::string left_behind;       ///< the folder of the build when it cannot be removed, though the store is complete; else ""
 };
@@ -72,27 +72,27 @@ BuildReport build_atlas(const std::string& path, const Volume& volume, const Ana
 
 class Atlas;
 
-/// What a store was made of, or with, otherwise than build_atlas(volume, options) would: "spacing 1 x 1 x 1 there, 2 x 2 x 2 here", one for
-/// each; nothing: it is the store that this would write. compare_samples false: the samples are not looked at. Stores of versions 1 and 2
-/// do not tell which samples they were filtered or replaced from: that is told as a difference. Throws as VolumeReader::read(), cancelled.
+/// Differences in input and parameters of a store from those of build_atlas(volume, options): "spacing 1 x 1 x 1 there, 2 x 2 x 2 here",
+/// one for each; empty: it is the store that this would write. compare_samples false: the samples are not read. Stores of versions 1 and 2
+/// do not record which samples they were filtered or replaced from: that counts as a difference. Throws as VolumeReader::read(), cancelled.
 /// Cost: nothing when the headers differ; else reads the volume once; memory: some slices.
 [[nodiscard]] std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& volume, const BuildOptions& options,
                                                          bool compare_samples = true, const Context& context = {});
 /// The same as one phrase; the first few of many.
 [[nodiscard]] std::string joined_differences(const std::vector<std::string>& differences);
 
-/// Where a build is, for those who wait for its store.
+/// Progress of a build.
 struct BuildState {
-    std::string phase{};  ///< "classify", "pack", ...; empty: it has only begun
+    std::string phase{};  ///< "classify", "pack", ...; empty: it has just begun
     int phase_index = 0, phase_count = 1;
     double fraction = 0;                        ///< of the whole build, 0 to 1: by the time that phases usually take
-    std::optional<double> seconds_left{};       ///< of the whole build; nothing: too early to tell
+    std::optional<double> seconds_left{};       ///< of the whole build; empty: too early to estimate
     std::optional<double> voxels_per_second{};  ///< of this phase
     std::int64_t peak_memory = 0;               ///< of the process, bytes
     friend bool operator==(const BuildState&, const BuildState&) = default;
 };
 
-/// Makes states of what a build tells its Context.
+/// Computes states of a build from its progress reports.
 class BuildClock {
 public:
     [[nodiscard]] BuildState at(const Progress& progress);
@@ -105,8 +105,8 @@ private:
     int phase_ = -1;
 };
 
-/// Where the build of the store PATH is, as the process that builds it has said within the last second. Nothing: nobody builds it. Never
-/// throws; writes nothing.
+/// Progress of the build of the store PATH, as its process has reported within the last second. Empty: no process builds it. Never throws;
+/// writes nothing.
 [[nodiscard]] std::optional<BuildState> build_state(const std::string& path);
 
 }  // namespace isoatlas

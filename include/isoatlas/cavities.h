@@ -1,8 +1,8 @@
-// Dark objects: cavities and what is darker than its surroundings, such as the pulp of a tooth, ranked like the bright ones.
+// Cavities: enclosed regions of low values, such as the pulp of a tooth, ranked as objects are.
 //
 // At an isovalue they are the low components: connected sets of samples below it, as the same interpolant connects them. That is not the
-// table of the negated volume: which of two diagonals of a face meets is decided once, for both sides. Samples at the border of the volume
-// touch the outside; a dark region that reaches the border is part of it and no object of its own.
+// table of the negated volume: which diagonal of a face is joined is decided once, for both sides. Samples at the border of the volume
+// touch the outside; a low-value region that reaches the border is part of it and not a cavity.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace isoatlas {
 
-/// One dark object and the isovalue that shows it best. Extract it as the wall of a cavity: `extract --tau BEST --contour ID`.
+/// One cavity and the isovalue that shows it best. Its wall: extract() at best_tau with ExtractOptions::contours = {id}.
 struct CavityEntry {
     std::int64_t id;                 ///< index of its lowest voxel at best_tau: that of the contour around it (CutContour::id)
     double appears;                  ///< stored values: it is on its own for tau in (appears, merges]
-    double merges;                   ///< with another dark object or the outside
+    double merges;                   ///< with another cavity or the outside
     double best_tau;                 ///< stored value
     IsovalueReason reason;           ///< why there: stable, outline (nearly where it merges) or merge
     std::int64_t voxels;             ///< below best_tau
@@ -26,25 +26,25 @@ struct CavityEntry {
     double hypervolume;              ///< sum over the object at `merges` of (merges - value); the rank
     std::int64_t object;             ///< id at best_tau of the object that it is a cavity of
     std::int64_t tunnels;            ///< genus of its wall at best_tau; 2D: 0
-    std::int64_t islands;            ///< bright objects inside it at best_tau
+    std::int64_t islands;            ///< objects inside it at best_tau
     std::array<double, 3> position;  ///< voxel coordinates of the lowest voxel
     double tau_low, tau_high;        ///< for isovalues in (tau_low, tau_high] nothing of this changes but its extent
     std::int64_t inside;             ///< position in CavityTable::entries of the closest entry that contains this one; -1: none
-    std::int64_t branch_minimum;     ///< voxel of the minimum at which its branch begins; -1: not known (stores of early versions)
+    std::int64_t branch_minimum;     ///< voxel of the minimum at which its branch begins; -1: unknown (stores of early versions)
     std::string note;                ///< "inside 3", ...
 };
 
 struct CavityTable {
     std::vector<CavityEntry> entries;  ///< by rank
-    /// Of all dark objects of the table, by their rank; of each by descending prominence, outlines last; best_tau is the first. branch_top
-    /// is CavityEntry::branch_minimum. Empty: a store of an early version.
+    /// Of all cavities of the table, by their rank; of each by descending prominence, outlines last; best_tau is the first. branch_top is
+    /// CavityEntry::branch_minimum. Empty: a store of an early version.
     std::vector<RecommendedIsovalue> isovalues{};
-    std::int64_t branches = 0;  ///< how many dark objects there are in all
+    std::int64_t branches = 0;  ///< how many cavities there are in all
     double noise = 0;           ///< estimated standard deviation of the noise, stored units
 };
 
-/// Ranked and gated as bright objects are; the outside is not listed. analysis: of this volume. Throws Error: usage (of another volume),
-/// cancelled. Cost: that of an analysis without its trees; memory: one id a voxel and 60 bytes a dark event while it runs.
+/// Ranked and gated as objects are; the outside is not listed. analysis: of this volume. Throws Error: usage (of another volume),
+/// cancelled. Cost: that of an analysis without its trees; memory: one id a voxel and 60 bytes an event of the sublevel tree while it runs.
 [[nodiscard]] CavityTable rank_cavities(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                         const Context& context = {});
 

@@ -1,4 +1,4 @@
-// Context: what a long call may use and how it talks to its caller. Passed by reference, never stored.
+// Context: resources, progress reports and cancellation of a long call. Passed by reference, never stored.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ struct Progress {
     int phase_index = 0;     ///< 0-based
     int phase_count = 1;
     double fraction = 0;      ///< of this phase, 0..1
-    std::int64_t voxels = 0;  ///< that the phase goes through; 0: not told
+    std::int64_t voxels = 0;  ///< that the phase processes; 0: unknown
 };
 
-/// Defaults are right for almost everybody: all processors, no progress, never cancelled.
+/// Defaults: all processors, no progress, never cancelled.
 /// The results of every function are the same bytes for any value of threads and slab_slices.
 struct Context {
     int threads = 0;                                ///< 0: one per processor

@@ -1,9 +1,9 @@
 // Cut: all objects, low components and contours of one volume at one isovalue, without any tree. O(volume) time.
 //
-// Names of things: an object at tau is named by the index of its highest voxel (ties: the larger index wins), a low component by the
-// index of its lowest voxel (ties: the smaller index wins), so the same name stays valid while the isovalue moves and the object lives.
-// Every object has exactly one outer contour (towards the outside), every low component except the outside has exactly one
-// contour towards the outside too (the wall of a cavity): a contour is named by the object (outer) or by the low component (inner).
+// Ids: an object at tau is identified by the index of its highest voxel (ties: the larger index wins), a low component by the index of its
+// lowest voxel (ties: the smaller index wins), so the same id stays valid while the isovalue moves and the object lives. Every object has
+// exactly one outer contour (towards the outside), every low component except the outside has exactly one
+// contour towards the outside too (the wall of a cavity): a contour is identified by the object (outer) or by the low component (inner).
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Cut {
     std::vector<CutObject> objects;
     std::vector<CutContour> contours;  ///< grouped by object, in the order of objects
     std::int64_t active_cells;         ///< cells the surface passes through (padding cells included)
-    /// Position in `objects` of the object of each voxel, -1 for Lows. Empty unless asked for.
+    /// Position in `objects` of the object of each voxel, -1 for Lows. Empty unless requested.
     std::vector<std::int32_t> label;
 };
 

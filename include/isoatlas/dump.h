@@ -1,5 +1,5 @@
-// Dump: any part of a store as it lies in the file (docs/format.md), for people and for debugging. Nothing is returned whose checksum is
-// wrong (the packed bytes of volume/data have none: its bricks have); a damaged store can be looked at as far as it is whole.
+// Dump: any part of a store as it lies in the file (docs/format.md), for inspection and debugging. Nothing is returned whose checksum is
+// wrong (the packed bytes of volume/data have none: its bricks have); a damaged store can be read as far as it is intact.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace isoatlas {
 
-/// What a part is, without its numbers.
+/// Description of a part, without its numbers.
 struct StorePart {
     enum class Kind : std::uint8_t { text, array, checksums, brick } kind = Kind::text;
     std::string name;                           ///< "contents", "elements/value", "checksums/elements/value", "brick 17"
     std::string type;                           ///< of the numbers: "uint8" ... "float64"; "json" for texts
     std::vector<std::int64_t> shape;            ///< of the whole array; a brick: its samples, z y x
-    std::int64_t first = 0, end = 0;            ///< the numbers of it that are meant, first index slowest
+    std::int64_t first = 0, end = 0;            ///< the selected numbers of it, first index slowest
     std::int64_t offset = 0, bytes = 0;         ///< of the whole part in the file; a brick: of its packed samples
     bool compressed = false;                    ///< it lies in chunks, see its checksums; offset and bytes are those it would have
     std::int64_t brick = -1;                    ///< which one
@@ -28,7 +28,7 @@ using StoreNumbers = std::variant<std::vector<std::int64_t>, std::vector<std::ui
 
 class StoreDump {
 public:
-    /// Reads header and contents. Throws Error: input (missing, no store, damaged), unsupported (a later version).
+    /// Reads header and contents. Throws Error: input (missing, not a store, damaged), unsupported (a later version).
     explicit StoreDump(const std::string& path);
     StoreDump(StoreDump&&) noexcept;
     StoreDump& operator=(StoreDump&&) noexcept;

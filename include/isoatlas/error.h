@@ -9,10 +9,10 @@
 
 namespace isoatlas {
 
-/// What kind of failure; the value is the exit code of the command line.
+/// Kind of failure; the value is the exit code of the command line.
 enum class ErrorKind : int {
     internal = 1,      ///< a check of isoatlas itself failed: a bug
-    usage = 2,         ///< the caller asked for something contradictory
+    usage = 2,         ///< a contradictory or invalid request of the caller
     input = 3,         ///< a file is missing, unreadable, truncated or corrupt
     unsupported = 4,   ///< a valid file of a format or type that isoatlas does not read
     resource = 5,      ///< output cannot be written, disk full, not enough memory

@@ -1,10 +1,10 @@
-// Handles: from which isovalue to which does a tunnel live?
+// Handles: birth and death isovalues of tunnels.
 //
 // Going down, an element that joins a contour with itself opens a tunnel, one that fills a hole closes one. Both are exact, and so is how
-// many tunnels each contour has at every isovalue. Which of the open tunnels is closed is not told by the trees:
-//   pair_handles           says the one that was opened last, along the contour and all that it merges into. So the number of handles and
+// many tunnels each contour has at every isovalue. Which of the open tunnels is closed does not follow from the trees:
+//   pair_handles           takes the one that was opened last, along the contour and all that it merges into. So the number of handles and
 //                          the sum of their persistence are exact, *individual pairs are approximate*.
-//   pair_handles_exactly   asks the samples: the pairs are the persistence pairs of the first homology of the Highs
+//   pair_handles_exactly   reads the samples: the pairs are the persistence pairs of the first homology of the Highs
 //                          (docs/decisions/0018).
 #pragma once
 
@@ -22,7 +22,7 @@ struct Handle {
     double opens, closes;
     std::array<double, 3> opened_at, closed_at;
     std::int64_t event;    ///< at which it opens, of the object whose tunnel it is then
-    bool is_open = false;  ///< of one object alone: it is still open where the object merges, which is what `closes` says then
+    bool is_open = false;  ///< of one object alone: it is still open where the object merges, which `closes` is then
     [[nodiscard]] double persistence() const { return opens - closes; }
 };
 
@@ -38,11 +38,11 @@ struct ExactHandles {
     std::int64_t max = 1'000'000;
 };
 
-/// The same handles, each with the isovalue at which it truly closes. Persistence of H1 mod 2 over the critical elements that the join
-/// tree (objects that merge) and the split tree (cavities that part) have not paired. analysis: of this volume. Order: as pair_handles().
-/// Throws Error: usage (another volume, no such event, more than `most` tunnels), cancelled. Cost: a gradient disk traced for every tunnel
-/// that closes, then the reduction of a sparse matrix; no useful bound is known, docs/decisions/0018 has measured ones. The same for any
-/// number of threads.
+/// The same handles, each with the isovalue at which it truly closes. Persistence of H1 mod 2 over the critical elements that the join tree
+/// (objects that merge) and the split tree (cavities that part) have not paired. analysis: of this volume. Order: as pair_handles(). Throws
+/// Error: usage (another volume, no such event, more than `max` tunnels), cancelled. Cost: a gradient disk traced for every tunnel that
+/// closes, then the reduction of a sparse matrix; no useful bound is known, docs/decisions/0018 has measured ones. The same for any number
+/// of threads.
 [[nodiscard]] std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& analysis, const ExactHandles& options = {},
                                                        const Context& context = {});
 

@@ -1,4 +1,4 @@
-// Pictures as pixels, and as files: PNG, APNG, GIF, WebP.
+// Image: pixels of a picture, and files: PNG, APNG, GIF, WebP.
 #pragma once
 
 #include <cstddef>

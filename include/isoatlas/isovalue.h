@@ -1,4 +1,4 @@
-// Isovalues as people and programs write them: decimals in reported (calibrated) units.
+// Isovalues as users and programs write them: decimals in reported (calibrated) units.
 #pragma once
 
 #include "isoatlas/volume.h"

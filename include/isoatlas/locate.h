@@ -1,4 +1,4 @@
-// Locator: which objects and cavities a sample lies in, at any isovalue, from the trees. No surface is made.
+// Locator: objects and cavities containing a sample, at any isovalue, from the trees. No surface is made.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ public:
 
     /// Stored value of the sample.
     [[nodiscard]] double value() const { return value_; }
-    /// The object that holds it, by its highest voxel, as in cut(); nothing: it is Low at tau. Cost: that of ActiveIndex::object_of().
+    /// The object that contains it, by its highest voxel, as in cut(); empty: it is Low at tau. Cost: that of ActiveIndex::object_of().
     [[nodiscard]] std::optional<std::int64_t> object(double tau) const;
-    /// The cavity that holds it, by its lowest voxel, as in cut(); nothing: it is High at tau, or outside of all objects. Cost: the same.
+    /// The cavity that contains it, by its lowest voxel, as in cut(); empty: it is High at tau, or outside of all objects. Cost: the same.
     [[nodiscard]] std::optional<std::int64_t> cavity(double tau) const;
 
 private:

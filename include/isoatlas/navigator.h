@@ -1,4 +1,4 @@
-// Navigator: moving along the isovalues of a store. What a viewer holds a key down on.
+// Navigator: incremental extraction along the isovalues of a store, for viewers.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace isoatlas {
 
-/// An isovalue of a store and its surface. Moving on costs less than a new query: samples that are present stay, only bricks that have a
+/// An isovalue of a store and its surface. A move costs less than a new query: samples that are present stay, only bricks that have a
 /// sample between the two isovalues are classified again, and the memory of the surface is used again. One thread at a time; several
 /// Navigators may use one Atlas at once.
 class Navigator {
 public:
-    /// The atlas must live as long as this. options: as for extract(); objects name what is shown, see show(). Reads nothing.
+    /// The atlas must live as long as this. options: as for extract(); objects select what is shown, see show(). Reads nothing.
     explicit Navigator(const Atlas& atlas, const ExtractOptions& options = {});
     Navigator(Navigator&&) noexcept;
     Navigator& operator=(Navigator&&) noexcept;
     ~Navigator();
 
-    /// Nothing before the first move, and after one that threw.
+    /// Empty before the first move, and after one that threw.
     [[nodiscard]] std::optional<double> tau() const;
     /// The surface at tau(): the same bytes as Atlas::extract(tau(), options). Valid until the next move.
     [[nodiscard]] const Surface& surface() const;
@@ -44,9 +44,9 @@ public:
     /// What the last move changed, by the trees: how the objects of the higher isovalue lie in those of the lower one. Nothing changes in a
     /// first move. Cost: the first call reads the trees; O((1 + objects at both) log events).
     [[nodiscard]] ObjectChanges changes() const;
-    /// What the last move has cost.
+    /// Cost of the last move.
     [[nodiscard]] const QueryCost& cost() const;
-    /// How many bricks the last move classified again.
+    /// Number of bricks that the last move classified again.
     [[nodiscard]] std::int64_t changed_bricks() const;
 
 private:

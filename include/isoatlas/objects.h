@@ -1,5 +1,4 @@
-// Objects: the table people come for. Which objects are in this volume, at which isovalues, which isovalue shows each best, how big are
-// they?
+// Objects: the ranked table of the objects of a volume: at which isovalues each exists, which isovalue shows it best, how large it is.
 #pragma once
 
 #include <array>
@@ -15,7 +14,7 @@ namespace isoatlas {
 
 /// One entry of the table: a branch of the criticality tree and the isovalue that shows it best.
 struct ObjectEntry {
-    std::int64_t id;                 ///< index of the highest voxel of the object at best_tau: `extract --object ID --tau BEST`
+    std::int64_t id;                 ///< index of the highest voxel of the object at best_tau, for ExtractOptions::objects
     std::int64_t event;              ///< the event whose zone contains best_tau
     double appears, merges;          ///< stored values: the object is on its own for tau in (merges, appears]; merges = -infinity: never
     double best_tau;                 ///< stored value
@@ -27,9 +26,9 @@ struct ObjectEntry {
     std::array<double, 3> position;  ///< voxel coordinates of the highest voxel
     double tau_low, tau_high;        ///< for isovalues in (tau_low, tau_high] the object has the tunnels and cavities of best_tau
     std::int64_t inside;             ///< position in ObjectTable::entries of the closest entry that contains this one; -1: none
-    std::int64_t branch_top;         ///< the event at which its branch begins: a maximum; -1: not known (stores of early versions)
+    std::int64_t branch_top;         ///< the event at which its branch begins: a maximum; -1: unknown (stores of early versions)
     bool outline;                    ///< best_tau shows everything that is not background
-    bool main_branch;                ///< of the object that is there at every isovalue
+    bool main_branch;                ///< of the object that exists at every isovalue
     std::string note;                ///< "largest", "outline", "inside 3", ...
 };
 
@@ -37,30 +36,30 @@ struct ObjectEntry {
 enum class IsovalueReason : std::uint8_t {
     stable,   ///< -d ln V / d tau is locally least there: the boundary is steep, the body compact
     outline,  ///< the same at the low end of its range, or the lowest of several that holds 15 % of the volume: all but background
-    outer,    ///< stable when its outer boundary is counted alone, with the cavities filled that are dark objects that matter
+    outer,    ///< stable when its outer boundary is counted alone, with its significant cavities filled
     inner,    ///< stable for one of these cavities: its wall
-    merge,    ///< nothing stands out: just above the value at which it merges; of the main branch: at which another large object joins it
-    middle,   ///< nothing stands out: the middle of the range of the object that is there at every isovalue
+    merge,   ///< no isovalue is stable: just above the value at which it merges; of the main branch: at which another large object joins it
+    middle,  ///< no isovalue is stable: the middle of the range of the object that exists at every isovalue
 };
 [[nodiscard]] const char* name_of(IsovalueReason reason);  ///< "stable", "outline", ...
-[[nodiscard]] const char* text_of(IsovalueReason reason);  ///< in plain words, for a reader who knows no topology
+[[nodiscard]] const char* text_of(IsovalueReason reason);  ///< for users, without terms of topology
 
-/// One isovalue of one object, and why. The lines of the table are some of these.
+/// One isovalue of one object, and the reason. The rows of the table are some of these.
 struct RecommendedIsovalue {
     std::int64_t branch_top;  ///< of the object: ObjectEntry::branch_top
     double tau;               ///< stored value
-    double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: nothing stands out. Where
+    double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: none is stable. Where
                               ///< nearly all samples are low, the rate is along the bent axis of the page
     IsovalueReason reason;
     std::int64_t cavity =
-        -1;  ///< inner, and of dark objects: the cavity (CavityEntry::id at tau, the id of the contour around it); else -1
+        -1;  ///< inner, and in a CavityTable: the cavity (CavityEntry::id at tau, the id of the contour around it); else -1
     friend bool operator==(const RecommendedIsovalue&, const RecommendedIsovalue&) = default;
 };
 
 struct ObjectTable {
     std::vector<ObjectEntry> entries;  ///< by rank; the main branch has up to five, from the outside in, the box of the volume last
-    /// Of all objects of the table, by their rank; of each those of lines first, then by descending prominence, outlines last; then outer
-    /// and inner ones that are further from the former than can be told apart, of up to five cavities. Empty: a store of an early version.
+    /// Of all objects of the table, by their rank; of each those of rows first, then by descending prominence, outlines last; then outer
+    /// and inner ones that can be distinguished from the former, of up to five cavities. Empty: a store of an early version.
     std::vector<RecommendedIsovalue> isovalues{};
     std::int64_t branches = 0;  ///< how many objects there are in all (maxima events)
     double noise = 0;           ///< estimated standard deviation of the noise, stored units
@@ -73,21 +72,21 @@ struct RankOptions {
 };
 
 /// Needs an analysis with zones. Ranking by hypervolume, isovalues by the stability of the volume (docs/theory/7-which-objects-matter.md).
-/// Cost: with the dark objects, as rank_cavities().
+/// Cost: that of rank_cavities(), as cavities are found too.
 [[nodiscard]] ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options = {},
                                        const Context& context = {});
 
-/// How far noise of that standard deviation rises above its surroundings in a volume of so many voxels: what rises higher is no noise
+/// How far noise of that standard deviation rises above its surroundings in a volume of so many voxels: what rises higher is not noise
 /// (docs/theory/8-noise-and-stability.md#how-high-noise-rises). In units of `noise`.
 [[nodiscard]] double noise_height(double noise, std::int64_t voxels);
 
 /// Those of one object, given by ObjectEntry::branch_top or CavityEntry::branch_minimum. isovalues: of a table.
 [[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top);
-/// That of the line's own isovalue; nothing when it is not known.
+/// That of the entry's own isovalue; empty when it is unknown.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
 inline constexpr double kBackgroundPart = 2.0 / 3;
-/// Does it show the box of the volume more than what is in it? An outline of more than that part of all voxels. Pictures leave it out.
+/// Is it background: an outline of more than that part of all voxels, nearly the box of the volume? Pictures omit it.
 [[nodiscard]] bool is_background(const ObjectEntry& entry, const Extent& extent);
 
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.

@@ -20,32 +20,32 @@ namespace isoatlas {
 /// Written to a temporary name and renamed. Throws Error: usage (unknown extension), resource.
 void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels);
 
-/// Of which analysis labels are, for the header of their file.
+/// The analysis that labels come from, for the header of their file.
 struct LabelOrigin {
     Interpolant interpolant;
     double tunnel_height = 0;   ///< of CutOptions or AnalysisOptions: difference of stored values
     std::optional<double> tau;  ///< stored value: objects at tau; none: zones
     bool cavities = false;      ///< cavities at tau
 };
-/// The same, and the file says the origin of its labels: as key/value pairs in .nrrd, as lines of ImageJ's description in .tif,
+/// The same, and the file records the origin of its labels: as key/value pairs in .nrrd, as lines of ImageJ's description in .tif,
 /// "isoatlas objects at tau 0.5, trilinear" (seven digits) in NIfTI. `info` is that of the volume: it calibrates the values.
 void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const LabelOrigin& origin);
 
-/// Labels of a cut with Cut::label: an object's position in Cut::objects + 1, the largest is 1; 0: Low. objects: only those that hold these
-/// voxels, with the same labels; empty: all. Throws Error{not_found} for a voxel in no object.
+/// Labels of a cut with Cut::label: an object's position in Cut::objects + 1, the largest is 1; 0: Low. objects: only those that contain
+/// these voxels, with the same labels; empty: all. Throws Error{not_found} for a voxel in no object.
 [[nodiscard]] std::vector<std::uint32_t> object_labels(const Cut& cut, std::span<const std::int64_t> objects = {});
 
 /// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .nii.
 void write_volume(const std::string& path, const Volume& volume);
 
-/// For people: "faces", "trilinear", "trilinear, tunnel height 0.25" (seven digits; calibrated; unless it is 0).
+/// For users: "faces", "trilinear", "trilinear, tunnel height 0.25" (seven digits; calibrated; unless it is 0).
 [[nodiscard]] std::string describe(Interpolant interpolant, double tunnel_height);
 
 enum class TreeDetail : std::uint8_t { events, levels, elements, contours };
 
 struct TreeOutput {
     TreeDetail detail = TreeDetail::events;
-    std::int64_t max_listed_contours = 20'000'000;  ///< above this many numbers the per-object genus lists are left out and said so
+    std::int64_t max_listed_contours = 20'000'000;  ///< of more numbers the file omits the per-object genus lists and says so
 };
 
 /// The tree as a file; the format follows the name: .json (docs/schema), .graphml, .csv, .vtu (points and lines, TTK array names).

@@ -1,7 +1,7 @@
 // The files that isoatlas writes: which ones may be replaced, and what becomes of those that are not finished.
 //
-// A file is written in its folder without a name, or under one that nobody can foretell, synced, and given its name: under that name is the
-// old file or the new one, whole. What the writers do not replace they refuse, and so do these functions, before long work begins.
+// A file is written in its folder without a name, or under an unpredictable one, synced, and given its name: under that name is the old
+// file or the new one, whole. These functions refuse what the writers refuse to replace, before long work begins.
 #pragma once
 
 #include <string>

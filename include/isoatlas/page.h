@@ -1,4 +1,4 @@
-// The page: one self-contained HTML file with a picture of every object that matters. It opens from disk and loads nothing from elsewhere.
+// The page: one self-contained HTML file with a picture of every significant object. It opens from disk and loads nothing from elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 namespace isoatlas {
 
 struct PageOptions {
-    std::int64_t top = 24;            ///< at most so many pictures of bright objects
-    std::int64_t top_cavities = 12;   ///< and of dark ones
+    std::int64_t top = 24;            ///< at most so many pictures of objects
+    std::int64_t top_cavities = 12;   ///< and of cavities
     std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
     std::int64_t frames = 12;         ///< of a turntable, 1 to 64
-    std::string source{};             ///< what commands on the page name: the volume or the store; empty: the store
+    std::string source{};             ///< the file in commands on the page: the volume or the store; empty: the store
 };
 
 struct PageReport {
     std::int64_t objects = 0;   ///< entries, with a picture each
-    std::int64_t cavities = 0;  ///< of these: dark objects
-    std::int64_t hidden = 0;    ///< objects of the volume, bright and dark, that have no picture
+    std::int64_t cavities = 0;  ///< of these: cavities
+    std::int64_t hidden = 0;    ///< objects and cavities of the volume that have no picture
     std::int64_t bytes = 0;     ///< of the page
 };
 
-/// Ranks the bright and dark objects of a store, draws them and writes the page. Throws Error: usage (options), input (damaged store),
+/// Ranks the objects and cavities of a store, renders them and writes the page. Throws Error: usage (options), input (damaged store),
 /// resource (cannot be written), cancelled. Cost: that of Atlas::hierarchy() and
 /// Atlas::histogram(), find_handles() (isoatlas/handles.h), and draws objects * frames pictures.
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options = {}, const Context& context = {});

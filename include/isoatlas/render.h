@@ -27,7 +27,7 @@ struct Colour {
     double red = 0, green = 0, blue = 0;
     bool operator==(const Colour&) const = default;
 };
-/// Colours that people with any kind of colour vision tell apart (after Okabe and Ito, 2008), the first one that of bone; repeats after 7.
+/// Colours distinguishable by any kind of colour vision (after Okabe and Ito, 2008), the first one that of bone; repeats after 7.
 [[nodiscard]] Colour palette(std::int64_t i);
 
 /// One thing to be drawn.
@@ -44,21 +44,20 @@ struct HalfSpace {
     double offset = 0;
 };
 
-/// A picture that hangs in space: its upper left corner, and the vectors to its right and its lower end. Nothing cuts it, no light shades
-/// it.
+/// A picture in space: its upper left corner, and the vectors to its right and its lower end. It is neither clipped nor shaded.
 struct SceneSlice {
     Image picture;
     Vec3 corner{}, across{}, down{};
 };
 
-/// Light that matter between two values sends out and swallows. Extinction per unit of length rises linearly from 0 at low and at high to
-/// `density`, over `ramp` of the range at each end, 0 (a box) to 0.5 (a triangle).
+/// Tent function of opacity: emission and absorption between two values. Extinction per unit of length rises linearly from 0 at low and at
+/// high to `density`, over `ramp` of the range at each end, 0 (a box) to 0.5 (a triangle).
 struct OpacityTent {
     double low = 0, high = 0;  ///< stored values
     Colour colour{};
     double density = 0;
     double ramp = 0.5;
-    double tau = 0;      ///< isovalue of the object that it shows; tells nothing but the caller
+    double tau = 0;      ///< isovalue of the object that it shows; only for the caller
     std::string name{};  ///< for the legend; empty: not in it
 };
 
@@ -70,14 +69,14 @@ struct TransferCurve {
     std::string name{};  ///< for the legend; empty: not in it
 };
 
-/// A volume drawn as glowing matter: emission and absorption, composited front to back together with surfaces and slices. Bumps and curves
-/// add up.
+/// Volume rendering of a participating medium: emission and absorption, composited front to back together with surfaces and slices. Tents
+/// and curves add up.
 struct SceneVolume {
     const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
     std::vector<OpacityTent> bumps{};
     std::vector<TransferCurve> curves{};
-    std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; left out: looked for
-    bool shadows = false;  ///< light of the key light is scattered once: matter and opaque surfaces keep it from what lies behind them
+    std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; unset: computed
+    bool shadows = false;                          ///< single scattering of the key light: the medium and opaque surfaces cast shadows
 };
 
 struct Scene {
@@ -92,18 +91,18 @@ struct Scene {
 
 enum class Projection : std::uint8_t { orthographic, perspective };
 
-/// Where one looks from. `toward` is the unit vector from what is looked at to the eye, `up` a unit vector that is upwards in the picture.
+/// A view direction. `toward` is the unit vector from the target to the camera, `up` a unit vector that is upwards in the picture.
 struct View {
     Vec3 toward{0, -1, 0}, up{0, 0, 1};
 };
 
-/// An eye. The picture's vertical extent in the plane through `target` is `height`; pixels are square.
+/// The picture's vertical extent in the plane through `target` is `height`; pixels are square.
 struct Camera {
     Projection projection = Projection::orthographic;
     Vec3 target{};
     View view{};
     double height = 1;    ///< physical
-    double distance = 1;  ///< of the eye from the target; perspective only
+    double distance = 1;  ///< of the camera from the target; perspective only
 };
 
 enum class Background : std::uint8_t { light, dark, transparent };
@@ -132,10 +131,10 @@ struct RenderOptions {
 /// A camera that shows all of the scene with a margin. Throws Error{not_found} for an empty scene.
 [[nodiscard]] Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& options = {});
 
-/// A camera that shows all of the scene however it is turned around the axis `up` through its middle.
+/// A camera that shows all of the scene however it is rotated around the axis `up` through its middle.
 [[nodiscard]] Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const RenderOptions& options = {});
-/// The view after the eye has gone around an axis, counter-clockwise seen from its tip.
-[[nodiscard]] View turned(const View& view, const Vec3& axis, double degrees);
+/// The view after a rotation of the camera around an axis, counter-clockwise seen from its tip.
+[[nodiscard]] View rotated(const View& view, const Vec3& axis, double degrees);
 
 /// Where a point appears, in pixels from the upper left corner of the picture (pixel centres at .5), and its depth towards the viewer.
 [[nodiscard]] Vec3 project(const Camera& camera, const RenderOptions& options, const Vec3& point);
@@ -171,26 +170,26 @@ struct SliceOptions {
 /// Throws Error: usage (axis, index, side). Cost: O(slice + pixels).
 [[nodiscard]] SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, const Context& context = {});
 
-/// Bumps for the objects of a table at their best isovalues, in ascending order, one colour each (from palette(first_colour) on), outer
-/// matter thinner: a skin at the isovalue, and a thin body up to where another object, another recommended isovalue of its own or its top
+/// Tents for the objects of a table at their best isovalues, in ascending order, one colour each (from palette(first_colour) on), outer
+/// objects thinner: a skin at the isovalue, and a thin body up to where another object, another recommended isovalue of its own or its top
 /// comes; the last one is solid. Background (is_background()) only if there is nothing else. range: lowest and highest sample.
 [[nodiscard]] std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const VolumeInfo& info, std::array<double, 2> range,
                                                         std::int64_t first_colour = 0);
 
-/// Between which values something may be seen, in no order; they may overlap. volume.range must be given.
+/// Intervals of values that may be visible, unordered; they may overlap. volume.range must be given.
 [[nodiscard]] std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume);
 
-/// What a place may be made of. Its stored values have a normal distribution.
+/// A material of a mixture. Its stored values have a normal distribution.
 struct Material {
     std::string name;
     double mean = 0, sigma = 1;  ///< stored values; sigma > 0
     Colour colour{};
-    double density = 0;  ///< extinction per unit of length where there is nothing else; 0: it is not seen
+    double density = 0;  ///< extinction per unit of length where there is nothing else; 0: invisible
 };
-/// Which part of a place of some value is which material, sum 1: P_i / (P_1 + ... + P_n), P_i the probability of the value in material i
+/// The fraction of each material at a place of some value, sum 1: P_i / (P_1 + ... + P_n), P_i the probability of the value in material i
 /// (Drebin, Carpenter, Hanrahan: Volume rendering, 1988). Throws Error{usage} for a sigma that is not positive.
 [[nodiscard]] std::vector<double> material_percentages(std::span<const Material> materials, double value);
-/// Each material where and as dense as its percentages say. range: lowest and highest sample. Throws as material_percentages.
+/// The extinction of each material, by its percentages. range: lowest and highest sample. Throws as material_percentages.
 [[nodiscard]] std::vector<TransferCurve> material_transfer(std::span<const Material> materials, std::array<double, 2> range);
 
 /// A picture with nothing in it but its caption.

@@ -1,4 +1,4 @@
-// Search table: how much must be read and looked at to find the cells of a surface? Table 13.1 of the dissertation, for any volume.
+// Search table: how many cells are loaded and visited to find the active ones. Table 13.1 of the dissertation, for any volume.
 //
 // Isovalues: one in the middle of every interval between neighbouring values among the critical values (of events) and the lowest sample;
 // in such an interval the zones do not change. All have the same weight in averages.
@@ -6,17 +6,17 @@
 // belong to none. A cell is *active* at tau when its lowest sample < tau <= its highest.
 // Two ways to find the active cells:
 //   zone files  the dissertation's (sections 10.1 and 11.2). A zone is *active* at tau when tau lies in (value of its parent, its value].
-//               The points of its file are its voxels, and the voxels beside its object (grid edges) when it ends, which wait to be
+//               The points of its file are its voxels, and those adjacent to its object (grid edges) when it ends, which wait to be
 //               flooded. Cells with such a point at a corner are in the file, sorted by their highest sample. *Loaded*: the cells in the
 //               files of all active zones. *Visited*: in each file those from the highest down to the first whose highest sample is below
 //               tau, included.
-//   bricks      ours (docs/decisions/0009). A brick of 16 x 8 x 8 samples is read when tau divides it, or what a surface would look at
+//   bricks      ours (docs/decisions/0009). A brick of 16 x 8 x 8 samples is read when tau divides it, or what a surface would read
 //               around it; outside the volume everything is Low. Loaded and visited: the cells whose first corner lies in a brick that is
 //               read.
 // Load utility: active / loaded; travel utility: active / visited, in percent.
 // Where the dissertation keeps a file for each component of a zone, a zone has one file here: all its components are active together, and a
-// cell in two of them counts once. A voxel waits in the files of all objects that it is beside, not of the first one alone; otherwise cells
-// would be missed where objects meet.
+// cell in two of them counts once. A voxel waits in the files of all objects that it is adjacent to, not of the first one alone; otherwise
+// cells would be missed where objects meet.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@
 
 namespace isoatlas {
 
-/// What one isovalue costs, in cells.
+/// Cost of one isovalue, in cells.
 struct SearchCost {
     double tau;
     std::int64_t active;

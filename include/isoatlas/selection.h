@@ -1,4 +1,4 @@
-// Selection: which objects are to be seen. The tree stays as it is.
+// Selection: which objects are kept. The tree is not changed.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace isoatlas {
 
-/// What is asked for must all hold; nothing asked for: every object is kept. The main branch, the object that is there at every isovalue,
-/// is always kept. Every size grows towards the main branch, so with an object all that it merges into are kept.
+/// All conditions given must hold; none given: every object is kept. The main branch, the object that exists at every isovalue, is always
+/// kept. Every size grows towards the main branch, so with an object all that it merges into are kept.
 struct Selection {
     std::optional<std::int64_t> keep{};   ///< the first so many by rank (hypervolume), the main branch included
     std::optional<double> top_percent{};  ///< the first so many percent of all objects by rank, rounded up

@@ -13,11 +13,11 @@ namespace isoatlas {
 
 struct ServerOptions {
     int port = 0;             ///< 1 to 65535; 0: any that is free
-    std::string token{};      ///< what the questions of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
-    std::int64_t memory = 0;  ///< bytes for answers that are being made or sent at a time; 0: a quarter of what there is
+    std::string token{};      ///< what requests of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
+    std::int64_t memory = 0;  ///< bytes for responses in progress at a time; 0: a quarter of the memory available
 };
 
-/// Listens on 127.0.0.1 alone. Questions and answers: docs/server.md. Writes nothing to any disk but what keep_token() does.
+/// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does.
 class Server {
 public:
     /// There is no store yet: see open(). Throws Error: resource (the port is taken), usage (no such token can be used).
@@ -27,29 +27,28 @@ public:
     ~Server();
 
     [[nodiscard]] int port() const;
-    /// For programs, which carry the token beside it: http://127.0.0.1:PORT
+    /// For programs, which send the token with it: http://127.0.0.1:PORT
     [[nodiscard]] std::string address() const;
     [[nodiscard]] const std::string& token() const;
-    /// A new address that opens the page in one browser: good once, for ten minutes; 16 are good at a time, the oldest ends. From any
-    /// thread.
+    /// A new address that opens the page in one browser: valid once, for ten minutes; the oldest of more than 16 expires. Thread safe.
     [[nodiscard]] std::string address_for_one_use();
     /// Keeps the token in a file of this user alone, where ask_server() finds it, as long as this lives: viewer-PORT in
     /// $XDG_RUNTIME_DIR/isoatlas, else $XDG_CACHE_HOME/isoatlas or ~/.cache/isoatlas. Throws Error{resource}.
     void keep_token();
-    /// Answers until stop() is called.
+    /// Serves requests until stop() is called.
     void run();
-    /// From any thread; what is being answered is ended.
+    /// Thread safe; requests in progress are cancelled.
     void stop();
 
-    // From any thread: what those who have the page open see.
-    /// From now on questions are answered from this store, which must live as long as this.
+    // Thread safe; shown by all open pages.
+    /// From now on requests are served from this store, which must live as long as this.
     void open(const Atlas& atlas);
-    /// Finds what every page asks first, from the store that is open, so that nobody waits for it; returns when it is found, cannot be
-    /// found, or stop() was called. Those who ask meanwhile wait for the same. Cost: the trees are read.
+    /// Computes what every page requests first, from the store that is open, in advance; returns when it is done, has failed, or stop() was
+    /// called. Requests meanwhile wait for the same result. Cost: the trees are read.
     void prepare(const Context& context = {});
     /// The store is being built.
     void report_progress(const BuildState& state);
-    /// There will be no store. Another tell() or open() takes it back.
+    /// There will be no store. Another report_progress() or open() revokes it.
     void fail(const Error& error);
 
 private:

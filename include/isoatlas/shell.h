@@ -1,4 +1,4 @@
-// Shell: on which side of its object does a contour lie?
+// Shell: the side of its object that a contour lies on.
 #pragma once
 
 #include <cstdint>

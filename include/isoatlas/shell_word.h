@@ -1,4 +1,4 @@
-// Words of a command line that is to be copied into a shell.
+// Quoting of words of a command line for a POSIX shell.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Simplification as a view: the full hierarchy of objects is made once, what is shown of it may change at any moment.
+// Topological simplification as a view: the full hierarchy of objects is computed once, the selection shown may change at any time.
 //
 // Every object of the volume is a branch: it appears at a maximum and ends where it merges with one of larger hypervolume. A selection
 // keeps some branches. In the simplified tree the others are bypassed (dissertation, section 13.2 and figure 13.2): their zones join that
@@ -52,12 +52,12 @@ struct Simplified {
     double hidden_hypervolume = 0;            ///< of the largest of them
 };
 
-/// How many objects there are for every threshold of a size.
+/// Number of objects by threshold of a size.
 struct SelectionCurve {
     std::string size;                ///< "hypervolume", "persistence", "voxels"
     std::vector<double> threshold;   ///< descending; all objects have at least the last one
     std::vector<std::int64_t> kept;  ///< objects of at least that size
-    double automatic_threshold = 0;  ///< the least size of an object that the gate of rank_objects() keeps
+    double automatic_threshold = 0;  ///< the smallest size of an object that the gate of rank_objects() keeps
     std::int64_t automatic_kept = 0;
 };
 
@@ -71,9 +71,9 @@ public:
 
     /// All, by rank; the first is the main branch.
     [[nodiscard]] std::span<const BranchInfo> branches() const;
-    /// What a selection keeps, by rank. Cost: O(branches).
+    /// The branches that a selection keeps, by rank. Cost: O(branches).
     [[nodiscard]] std::vector<std::int64_t> kept(const Selection& selection) const;
-    /// What noise does not explain and is not tiny: the automatic choice, by rank.
+    /// The branches that noise does not explain and that are not tiny: the automatic choice, by rank.
     [[nodiscard]] const std::vector<std::int64_t>& significant() const;
     /// Cost: O(events).
     [[nodiscard]] Simplified simplify(const Selection& selection) const;
@@ -93,7 +93,7 @@ private:
 /// usage (unknown extension), resource.
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves);
 
-/// What a file of a simplified tree is made from; all of the same volume.
+/// Input of a file of a simplified tree; all of the same volume.
 struct SimplifiedTree {
     const VolumeInfo& info;
     const Analysis& analysis;

@@ -1,4 +1,4 @@
-// Spectrum: what there is at every isovalue. How many objects, contours, tunnels and cavities; how large the surface is.
+// Contour spectrum: numbers of objects, contours, tunnels and cavities at every isovalue, and sizes of the surface.
 //
 // Counts follow from the trees and are exact for every isovalue at once: they change at events only. Sizes are measured on the surfaces of
 // some isovalues.
@@ -31,7 +31,7 @@ struct SpectrumInterval {
     double low, high;  ///< stored values
     LevelCounts all;   ///< of all objects
     LevelCounts
-        significant;  ///< of the objects that hold an significant one (ObjectTable): as many objects as significant branches are there
+        significant;  ///< of the objects that contain a significant one (ObjectTable): as many objects as significant branches are there
 };
 
 /// The closed surface of an isovalue, as extract() makes it.
@@ -47,15 +47,15 @@ struct SpectrumSize {
 struct SpectrumAdvice {
     double tau;                            ///< stored value
     std::int64_t object;                   ///< id at tau
-    std::optional<IsovalueReason> reason;  ///< nothing: a store of an early version
+    std::optional<IsovalueReason> reason;  ///< empty: a store of an early version
     std::int64_t cavity = -1;              ///< as in RecommendedIsovalue
-    std::string note;                      ///< of its line of the ObjectTable; empty: it has none
+    std::string note;                      ///< of its row of the ObjectTable; empty: it has none
 };
 
 struct Spectrum {
     std::vector<SpectrumInterval> intervals;  ///< descending; above the first there is nothing
     std::vector<SpectrumSize> sizes;          ///< descending isovalues
-    std::vector<SpectrumAdvice> advice;       ///< of every object of the ObjectTable, by rank: its lines, then its other isovalues
+    std::vector<SpectrumAdvice> advice;       ///< of every object of the ObjectTable, by rank: its rows, then its other isovalues
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
     bool selected = false;     ///< significant is what SpectrumOptions::selection keeps
@@ -63,7 +63,7 @@ struct Spectrum {
 
 struct SpectrumOptions {
     std::int64_t samples = 24;             ///< isovalues that are measured: the middles of so many equal parts of the range; 0: none
-    std::optional<Selection> selection{};  ///< says what is significant; none: what noise does not explain
+    std::optional<Selection> selection{};  ///< selects what is significant; none: what noise does not explain
 };
 
 /// analysis: of this volume, with zones. Cost: O(events) and rank_objects(), and for every measured isovalue that of extract().

@@ -19,17 +19,17 @@ namespace isoatlas {
 
 struct Surface {
     Array<std::array<double, 3>> points;
-    Array<std::array<float, 3>> normals;  ///< unit length, per point; empty when not asked for
+    Array<std::array<float, 3>> normals;  ///< unit length, per point; empty when not requested
     Array<std::array<std::int64_t, 3>> triangles;
     Array<std::array<std::int64_t, 2>> segments;  ///< 2D only
-    Array<std::int64_t> object;                   ///< per point, id as in Cut; empty when not asked for
-    Array<std::int64_t> contour;                  ///< per point, id as in Cut; empty when not asked for
+    Array<std::int64_t> object;                   ///< per point, id as in Cut; empty when not requested
+    Array<std::int64_t> contour;                  ///< per point, id as in Cut; empty when not requested
     double tau = 0;                               ///< stored value
     double reported_tau = 0;                      ///< calibrated value
     std::string space = "unknown";                ///< of the points
     std::string unit;
     bool closed = true;                                ///< false: open at the border of the volume (Boundary::open)
-    Interpolant interpolant = Interpolant::trilinear;  ///< that extract() used; write_surface() says it in the file
+    Interpolant interpolant = Interpolant::trilinear;  ///< that extract() used; write_surface() records it in the file
     double tunnel_height = 0;                          ///< of ExtractOptions: difference of stored values; trilinear only
     double reported_tunnel_height = 0;                 ///< calibrated
 };
@@ -54,11 +54,11 @@ struct ExtractOptions {
 };
 
 /// Cost: O(volume) scan plus O(surface). Throws Error: not_found for an object or contour that does not exist at tau, resource
-/// for more triangles than allowed (of all that is there, when what is asked for cannot be told apart before).
+/// for more triangles than allowed (of the whole surface, where the selection is not known before).
 /// The same bytes for any thread count.
 [[nodiscard]] Surface extract(const Volume& volume, double tau, const ExtractOptions& options = {}, const Context& context = {});
 
-/// What a triangle mesh is, decided on indices alone (degenerate triangles on coordinates).
+/// Properties of a triangle mesh, decided on indices alone (degenerate triangles on coordinates).
 struct SurfaceReport {
     std::int64_t points = 0, triangles = 0, edges = 0;
     std::int64_t boundary_edges = 0;       ///< edges with one triangle

@@ -1,4 +1,4 @@
-// Bytes of strangers as text: headers, units and file names need not be UTF-8, and what isoatlas shows or writes always is.
+// Foreign bytes as text: headers, units and file names need not be UTF-8, and what isoatlas shows or writes always is.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ namespace isoatlas {
 struct CheckResult {
     std::string name;  ///< "surface_is_closed", "join_tree_is_valid", ...
     bool holds;
-    std::string detail;  ///< numbers; for a failure the first offender
+    std::string detail;  ///< numbers; for a failure the first violation
 };
 
 /// closed, manifold (edges and points), oriented, no zero-area triangles, even Euler numbers.

@@ -71,7 +71,7 @@ struct Calibration {
     bool operator==(const Calibration&) const = default;
 };
 
-/// What a file is, known from its header alone.
+/// Description of a volume file, from its header alone.
 struct VolumeInfo {
     std::string path;       ///< as the user gave it
     std::string format;     ///< "NRRD", "NIfTI-1", "RAW", ...
@@ -105,8 +105,8 @@ protected:
     VolumeInfo info_;
 };
 
-/// What to assume about RAW files; contradictions with a header are errors. Unset: read from a JSON sidecar
-/// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw). And what to allow in files of any format.
+/// Assumptions about RAW files; contradictions with a header are errors. Unset: read from a JSON sidecar
+/// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw). Also what is allowed in files of any format.
 struct OpenOptions {
     std::optional<std::vector<std::int64_t>> dims;  ///< x y [z]
     std::optional<ValueType> type;
@@ -122,7 +122,7 @@ struct OpenOptions {
 /// Throws Error: input (missing, truncated, contradictory), unsupported (4D without time_step, complex, 64-bit integers, ...).
 [[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options = {});
 
-/// What to do with NaN and infinite samples (and, if given, a no-data value).
+/// Policy for NaN and infinite samples (and, if given, a no-data value).
 struct MissingPolicy {
     enum class Action : std::uint8_t { error, replace, below } action = Action::error;
     double value = 0;               ///< for replace

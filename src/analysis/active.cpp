@@ -33,8 +33,7 @@ void require_finite(double tau) {
 
 /// A store whose checksums are right can still hold trees that no volume has.
 [[noreturn]] void contradiction() {
-    throw Error(ErrorKind::input,
-                {.where = "trees", .what = "they contradict themselves", .next = "build the store again from the volume"});
+    throw Error(ErrorKind::input, {.where = "trees", .what = "they are inconsistent", .next = "build the store again from the volume"});
 }
 
 template <class Id>
@@ -192,7 +191,7 @@ private:
     Extent extent_;
 };
 
-// clang 19 leaves out what no line outside a generic lambda asks for.
+// clang 19 does not instantiate what is used only inside a generic lambda.
 template class Answers<std::uint32_t>;
 template class Answers<std::uint64_t>;
 

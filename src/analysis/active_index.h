@@ -18,7 +18,7 @@
 
 namespace isoatlas {
 
-/// What is asked of contours: 13 bytes an element (ids of 32 bits).
+/// Data for queries of contours: 13 bytes an element (ids of 32 bits).
 template <class Id>
 struct ActiveContours {
     MaxPyramid<Id, std::greater<>> highest_other;

@@ -65,7 +65,7 @@ void make_zones(const GridView<T>& grid, AnalysisArrays<Id>& arrays, const Conte
     });
 }
 
-/// Is every basin (arrays.zone) that of a maximum, and does every object begin at one? HeavyPathDecomposition takes it for granted.
+/// Is every basin (arrays.zone) that of a maximum, and does every object begin at one? HeavyPathDecomposition relies on it.
 template <class Id>
 bool fit(const AnalysisArrays<Id>& arrays, const Extent& extent) {
     BudgetPoll memory;

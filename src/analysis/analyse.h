@@ -1,4 +1,4 @@
-// What a store keeps of an analysis, found in two steps that can be years apart; all else follows from it (analysis/trees.h).
+// The parts of an analysis that a store keeps, computed in separate steps; all else is restored from them (analysis/trees.h).
 #pragma once
 
 #include "field/volume_view.h"

@@ -1,4 +1,4 @@
-// What an Analysis holds: the arrays of the engine for one width of ids, and the indices that accessors build on first use.
+// Data of an Analysis: the arrays of the engine for one width of ids, and the indices that accessors build on first use.
 #pragma once
 
 #include <memory>

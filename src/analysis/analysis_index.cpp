@@ -6,7 +6,7 @@
 namespace isoatlas {
 namespace {
 
-/// JobQueue counts (by list, shifted by one) into first positions.
+/// Exclusive scan: counts (by list, shifted by one) become first positions.
 template <class Id>
 void accumulate(std::vector<Id>& first) {
     std::partial_sum(first.begin(), first.end(), first.begin());

@@ -1,7 +1,7 @@
-// A tree of objects seen from one side, so that bright and dark objects are ranked by the same code.
+// ObjectTree: merge tree of superlevel or sublevel sets, so that objects and cavities are ranked by the same code.
 //
-// Bright: the criticality tree; the height of a sample is its value. Dark: the tree of low components (analysis/sublevel_tree.h); the
-// height is the value negated. Events are numbered by descending height, children before their parents.
+// Superlevel sets: the criticality tree; the height of a sample is its value. Sublevel sets: the tree of low components
+// (analysis/sublevel_tree.h); the height is the value negated. Events are numbered by descending height, children before their parents.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ObjectTree {
     std::span<const Id> voxels;      ///< per event, of its zone
     std::span<const Id> zone;        ///< per voxel
     double sign = 1;                 ///< height = sign * value
-    std::int64_t main_leaf = -1;     ///< the branch of this event goes on wherever it merges; -1: the one of largest hypervolume does
+    std::int64_t main_leaf = -1;     ///< the branch of this event continues at every merge; -1: the one of largest hypervolume does
 
     [[nodiscard]] std::size_t size() const { return parent.size(); }
     [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e); }

@@ -21,9 +21,9 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBlock = 1024;  // samples that climb together
+constexpr std::size_t kBlock = 1024;  // samples whose zones are found together
 
-/// Events of the low tree, with the elements numbered backwards.
+/// Events of the split tree, with the elements numbered backwards.
 template <class Id>
 CriticalityTree<Id> sublevel_events(const AnalysisArrays<Id>& arrays, std::span<const double> height, int rank) {
     const std::size_t n = arrays.value.size();
@@ -95,7 +95,7 @@ BigVector<Id> basins_of_minima(const Extent& extent, std::span<const std::uint8_
     return resolve_basins<Id>(extent, height, Direction::down, links, first, context.threads);
 }
 
-/// Basins in dark.zone become zones in place.
+/// Basins in sublevel.zone become zones in place.
 template <class T, class Id>
 void label_zones(const GridView<T>& grid, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, SublevelTree<Id>& sublevel,
                  const Context& context) {

@@ -1,4 +1,4 @@
-// The tree of low components: the low side of the contour tree, rooted at the highest element.
+// SublevelTree: the tree of low components, rooted at the highest element.
 //
 // A low component is a connected set of Lows; the one with the outside of the volume is the outside, every other one is a cavity. Going up
 // they appear at minima and merge, as objects do going down, and together with the contours around them they are the split tree of the
@@ -7,7 +7,7 @@
 // outside.
 //
 // Elements are numbered backwards: the outside is 0, the element x of the contour tree with n elements is n - x. Then heights (values
-// negated) descend and children come before their parents, as in the criticality tree, and all code for that serves here.
+// negated) descend and children come before their parents, as in the criticality tree, and the same code serves both.
 //
 // In the literature: split tree, the merge tree of sublevel sets (Carr, Snoeyink, Axen, Computing contour trees in all dimensions, 2003);
 // its components are cavities or voids where an object encloses them.
@@ -22,7 +22,7 @@
 
 namespace isoatlas {
 
-/// A dark event is what happens to one low component at one value; its zone are the isovalues (its value, value of its parent].
+/// An event is what happens to one low component at one value; its zone is the isovalues (its value, value of its parent].
 template <class Id>
 struct SublevelTree {
     CriticalityTree<Id> tree;

@@ -1,4 +1,4 @@
-// The trees of an analysis: from critical elements, or again from the contour tree alone.
+// The trees of an analysis: from critical elements, or restored from the contour tree alone.
 #pragma once
 
 #include "analysis/analysis_data.h"
@@ -14,7 +14,7 @@ BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int thr
 template <class Id>
 void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, const Context& context);
 
-/// The same from value, code and contours.other, all else follows from them. Returns false when these are no contour tree: a damaged
+/// The same from value, code and contours.other, all else follows from them. Returns false when these are not a contour tree: a damaged
 /// store. Throws Error{cancelled}. Cost: O(n alpha).
 template <class Id>
 [[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context);

@@ -34,7 +34,7 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(at[0] + origin[0], at[1] + origin[1], at[2] + origin[2]);
 }
 
-/// What answers from the trees alone.
+/// Queries on the trees alone.
 struct Trees {
     Analysis analysis;
     ActiveIndex active;
@@ -73,7 +73,7 @@ struct Atlas::Data {
         *cost += query;
     }
 
-    /// One object from its own part of the store; nothing when the whole is cheaper, or the voxel lies in no object.
+    /// One object from its own part of the store; nullopt when the whole is cheaper, or the voxel lies in no object.
     std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost) {
         LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
@@ -93,7 +93,7 @@ struct Atlas::Data {
         return surface;
     }
 
-    /// Runs query(level, active): it fills in the number of active cells; null when nobody asks. named: does it ask for names?
+    /// Runs query(level, active): sets the number of active cells; may be null. named: does it need representatives?
     template <class Query>
     auto at_level(double tau, bool named, const Context& context, QueryCost* cost, Query&& query) {
         LevelQuery spent;
@@ -210,8 +210,7 @@ Volume Atlas::volume(const SamplesWanted& wanted, const Context& context, QueryC
 
 std::vector<std::int64_t> Atlas::histogram(std::span<const double> edges, const Context& context) const {
     if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end())) {
-        throw Error(ErrorKind::usage,
-                    {.where = "edges of a histogram", .what = "they do not ascend", .expected = "two or more, ascending"});
+        throw Error(ErrorKind::usage, {.where = "edges of a histogram", .what = "not ascending", .expected = "two or more, ascending"});
     }
     IoCounters counters;
     std::vector<std::int64_t> counts = data_->samples->histogram(edges, context, counters);
@@ -232,7 +231,7 @@ Volume Atlas::check(const Context& context) const {
     if (checksum(samples.bytes) != data_->store.contents().parameters.samples_checksum) {
         throw Error(ErrorKind::input, {.file = data_->store.path(),
                                        .where = "volume/data",
-                                       .what = "the samples are not those that the store was made of",
+                                       .what = "the samples differ from those that the store was built from",
                                        .next = "build it again from the volume"});
     }
     return samples;

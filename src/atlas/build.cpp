@@ -1,4 +1,4 @@
-// Building a store: trees, zones, pack. Every phase leaves a file that the next one, or the next process, goes on from.
+// Building a store: trees, zones, pack. Every phase writes a file from which the next one, or another process, continues.
 #include "isoatlas/build.h"
 
 #include <algorithm>
@@ -49,13 +49,13 @@ std::uint64_t checksum_of(std::span<const std::byte> samples) {
     return sum.sum();
 }
 
-/// fingerprint: of what is asked for. samples: checksum of those in the file; nothing: they are those that are analysed.
+/// fingerprint: of file and options. samples: checksum of those in the file; nullopt: equal to the analysed ones.
 Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, Fingerprint fingerprint,
                      std::optional<std::uint64_t> samples) {
     Contents contents;
     contents.volume = *volume.info;
     const std::size_t slash = volume.info->path.rfind('/');
-    if (slash != std::string::npos) contents.volume.path = volume.info->path.substr(slash + 1);  // where it lay does not matter
+    if (slash != std::string::npos) contents.volume.path = volume.info->path.substr(slash + 1);  // its location is irrelevant
     const std::size_t bytes = static_cast<std::size_t>(volume.info->extent.voxels()) * size_of(volume.info->type);
     contents.parameters = {options.interpolant, options.tunnel_height, checksum_of({volume.bytes, bytes})};
     const std::uint64_t analysed = contents.parameters.samples_checksum;
@@ -64,7 +64,7 @@ Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, F
     return contents;
 }
 
-/// Counts bytes of the bricks as they are written; all else is copied.
+/// Progress counts bytes of the written bricks; all else is copied.
 void report_packing(std::vector<PackedArray>& arrays, const Context& context) {
     double total = 0;
     for (const PackedArray& array : arrays) total += array.chunk > 0 ? 0 : static_cast<double>(array.bytes());
@@ -82,7 +82,7 @@ void report_packing(std::vector<PackedArray>& arrays, const Context& context) {
     }
 }
 
-/// Highest less lowest sample; they may be more than memory.
+/// Highest minus lowest sample of a volume that may exceed memory.
 double range_of(const VolumeView& volume) {
     return visit_samples(volume, []<class T>(std::span<const T> samples) {
         constexpr std::size_t kPart = std::size_t{1} << 20;
@@ -105,7 +105,7 @@ public:
         };
     }
 
-    /// That of the caller; what is told is said to other processes too. Valid while this lives.
+    /// Context of the caller; progress is also published to other processes. Valid for the lifetime of this.
     [[nodiscard]] const Context& context() const { return context_; }
 
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
@@ -138,7 +138,7 @@ public:
     }
 
 private:
-    /// What is not used is reported; phases that have the same wrong with them, together.
+    /// Unused phases are reported; those with the same reason together.
     [[nodiscard]] std::unique_ptr<Container> finished(const std::string& phase, const Contents& contents) {
         std::string why_not;
         std::unique_ptr<Container> found = folder_.finished(phase, contents, why_not);
@@ -175,7 +175,7 @@ private:
 }  // namespace
 
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
-    Build build(path, options.restart, context);  // what is in the way is told before anything is read
+    Build build(path, options.restart, context);  // obstacles are reported before anything is read
     const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
     check_estimate(estimate, reader.info().path, path);
     const MemoryLimit limit(estimate.uses_scratch ? estimate.budget : 0, build.scratch_folder());

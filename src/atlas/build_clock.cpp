@@ -1,4 +1,4 @@
-// Where a build is, and when it will be done, from what its phases tell.
+// Progress and remaining time of a build, from the progress of its phases.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,11 +9,11 @@
 namespace isoatlas {
 namespace {
 
-/// Of the time of a build, when each phase begins: read, classify, two that tell nothing, trees, zones, objects, pack.
+/// Start of each phase as a fraction of the build time: read, classify, two without progress, trees, zones, objects, pack.
 constexpr std::array kShares{0.0, 0.03, 0.17, 0.17, 0.17, 0.25, 0.4, 0.83, 1.0};
-constexpr double kEnoughToTell = 0.02, kShortest = 0.5;  ///< of the build, and seconds: earlier guesses are wild
+constexpr double kEnoughToTell = 0.02, kShortest = 0.5;  ///< min fraction and seconds for an estimate
 
-/// Of the whole build.
+/// Fraction of the whole build.
 double fraction_of(const Progress& progress) {
     const double part = std::clamp(progress.fraction, 0.0, 1.0);
     if (progress.phase_count + 1 != static_cast<int>(kShares.size())) return 0;

@@ -9,9 +9,6 @@
 namespace isoatlas {
 namespace {
 
-using exact_text;
-using Fingerprint;
-
 std::string size_text(const Extent& extent) {
     std::string text = std::to_string(extent.size[0]) + " x " + std::to_string(extent.size[1]);
     return extent.rank == 3 ? text + " x " + std::to_string(extent.size[2]) : text;
@@ -23,7 +20,7 @@ std::string missing_text(const MissingPolicy& policy) {
     return "replaced by " + exact_text(policy.value);
 }
 
-/// Of the places of all slices of a grid with uneven steps.
+/// Checksum of the slice positions of a rectilinear grid.
 std::string coordinates_text(const Geometry& geometry) {
     Checksum sum;
     bool is_uneven = false;
@@ -47,7 +44,7 @@ void add_geometry(Fingerprint& fingerprint, const Geometry& geometry) {
     fingerprint.add("unit of length", geometry.unit);
 }
 
-/// What stores of versions 1 and 2 tell, in the words of header_fingerprint().
+/// Fingerprint of stores of versions 1 and 2, with the members of header_fingerprint().
 Fingerprint fingerprint_of(const Contents& contents) {
     BuildOptions options;
     options.gaussian = contents.volume.gaussian;
@@ -57,7 +54,7 @@ Fingerprint fingerprint_of(const Contents& contents) {
     return fingerprint;
 }
 
-/// The header of a file as it is told in those stores: with its calibration applied where the slope is negative.
+/// The header of a file as in those stores: with its calibration applied where the slope is negative.
 VolumeInfo analysed(VolumeInfo info) {
     if (info.calibration.slope < 0) info.type = ValueType::f64, info.calibration = {};
     return info;
@@ -69,7 +66,7 @@ std::uint64_t sum_of(VolumeReader& volume, const Context& context) {
     return sum.sum();
 }
 
-/// Of stores that tell no fingerprint.
+/// Differences from stores without a fingerprint.
 std::vector<std::string> differences_of_old(const Contents& contents, VolumeReader& volume, const BuildOptions& options,
                                             double tunnel_height, bool compare_samples, const Context& context) {
     const Fingerprint there = fingerprint_of(contents);
@@ -79,7 +76,8 @@ std::vector<std::string> differences_of_old(const Contents& contents, VolumeRead
     if (!found.empty() || !compare_samples) return found;
     const bool are_as_read =
         options.gaussian == 0 && options.missing.action == MissingPolicy::Action::error && volume.info().calibration.slope >= 0;
-    if (!are_as_read) return {"a store of version " + std::to_string(contents.version) + ", which does not tell what was filtered"};
+    if (!are_as_read)
+        return {"a store of version " + std::to_string(contents.version) + ", which does not record the samples before filtering"};
     if (sum_of(volume, context) != contents.parameters.samples_checksum) found.emplace_back("other samples there");
     return found;
 }
@@ -122,7 +120,7 @@ void SummingReader::read(std::int64_t z_begin, std::int64_t z_end, std::span<std
     below_.read(z_begin, z_end, out);
     data_->sum.add(out);
     data_->next = z_end;
-    info_ = below_.info();  // notes about the end of the file are there now
+    info_ = below_.info();  // after the notes about the end of the file
 }
 
 std::uint64_t SummingReader::sum() const {
@@ -135,7 +133,7 @@ std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& vol
     const Contents& contents = AtlasAccess::store(atlas).contents();
     double tunnel_height = options.analysis.tunnel_height;
     if (options.tunnel_height_percent > 0) {
-        const std::array<double, 2> range = atlas.range();  // that of the volume, if the store is of it
+        const std::array<double, 2> range = atlas.range();  // that of the volume, if the store was built from it
         tunnel_height = options.tunnel_height_percent / 100 * (range[1] - range[0]);
     }
     if (contents.fingerprint.members.empty()) return differences_of_old(contents, volume, options, tunnel_height, compare_samples, context);

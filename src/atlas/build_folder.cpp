@@ -18,9 +18,9 @@ constexpr const char* kLock = "lock";
 constexpr std::chrono::seconds kSayEvery{1};
 
 [[noreturn]] void cannot_make(const std::string& path, int error) {
-    const char* in_the_way = "choose another folder with -o, or remove what is in the way";
+    const char* in_the_way = "choose another folder with -o, or remove it";
     throw Error(ErrorKind::resource, {.file = path,
-                                      .what = std::string("the folder for the build cannot be made: ") + std::strerror(-error),
+                                      .what = std::string("cannot create the folder of the build: ") + std::strerror(-error),
                                       .next = error == -ENOTDIR ? in_the_way : next_step_after(error)});
 }
 
@@ -33,7 +33,7 @@ constexpr std::chrono::seconds kSayEvery{1};
 
 bool is_phase(std::string_view name) { return name == "trees" || name == "zones"; }
 
-/// Removes what builds make, but the lock. What cannot be removed stays: it is replaced when it is in the way.
+/// Removes the files of builds except the lock. Files that cannot be removed are replaced later.
 void remove_contents(const std::string& path) {
     for (const std::string& name : file_system().entries(path, std::numeric_limits<std::size_t>::max())) {
         if (is_phase(name)) (void)file_system().remove(path + "/" + name);
@@ -41,13 +41,13 @@ void remove_contents(const std::string& path) {
     }
 }
 
-/// Only folders of this user that are empty or have a lock can be those of builds.
+/// Accepts only folders of this user that are empty or have a lock.
 void check_found(const std::string& path) {
     using Kind = FileStatus::Kind;
     const FileStatus found = file_system().status_of_name(path);
     if (found.kind == Kind::missing) return;
     if (found.kind == Kind::link) not_ours(path, "is a link");
-    if (found.kind != Kind::folder) not_ours(path, "is no folder");
+    if (found.kind != Kind::folder) not_ours(path, "is not a folder");
     if (!found.own) not_ours(path, "belongs to another user");
     const bool is_empty = file_system().entries(path, 1).empty();
     if (!is_empty && file_system().status_of_name(path + "/" + kLock).kind == Kind::missing)
@@ -60,7 +60,7 @@ std::string text_of(File& lock, const std::string& path) {
     return text;
 }
 
-/// What is in the lock of somebody else; "" when that cannot be read.
+/// Text of the lock of another process; "" when it cannot be read.
 std::string text_of(const std::string& lock) try { return text_of(*open_file(lock), lock); } catch (const Error&) {
     return "";
 }
@@ -75,7 +75,7 @@ BuildFolder::BuildFolder(const std::string& store_path, bool restart) : path_(re
 
 void BuildFolder::lock(const std::string& store_path) {
     OpenedFile lock{nullptr, -ENOENT};
-    for (int attempt = 0; attempt < 3 && lock.error == -ENOENT; ++attempt) {  // a build that has just finished takes its folder away
+    for (int attempt = 0; attempt < 3 && lock.error == -ENOENT; ++attempt) {  // a build that has just finished removes its folder
         const int made = file_system().make_folder(path_);
         if (made < 0 && made != -EEXIST) cannot_make(path_, made);
         if (made == -EEXIST) check_found(path_);
@@ -87,12 +87,12 @@ void BuildFolder::lock(const std::string& store_path) {
                                           .what = "is being built by another process" + (who.empty() ? "" : ", " + who),
                                           .next = "wait until it is done, or build to another file with -o"});
     }
-    if (lock.error == -EPERM) not_ours(file(kLock), "is a link, no regular file, or one with other names or of another user");
+    if (lock.error == -EPERM) not_ours(file(kLock), "is a link, not a regular file, or one with other hard links or of another user");
     if (!lock.file) cannot_make(path_, lock.error);
     lock_ = std::move(lock.file);
 }
 
-/// Makes the folder that of a build, if it is not; holding the lock.
+/// Marks the folder as that of a build, if it is not; requires the lock.
 void BuildFolder::mark() {
     const std::string found = text_of(*lock_, file(kLock));
     const bool is_new = is_blank(found) && file_system().entries(path_, 2).size() == 1;
@@ -110,7 +110,7 @@ void BuildFolder::mark() {
 }
 
 BuildFolder::~BuildFolder() {
-    if (lock_ && file_system().entries(path_, 2).size() == 1) (void)remove();  // the lock alone: nothing was finished
+    if (lock_ && file_system().entries(path_, 2).size() == 1) (void)remove();  // only the lock: no finished phase
 }
 
 std::unique_ptr<Container> BuildFolder::finished(const std::string& phase, const Contents& wanted, std::string& why_not) const {
@@ -123,7 +123,7 @@ std::unique_ptr<Container> BuildFolder::finished(const std::string& phase, const
             container->check_all();
             return container;
         }
-    } catch (const Error& error) {  // damaged: it is made again
+    } catch (const Error& error) {  // damaged: it is recomputed
         why_not = error.text().where + ": " + error.text().what;
     }
     (void)file_system().remove(file(phase));
@@ -141,8 +141,8 @@ void BuildFolder::say(const BuildState& state) {
 bool BuildFolder::remove() {
     remove_contents(path_);
     bool gone = false;
-    if (file_system().entries(path_, 2).size() == 1) {  // else the mark stays, too: the folder is still ours
-        (void)file_system().remove(file(kLock));        // while it is held: whoever waits for it makes a new one
+    if (file_system().entries(path_, 2).size() == 1) {  // else the mark stays too
+        (void)file_system().remove(file(kLock));        // while locked: a waiting process creates a new one
         gone = file_system().remove_folder(path_) == 0;
     }
     lock_.reset();
@@ -150,7 +150,7 @@ bool BuildFolder::remove() {
 }
 
 std::optional<BuildState> build_state(const std::string& path) {
-    Obstacle obstacle;  // is told by the build
+    Obstacle obstacle;  // reported by the build
     const std::string lock = find_target(path, obstacle).path + ".build/" + kLock;
     if (!file_system().is_held(lock)) return std::nullopt;
     return state_in(text_of(lock));

@@ -1,8 +1,8 @@
-// PATH.build: where the finished phases of a build lie until the store is there.
+// PATH.build: the folder of the finished phases of a build until the store is written.
 //
-// A phase is a file of arrays with checksums (store/container.h), present as a whole or not at all; it tells the volume and the parameters
-// it belongs to. While somebody builds, the folder is locked; the lock says that a build has made the folder, who it is and where the build
-// is. A folder without that mark is not touched, nor is anything in a marked one that no build makes.
+// A phase is a file of arrays with checksums (store/container.h), written atomically; it records its volume and parameters. During a build
+// the folder is locked; the lock file marks the folder as made by a build and records process and progress. A folder without that mark is
+// not touched, nor are foreign files in a marked one.
 #pragma once
 
 #include <memory>
@@ -16,23 +16,23 @@ namespace isoatlas {
 
 class BuildFolder {
 public:
-    /// Makes the folder, or takes over an empty one or that of an earlier build. Throws Error{resource}: another process builds, the folder
-    /// cannot be made, what is there is no folder, is a link, belongs to another user or was not made by a build; the store could not be
-    /// written (base/output_target.h). Links to the store are followed: it has one folder, whatever it is called.
+    /// Creates the folder, or reuses an empty one or that of an earlier build. Throws Error{resource}: another process builds, the folder
+    /// cannot be created, the path is not a folder, is a link, belongs to another user or was not made by a build; the store could not be
+    /// written (base/output_target.h). Links to the store are followed: it has one folder for all its names.
     BuildFolder(const std::string& store_path, bool restart);
-    /// Takes the folder away when no phase is in it.
+    /// Removes the folder when it contains no phase.
     ~BuildFolder();
     BuildFolder(const BuildFolder&) = delete;
     BuildFolder& operator=(const BuildFolder&) = delete;
 
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::string file(const std::string& phase) const { return path_ + "/" + phase; }
-    /// A finished phase with the fingerprint of these contents; null: there is none. Others, and damaged ones, are removed; then why_not
-    /// says what is wrong with it.
+    /// A finished phase with the fingerprint of these contents; null: none. Others, and damaged ones, are removed; then why_not is the
+    /// reason.
     [[nodiscard]] std::unique_ptr<Container> finished(const std::string& phase, const Contents& wanted, std::string& why_not) const;
-    /// Says where the build is, for other processes: about once a second, whenever it is called. A disk that refuses is no failure.
+    /// Publishes the progress for other processes, about once a second. Write errors are ignored.
     void say(const BuildState& state);
-    /// The store is there: removes what the build has made, and the folder when nothing else is in it. Returns whether it is gone.
+    /// The store is complete: removes the files of the build, and the folder if it is empty then. Returns whether it was removed.
     bool remove();
 
 private:

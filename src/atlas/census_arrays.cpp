@@ -36,7 +36,7 @@ LevelCensus census_of(const Container& store) {
     if (is_sound) return census;
     throw Error(ErrorKind::input, {.file = store.path(),
                                    .where = "census",
-                                   .what = "its numbers contradict each other",
+                                   .what = "its numbers are inconsistent",
                                    .next = "the store is damaged: build it again from the volume"});
 }
 

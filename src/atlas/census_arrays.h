@@ -17,7 +17,7 @@ namespace isoatlas {
 /// The census must live until the arrays are packed.
 [[nodiscard]] std::vector<PackedArray> census_arrays(const LevelCensus& census);
 
-/// Throws Error{input} when it contradicts itself.
+/// Throws Error{input} when it is inconsistent.
 [[nodiscard]] LevelCensus census_of(const Container& store);
 
 }  // namespace isoatlas

@@ -15,8 +15,6 @@
 namespace isoatlas {
 namespace {
 
-using StoredArray;
-
 constexpr std::string_view kChecksums = "checksums/";
 
 /// Calls function(T{}) with a number of a type by name.
@@ -27,7 +25,7 @@ StoreNumbers visit_named_type(std::string_view type, Function&& function) {
     for (int i = 0; i < 8; ++i) {
         if (type == name_of(static_cast<ValueType>(i))) return visit_type(static_cast<ValueType>(i), function);
     }
-    return function(std::uint8_t{});  // contents with another type are refused when they are read
+    return function(std::uint8_t{});  // contents with another type are rejected on reading
 }
 
 template <class T>
@@ -37,7 +35,7 @@ StoreNumbers widened(const std::vector<T>& numbers) {
     return std::vector<std::uint64_t>(numbers.begin(), numbers.end());
 }
 
-/// Numbers with `separator` between them; nothing when there is anything else.
+/// Numbers with `separator` between them; nullopt for any other text.
 std::optional<std::vector<std::int64_t>> numbers_in(std::string_view text, char separator) {
     std::vector<std::int64_t> numbers;
     for (const char* at = text.data(); at <= text.data() + text.size(); ++at) {
@@ -56,7 +54,7 @@ struct Named {
     bool is_right = true;
 };
 
-/// "name[3:5]" taken apart.
+/// "name[3:5]", parsed.
 Named named(const std::string& part) {
     const std::size_t bracket = part.find('[');
     if (bracket == std::string::npos) return {part, std::nullopt, true};
@@ -203,7 +201,7 @@ StorePart StoreDump::find(const std::string& part) const {
     for (const std::string_view kind : {"brick ", "voxel "}) {
         if (!part.starts_with(kind)) continue;
         const auto numbers = numbers_in(std::string_view(part).substr(kind.size()), ',');
-        if (!numbers || numbers->size() > 3) data_->no_part(part, "is no number of a brick or a voxel", "brick 17, or voxel 40,41,42");
+        if (!numbers || numbers->size() > 3) data_->no_part(part, "is not the index of a brick or a voxel", "brick 17, or voxel 40,41,42");
         return kind == "brick " && numbers->size() == 1 ? data_->brick_part(numbers->front()) : data_->part_of_voxel(part, *numbers);
     }
     const Named wanted = named(part);
@@ -211,19 +209,19 @@ StorePart StoreDump::find(const std::string& part) const {
     const StoredArray* array = data_->array(is_checksums ? std::string_view(wanted.name).substr(kChecksums.size()) : wanted.name);
     if (array == nullptr || (is_checksums && array->block == 0)) data_->no_part(part, "there is no such part", data_->list());
     StorePart found = is_checksums ? Data::checksums_of(*array) : Data::part_of(*array);
-    if (!wanted.is_right) data_->no_part(part, "the range cannot be read", found.name + "[I] or " + found.name + "[FIRST:END]");
+    if (!wanted.is_right) data_->no_part(part, "the range is not valid", found.name + "[I] or " + found.name + "[FIRST:END]");
     if (!wanted.range) return found;
     const std::int64_t count = found.end;
     found.first = wanted.range->front();
     found.end = wanted.range->size() == 2 ? wanted.range->back() : found.first + 1;
     if (found.first < 0 || found.end < found.first || found.end > count || (wanted.range->size() == 1 && found.first >= count))
-        data_->no_part(part, "the range sticks out", "at most " + std::to_string(count) + " numbers, from 0");
+        data_->no_part(part, "the range exceeds the part", "at most " + std::to_string(count) + " numbers, from 0");
     return found;
 }
 
 std::string StoreDump::text(const StorePart& part) const {
     if (part.name == "contents") return data_->store.contents_text();
-    if (part.name != "header") throw Error(ErrorKind::usage, {.where = part.name, .what = "is no text", .next = "read its numbers"});
+    if (part.name != "header") throw Error(ErrorKind::usage, {.where = part.name, .what = "is not a text", .next = "read its numbers"});
     const Header& header = data_->store.header();
     return "{\n \"file_size\": " + std::to_string(header.file_size) + ",\n \"contents_offset\": " + std::to_string(header.contents_offset) +
            ",\n \"contents_bytes\": " + std::to_string(header.contents_bytes) +
@@ -236,7 +234,7 @@ StoreNumbers StoreDump::read(const StorePart& part, std::int64_t first, std::int
     if (part.kind == StorePart::Kind::text || first < 0 || first > end || end > count) {
         throw Error(
             ErrorKind::usage,
-            {.file = data_->store.path(), .where = part.name, .what = "has no such numbers", .next = "ask for numbers inside the part"});
+            {.file = data_->store.path(), .where = part.name, .what = "has no such numbers", .next = "use a range inside the part"});
     }
     if (part.kind == StorePart::Kind::brick) return data_->read_brick(part.brick, first, end);
     const bool is_checksums = part.kind == StorePart::Kind::checksums;

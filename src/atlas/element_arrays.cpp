@@ -23,9 +23,9 @@ constexpr const char* kValue = "elements/value";
 constexpr const char* kPlace = "elements/place";
 constexpr const char* kForm = "elements/form";
 
-constexpr std::size_t kTogether = std::size_t{1} << 16;  // numbers that are made or taken apart at once
+constexpr std::size_t kTogether = std::size_t{1} << 16;  // numbers encoded or decoded at once
 
-/// An array whose numbers are made, some at once, while the store is written: make(item) of all items.
+/// An array computed in pieces while the store is written: make(item) of all items.
 template <class N, class Item, class Make>
 PackedArray made_of(const char* name, std::span<const Item> items, const Make& make) {
     PackedArray array = packed_chunks<N>(name, type_name<N>(), items.size());
@@ -43,14 +43,14 @@ PackedArray made_of(const char* name, std::span<const Item> items, const Make& m
 
 bool is_dense(std::size_t elements, const VolumeInfo& volume) { return static_cast<std::int64_t>(elements) > volume.extent.voxels() / 2; }
 
-/// Ascends with the place, then the form.
+/// Ascending by place, then form.
 constexpr std::uint64_t grid_key(ElementForm element) { return static_cast<std::uint64_t>(element.place) << 16 | element.form; }
 constexpr ElementForm element_of(std::uint64_t key) {
     return {static_cast<std::int64_t>(key >> 16), static_cast<std::uint16_t>(key & 0xffff)};
 }
 
 BigVector<std::uint64_t> sorted_grid_keys(std::span<const std::uint64_t> codes, int threads) {
-    constexpr std::size_t kKeys = std::size_t{1} << 18;  // of a chunk: large enough not to stay in memory where that is short
+    constexpr std::size_t kKeys = std::size_t{1} << 18;  // of a chunk: large enough to be released when memory is short
     std::vector<BigVector<std::uint64_t>> chunks((codes.size() + kKeys - 1) / kKeys);
     for (std::size_t c = 0; c < chunks.size(); ++c) {
         const auto some = codes.subspan(c * kKeys, std::min(kKeys, codes.size() - c * kKeys));
@@ -69,7 +69,7 @@ BigVector<std::uint64_t> sorted_grid_keys(std::span<const std::uint64_t> codes, 
     return keys;
 }
 
-/// All samples of a store, which has more critical elements than half of them.
+/// All samples of a store with more critical elements than half of them.
 BigVector<std::byte> all_samples(const Container& store, const Context& context) {
     const VolumeInfo& volume = store.contents().volume;
     BigVector<std::byte> samples(static_cast<std::size_t>(volume.extent.voxels()) * size_of(volume.type));
@@ -86,12 +86,12 @@ T rounded(double value) {
     return static_cast<T>(std::is_floating_point_v<T> ? value : std::floor(value));
 }
 
-/// How the values of a store's saddles were computed.
+/// Rules of the values of a store's saddles.
 SaddleValues saddle_values_of(const Container& store) {
     return store.contents().version < kFirstExactVersion ? SaddleValues::earlier : SaddleValues::exact;
 }
 
-/// Values that were rounded, as they are.
+/// Rounded values, unchanged.
 void restore_values(const Container& store, const VolumeView& volume, double height, int threads, std::span<const std::uint64_t> codes,
                     BigVector<double>& values) {
     values.resize(codes.size());
@@ -105,7 +105,7 @@ void restore_values(const Container& store, const VolumeView& volume, double hei
     });
 }
 
-/// Places and forms as codes, as many chunks at once as threads may unpack. ascending: they must be in the order of the grid.
+/// Decodes places and forms to codes, one chunk per thread at a time. ascending: they must be in the order of the grid.
 template <class Id>
 void read_codes(const Container& store, bool ascending, BigVector<std::uint64_t>& codes) {
     const StoredArray &places = store.contents().array(kPlace, type_name<Id>()), &forms = store.contents().array(kForm, "uint16");

@@ -1,5 +1,5 @@
-// An ElementCode (field/order.h) as two plain numbers: where the element is, and what it is. Apart they compress better, and the place is
-// of use to whoever opens the array.
+// An ElementCode (field/order.h) as two numbers: position and kind of the element. Separated they compress better, and the position is
+// readable by other programs.
 //
 //   place  the voxel; of a face the corner with the smallest coordinates, of a body point that of its cell
 //   form   bits 0-1 kind, 2-3 l0, 4-5 h0; voxel: 7-9 axis; face: 6 diagonal, 7-9 tie corner, 10-11 orientation; body: 6-14 corners
@@ -25,7 +25,7 @@ constexpr ElementForm form_of(ElementCode code) {
     return {index / 3, static_cast<std::uint16_t>((code.bits & kRest) | static_cast<std::uint64_t>(index % 3) << 10)};
 }
 
-/// The code that has this place and form; of numbers that no code has, another code. place: at least 0 and less than 2^45.
+/// The code of this place and form; unspecified for invalid numbers. place: at least 0 and less than 2^45.
 constexpr ElementCode code_of(ElementForm element) {
     const std::uint64_t form = element.form, low = form & ((1 << 10) - 1);
     const auto place = static_cast<std::uint64_t>(element.place);

@@ -1,4 +1,4 @@
-// What a build will take: critical elements are counted in a few slabs, all else is proportional to them or to the samples.
+// Estimates the cost of a build: critical elements are counted in a few slabs, all else is proportional to them or to the samples.
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double kNoise = 1.2;                             // critical elements 
 constexpr std::int64_t kProgram = std::int64_t{40} << 20;  // code, libraries, heap
 constexpr std::int64_t kSlabs = 5, kSlabSlices = 3;
 
-/// Critical elements of one slab that stands for itself, without those of its first and last slice.
+/// Critical elements of one isolated slab, without those of its first and last slice.
 std::int64_t count_elements(const VolumeView& slab, double tunnel_height) {
     return visit_samples(slab, [&]<class T>(std::span<const T> samples) {
         const Extent& extent = slab.info->extent;
@@ -35,7 +35,7 @@ std::int64_t count_elements(const VolumeView& slab, double tunnel_height) {
     });
 }
 
-/// What the filter will see.
+/// The samples seen by the filter.
 VolumeInfo filtered_info(VolumeInfo info, const BuildOptions& options) {
     if (options.geometry) info.geometry = *options.geometry;
     return info;
@@ -48,7 +48,7 @@ double sampled_density(VolumeReader& reader, const AnalysisOptions& options, std
     const bool is_small = info.extent.voxels() < std::int64_t{1} << 20;
     info.extent.size[2] = thick;
     const bool is_too_large = info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) > budget / 4;
-    if (!info.slab_readable || is_small || is_too_large) return kNoise;  // about the most there can be
+    if (!info.slab_readable || is_small || is_too_large) return kNoise;  // approximate upper bound
     std::vector<std::byte> samples(static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type));
     const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
     double elements = 0;
@@ -74,7 +74,7 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const double id = voxels < 0x1p31 && elements < 0x1p30 ? 4 : 8;
     const int workers = thread_count(threads);
     estimate.critical_elements = rounded(elements);
-    // Sorting and trees; sizes of zones: voxels of what spans tiles are kept one by one, where few values do not make them few.
+    // Sorting and trees; sizes of zones: voxels of zones across tiles are kept individually, unless few values limit them.
     const double trees = voxels * (sample + 1 + id) + elements * (32 + 8 * id);
     const double zones = voxels * (sample + id + (sample > 2 ? sample + 2 * id : 0)) + elements * (36 + 5 * id);
     // Tables of objects, measured on white noise of 64^3 to 128^3 samples: 180 to 220 bytes an element.
@@ -83,7 +83,7 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const double window =
         options.gaussian > 0 ? static_cast<double>(2 * gaussian_radius(filtered_info(info, options), options.gaussian)[2] + 1) : 0;
     const std::int64_t filter = rounded(window * static_cast<double>(info.extent.slice()) * sizeof(double));
-    // Slices that every thread holds; what is kept of every brick; counts of levels, of every part that is counted on its own.
+    // Slices of every thread; the index of bricks; counts of levels of every independent part.
     const std::int64_t slices = workers * 8 * info.extent.slice(), bricks = rounded(voxels / 16);
     const std::int64_t census = (2 * std::int64_t{workers} + 1) * 40 * rounded(std::clamp(voxels / 256, 256.0, 65535.0));
     estimate.min_memory = filter + std::max(kMinMemory, kProgram + slices + bricks + census);

@@ -27,7 +27,7 @@ void for_arrays(const AnalysisArrays<Id>& arrays, Visit&& visit) {
     visit("events/voxels", std::span<const Id>(arrays.voxels));
 }
 
-/// Where stored numbers are not the expected ones; "" nowhere.
+/// First difference between stored and expected numbers; "": none.
 template <class N>
 std::string difference(const Container& store, const char* name, const std::string& type, std::span<const N> expected) {
     const auto stored = store.all<N>(name, type);
@@ -35,7 +35,7 @@ std::string difference(const Container& store, const char* name, const std::stri
     if (own == stored.end() && other == expected.end()) return "";
     const std::string where = std::string(name) + "[" + std::to_string(own - stored.begin()) + "] ";
     if (own == stored.end()) return where + "is missing";
-    if (other == expected.end()) return where + "is no event";
+    if (other == expected.end()) return where + "is not an event";
     return where + "is " + std::to_string(*own) + ", the elements give " + std::to_string(*other);
 }
 
@@ -71,7 +71,7 @@ std::vector<double> event_sums_of(const Container& store, std::int64_t events) {
     if (static_cast<std::int64_t>(numbers.size()) != events) {
         throw Error(ErrorKind::input, {.file = store.path(),
                                        .where = "events/sum",
-                                       .what = "there are not as many sums as events",
+                                       .what = "the number of sums differs from that of events",
                                        .next = "the store is damaged: build it again from the volume"});
     }
     return {numbers.begin(), numbers.end()};

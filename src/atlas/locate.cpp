@@ -1,5 +1,5 @@
-// A path that only ascends stays in the object that its first sample lies in, down to the value of that sample; at its end is a maximum,
-// which the trees know. The same downwards; what is beyond the border of the volume is Low.
+// An ascending path stays in the object of its first sample at all isovalues up to the value of that sample; it ends at a maximum, which
+// the trees contain. The same downwards; outside the volume is Low.
 #include "isoatlas/locate.h"
 
 #include "atlas/access.h"
@@ -16,7 +16,7 @@ public:
 
     [[nodiscard]] Extremum at(std::int64_t voxel) { return {voxel, samples_.sample(voxel, spent_)}; }
 
-    /// The highest neighbour that is above (below: the lowest one below); itself: there is none.
+    /// The highest neighbour above (below: the lowest one below); the voxel itself: none.
     [[nodiscard]] Extremum next(const Extremum& from, bool up) {
         stop_if_cancelled(context_);
         Extremum best = from;

@@ -17,7 +17,7 @@ void put(std::string& text, double number) {
     text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr) += ' ';
 }
 
-/// Takes a number and the space behind it.
+/// Parses a number and the following space.
 template <class Number>
 bool take(std::string_view& text, Number& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -26,7 +26,7 @@ bool take(std::string_view& text, Number& number) {
     return true;
 }
 
-/// Below zero: nothing.
+/// Negative: nullopt.
 std::optional<double> known(double number) { return number >= 0 && std::isfinite(number) ? std::optional(number) : std::nullopt; }
 
 }  // namespace

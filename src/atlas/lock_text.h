@@ -1,4 +1,4 @@
-// What the lock of a build says: that the folder was made by a build, who holds it, and where the build is.
+// Text of the lock file of a build: mark of the folder, process, and progress.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 
 namespace isoatlas {
 
-inline constexpr std::size_t kLockBytes = 512;  ///< that are enough to read
+inline constexpr std::size_t kLockBytes = 512;  ///< sufficient to read
 
-/// The first line: a folder without it was made by somebody else.
+/// The first line: a folder without it was not made by a build.
 inline constexpr std::string_view kBuildMark = "folder of an isoatlas build, removed when it is done\n";
 
 /// The mark, the number of this process on a line, and the state on another one.
 [[nodiscard]] std::string lock_text(const std::optional<BuildState>& state);
 
-/// Is it the lock of a build? One that a crash has left empty, or all zeros, has_mark() does not take for one, is_blank() does.
+/// Is it the lock of a build? For a lock left empty or all zeros by a crash, has_mark() is false and is_blank() is true.
 [[nodiscard]] bool has_mark(std::string_view text);
 [[nodiscard]] bool is_blank(std::string_view text);
-/// The line behind the mark; "" without one.
+/// The line after the mark; "" without one.
 [[nodiscard]] std::string holder_in(std::string_view text);
-/// Of the line behind that; one that is not there, or is not what lock_text() writes, gives a build that has only begun.
+/// State of the next line; a missing or invalid one gives a build that has just begun.
 [[nodiscard]] BuildState state_in(std::string_view text);
 
 }  // namespace isoatlas

@@ -23,7 +23,7 @@ struct Navigator::Data {
         options.tunnel_height = from.tunnel_height();
     }
 
-    /// One object comes from the bricks around it alone, whatever was there before.
+    /// A single object is extracted from the bricks around it, independent of the previous state.
     [[nodiscard]] bool shows_one() const { return options.objects.size() == 1 && options.contours.empty(); }
 
     void move(double to, const Context& context) {
@@ -42,7 +42,7 @@ struct Navigator::Data {
         LevelQuery spent;
         std::int64_t active = 0;
         StoredSamples& samples = AtlasAccess::samples(atlas);
-        KeptLevel next = std::exchange(level, {});  // lost when anything throws
+        KeptLevel next = std::exchange(level, {});  // reset when anything throws
         changed_bricks = samples.reclassify(next, to, context, spent);
         if (needs_names(options)) samples.add_extremes(next.level->bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
@@ -51,7 +51,7 @@ struct Navigator::Data {
         AtlasAccess::count(atlas, spent, active, &cost);
     }
 
-    /// The shown object among the active ones; nothing when it is not named by its id.
+    /// The shown object among the active ones; nullopt when its id is not a representative.
     [[nodiscard]] std::optional<ActiveObject> shown_object() const {
         if (!shows_one()) return std::nullopt;
         const ActiveObjects active = atlas.active(*tau, false);
@@ -68,7 +68,7 @@ struct Navigator::Data {
 
     void require_position() const {
         if (tau) return;
-        throw Error(ErrorKind::usage, {.what = "the navigator stands at no isovalue yet", .next = "call go_to first"});
+        throw Error(ErrorKind::usage, {.what = "the navigator has no isovalue yet", .next = "call go_to first"});
     }
 };
 

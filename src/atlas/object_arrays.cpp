@@ -68,11 +68,11 @@ PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
     return array;
 }
 
-/// How a member lies in the file.
+/// Type of a member in the file.
 template <class Member>
 using Stored = std::conditional_t<std::is_same_v<Member, bool> || std::is_enum_v<Member>, std::uint8_t, Member>;
 
-/// for_each: for_members, for_dark_members or for_isovalue_members.
+/// for_each: for_members, for_cavity_members or for_isovalue_members.
 template <class Line>
 void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vector<PackedArray>& arrays) {
     for_each([&]<class Member>(const char* name, const char* type, Member Line::* member) {
@@ -85,7 +85,7 @@ void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vecto
 [[noreturn]] void contradiction(const Container& store) {
     throw Error(ErrorKind::input, {.file = store.path(),
                                    .where = "objects",
-                                   .what = "the table contradicts itself",
+                                   .what = "the table is inconsistent",
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
@@ -108,7 +108,7 @@ std::vector<Line> lines_of(const Container& store, const char* first, const char
     return lines;
 }
 
-/// Bright ones are not in the first stores of version 1, dark ones not in those of version 2.
+/// Objects are not in the first stores of version 1, cavities not in those of version 2.
 std::vector<RecommendedIsovalue> isovalues_of(const Container& store, const std::string& group) {
     const std::string first = group + "/tau";
     if (!store.contents().has_array(first)) return {};
@@ -130,7 +130,7 @@ void check(const ObjectTable& table, const Container& store) {
     for (const RecommendedIsovalue& isovalue : table.isovalues) check(isovalue, isovalue.reason == IsovalueReason::inner, store);
     for (const ObjectEntry& entry : table.entries) {
         if (entry.id < 0 || entry.id >= voxels || entry.inside < -1) contradiction(store);
-        // What contains an entry has a lower isovalue: the way from one to the next ends.
+        // A containing entry has a lower isovalue, so the chain ends.
         if (entry.inside < 0) continue;
         const auto inside = static_cast<std::size_t>(entry.inside);
         if (inside >= table.entries.size() || !(table.entries[inside].best_tau < entry.best_tau)) contradiction(store);
@@ -192,7 +192,7 @@ CavityTable cavities_of(const Container& store) {
     for (CavityEntry& entry : table.entries) {
         if (entry.id < 0 || entry.id >= extent.voxels() || entry.inside < -1 || entry.inside >= count) contradiction(store);
         if (entry.reason > IsovalueReason::middle) contradiction(store);
-        // What contains an entry has a higher isovalue: the way from one to the next ends.
+        // A containing entry has a higher isovalue, so the chain ends.
         if (entry.inside >= 0 && !(table.entries[static_cast<std::size_t>(entry.inside)].best_tau > entry.best_tau)) contradiction(store);
         entry.position = position_of(entry.id, extent);
     }

@@ -1,11 +1,10 @@
-// The table of significant objects (isoatlas/objects.h) as arrays of a store, and back: nobody should have to analyse the volume again to
-// ask which objects are in it.
+// The table of significant objects (isoatlas/objects.h) as arrays of a store, and back, so that queries need no new analysis.
 //
 //   objects/id, event, voxels, tunnels, cavities, inside, branch_top      int64, per entry, by rank
 //   objects/appears, merges, best_tau, measure, hypervolume, tau_low, tau_high     float64
 //   objects/outline, trunk                                     uint8
 //   objects/branches, noise                                    one number each
-//   dark/...                                                   the table of dark objects
+//   dark/...                                                   the table of cavities
 //   dark_isovalues/...                                         theirs
 //   isovalues/branch_top, cavity, tau, prominence, reason      int64, int64, float64, float64, uint8, per recommended isovalue
 #pragma once
@@ -20,10 +19,10 @@
 
 namespace isoatlas {
 
-/// The table is stored when there are at most so many critical elements: ranking takes all trees at once, with random access. The bytes of
-/// a store must not depend on the memory it was built in, so their number decides.
+/// The table is stored for at most this many critical elements: ranking needs all trees in memory, with random access. The bytes
+/// of a store must not depend on the memory budget of the build, so the limit is their number.
 inline constexpr std::int64_t kTableElements = std::int64_t{1} << 22;
-/// At most so many entries are stored.
+/// Max stored entries.
 inline constexpr std::int64_t kStoredEntries = 1024;
 
 /// table: ranked with the gate and at most kStoredEntries entries. The arrays live on their own.
@@ -34,10 +33,10 @@ inline constexpr std::int64_t kStoredEntries = 1024;
 [[nodiscard]] bool is_whole(const auto& stored) { return std::ssize(stored.entries) < kStoredEntries; }
 /// Throws Error{input} when it contradicts itself.
 [[nodiscard]] ObjectTable objects_of(const Container& store);
-/// Does it say where the branches of its entries begin? Not in stores of before.
+/// Does it record where the branches of its entries begin? Not in earlier stores.
 [[nodiscard]] bool knows_branches(const ObjectTable& table);
 
-/// The table of dark objects, the same way: dark/id, ... as in CavityEntry, dark/branches, noise.
+/// The table of cavities, likewise: dark/id, ... as in CavityEntry, dark/branches, noise.
 [[nodiscard]] std::vector<PackedArray> cavity_arrays(const CavityTable& table);
 [[nodiscard]] bool has_cavities(const Container& store);
 /// Without notes. Throws Error{input} when it contradicts itself.

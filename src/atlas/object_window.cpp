@@ -7,9 +7,6 @@
 namespace isoatlas {
 namespace {
 
-using Box;
-using BrickGrid;
-
 constexpr std::int64_t kMargin = 3;
 
 /// Bounds of the object that contains a voxel of the window; empty: the voxel is Low.
@@ -37,7 +34,7 @@ std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, dou
     return box;
 }
 
-/// Moves the ends of a box of bricks that the object comes too close to. Returns whether it moved any.
+/// Moves the ends of a box of bricks that are too close to the object. Returns whether any moved.
 bool grow(Box& bricks, const Box& object, const StoredWindow& window, const BrickGrid& grid) {
     bool moved = false;
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// What a surface is and costs, before anything of it is read.
+// Size and cost of a surface, before anything of it is read.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ Bounds bounds(std::int64_t min, std::int64_t max) { return {min, max}; }
 // Triangles: three edges each, every edge shared by two, so with P points and Euler number chi there are 2 (P - chi) of them
 // (docs/theory/5-surfaces.md#spider-web). Every point is a hit, but for articulation points.
 SurfacePreview Atlas::preview(double tau, const Context& context) const {
-    const ActiveObjects active = this->active(tau, false, context);  // refuses what is not finite
+    const ActiveObjects active = this->active(tau, false, context);  // rejects non-finite isovalues
     const bool is_3d = info().extent.rank == 3;
     SurfacePreview preview;
     preview.tau = tau;

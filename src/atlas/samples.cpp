@@ -1,4 +1,4 @@
-// Samples of a store for those who look at them: boxes, the whole in fewer values, and whether they are those of a file.
+// Sample queries of a store: boxes, downsampled volumes, and comparison with a file.
 #include "atlas/access.h"
 #include "base/cancel.h"
 #include "bricks/brick_samples.h"
@@ -13,10 +13,11 @@ void check_box(const SampleBox& box, std::int64_t step, const VolumeInfo& info) 
     const auto refuse = [&](const std::string& where, const std::string& what, const std::string& expected) {
         throw Error(ErrorKind::usage, {.file = info.path, .where = where, .what = what, .expected = expected});
     };
-    if (step < 1) refuse("step", std::to_string(step) + " is no step", "1 or more");
+    if (step < 1) refuse("step", std::to_string(step) + " is not a step", "1 or more");
     for (int a = 0; a < 3; ++a) {
         if (box.begin[a] < 0 || box.begin[a] >= box.end[a] || box.end[a] > info.extent.size[a])
-            refuse("axis " + std::to_string(a), "the box is empty or sticks out", "samples 0 to " + std::to_string(info.extent.size[a]));
+            refuse("axis " + std::to_string(a), "the box is empty or exceeds the volume",
+                   "samples 0 to " + std::to_string(info.extent.size[a]));
     }
 }
 

@@ -86,7 +86,7 @@ SpectrumSize size_at(const Surface& surface, const Bounds& voxels, std::int64_t 
     return {surface.tau, voxels, cells, facets, size.area, size.measure};
 }
 
-/// For one of the isovalues: progress is that of all together.
+/// Context for one isovalue: progress is that of all isovalues.
 Context quiet(const Context& context) {
     Context part = context;
     part.progress = nullptr;

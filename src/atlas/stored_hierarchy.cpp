@@ -18,7 +18,7 @@ bool is_uniform(const Geometry& geometry) {
     return std::ranges::all_of(geometry.coordinates, [](const auto& c) { return c.size() < 2; });
 }
 
-/// Of every event; nothing when the store does not have it.
+/// Per event; nullopt when the store does not have it.
 std::optional<ZoneSums> stored_sums(const Atlas& atlas, const Analysis& analysis) {
     const Container& store = AtlasAccess::store(atlas);
     const std::vector<double> sums = event_sums_of(store, analysis.event_count());

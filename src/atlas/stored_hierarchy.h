@@ -1,4 +1,4 @@
-// Selections from what a store holds.
+// Selections from the stored tables.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,12 @@
 
 namespace isoatlas {
 
-/// Atlas::hierarchy(); nothing when the store does not say which branches are significant. Cost: reads the trees; all samples, too, where
-/// it has no sums of zones, or the grid has uneven steps.
+/// Atlas::hierarchy(); nullopt when the store does not record which branches are significant. Cost: reads the trees; all samples, too,
+/// where it has no sums of zones, or the grid has uneven steps.
 [[nodiscard]] std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas, const Context& context);
 
-/// The lines of the stored table, which is whole, of the objects that a selection keeps; nothing when it keeps others too, or is not known.
-/// The notes are those of before.
+/// The lines of the complete stored table of the objects that a selection keeps; nullopt when it keeps others too, or cannot be evaluated.
+/// The notes are unchanged.
 [[nodiscard]] std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTable& stored, const Selection& selection,
                                                           const Context& context);
 

@@ -65,7 +65,7 @@ std::vector<ObjectSize> sizes_of_objects(const Surface& surface) {
         return static_cast<std::size_t>(std::ranges::lower_bound(ids, surface.object[point]) - ids.begin());
     };
     std::vector<ObjectSize> sizes(ids.size());
-    std::vector<const Point*> first(ids.size());  // the centre: near the object, so that its volume is precise
+    std::vector<const Point*> first(ids.size());  // centre near the object, for a precise volume
     for (std::size_t i = 0; i < surface.points.size(); ++i) {
         const Point& point = surface.points[i];
         ObjectSize& size = sizes[place(i)];

@@ -1,4 +1,4 @@
-// How large is a surface?
+// Area and volume of surfaces.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace isoatlas {
 
-/// Physical area of the surface, and the volume that it encloses (2D: length, area). Sums have the same order for any threads.
+/// Physical area of the surface, and the volume that it encloses (2D: length, area). The order of summation does not depend on threads.
 struct SurfaceSize {
     double area = 0, measure = 0;
 };

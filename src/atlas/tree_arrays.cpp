@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kTowardsOutside = "elements/towards_outside";
 constexpr const char* kVoxels = "elements/voxels";
 
-/// What the trees are made of without looking: values in order.
+/// Checks the input of the trees: values in order.
 template <class Id>
 void check(const AnalysisArrays<Id>& a, const Container& store) {
     const std::size_t n = a.value.size();
@@ -41,7 +41,7 @@ Analysis with_trees(const Container& store, const std::byte* samples, const Cont
     Analysis analysis = arcs_of(store, samples, context);
     analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
         AnalysisArrays<Id>& arrays = held.arrays;
-        if (!restore_trees(arrays, store.contents().volume.extent.rank, context)) contradiction(store, "the contour tree is none");
+        if (!restore_trees(arrays, store.contents().volume.extent.rank, context)) contradiction(store, "the contour tree is not a tree");
         read_array(store, kVoxels, type_name<Id>(), arrays.element_voxels);
         if (arrays.element_voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
         add_up_voxels(arrays);

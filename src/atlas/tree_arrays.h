@@ -4,7 +4,7 @@
 //   elements/towards_outside    the contour tree (tree/contour_tree.h): per element the other end of its arc; one node more, the outside
 //   elements/voxels             per critical element: voxels that belong to it (zones/count_voxels.h); those of an event are its zone
 //
-// Levels, genera, events and their measures follow from the first four and are made when they are read. Ids are uint32, or uint64 where
+// Levels, genera, events and their measures follow from the first four and are computed on reading. Ids are uint32, or uint64 where
 // the engine needs them. Zones of voxels are not stored.
 #pragma once
 
@@ -24,10 +24,10 @@ namespace isoatlas {
 /// All arrays of another store, which must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
 
-/// What find_arcs() gave. samples: of the volume, x fastest; null: those of the store, which are read where elements are many. Throws
-/// Error: input (arrays contradict each other), cancelled. Cost: reads them.
+/// Result of find_arcs(). samples: of the volume, x fastest; null: those of the store, which are read for stores with many elements. Throws
+/// Error: input (inconsistent arrays), cancelled. Cost: reads them.
 [[nodiscard]] Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context);
-/// The analysis of a store, without zones of voxels. Throws Error: input (arrays contradict each other), cancelled. Cost: reads all of
+/// The analysis of a store, without zones of voxels. Throws Error: input (inconsistent arrays), cancelled. Cost: reads all of
 /// them, O(n alpha).
 [[nodiscard]] Analysis analysis_of(const Container& store, const Context& context);
 /// The same with zones. volume: all samples of the store. Cost: and add_zones() (analysis/analyse.h).

@@ -16,18 +16,18 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-constexpr int kMaxNames = 100;                // that are tried: 64 random bits are hardly ever taken
+constexpr int kMaxNames = 100;                // names tried: 64 random bits hardly ever collide
 constexpr std::size_t kMaxEntries = 100'000;  // of a folder that is tidied up
 constexpr const char* kNeedsFile = "cannot be written: this format needs a file, not a device or a pipe";
 
-/// Removes what a crash has left in a folder: only our names, and only files of this user that nobody writes.
+/// Removes temporary files that a crash has left in a folder: only our names, and only files of this user that no process has locked.
 void tidy_up(const std::string& folder) {
     for (const std::string& name : file_system().entries(folder, kMaxEntries)) {
         if (is_temporary_name(name)) file_system().remove_abandoned(folder + "/" + name);
     }
 }
 
-/// Calls with new names in a folder until one is not taken. Returns what the call returns then.
+/// Repeats the call with new names in a folder until it does not return -EEXIST. Returns its last result.
 template <class Call>
 int with_new_name(const std::string& folder, std::string& name, const Call& call) {
     int error = -EEXIST;
@@ -61,7 +61,7 @@ void AtomicFile::open() {
     const bool replaces = target.status.kind == FileStatus::Kind::regular;
     tidy_up(folder_of(target_));
     open_temporary(replaces ? target.status.mode & 0777U : 0666U);
-    if (replaces) (void)file_->set_mode(target.status.mode & 0777U);  // a replaced file keeps its permissions, before there is content
+    if (replaces) (void)file_->set_mode(target.status.mode & 0777U);  // before content is written: a replaced file keeps its permissions
 }
 
 void AtomicFile::open_temporary(unsigned mode) {
@@ -138,7 +138,7 @@ void AtomicFile::commit() {
     require(file->close(), "cannot be closed");
 }
 
-/// Held until it has its name: nobody may take it for something that was left.
+/// The file stays locked until it has its name, so that no other process takes it for an abandoned one.
 void AtomicFile::take_name() {
     const std::string folder = folder_of(target_);
     if (partial_.empty()) {

@@ -1,4 +1,4 @@
-// AtomicFile: how every file of the project is written. Either the whole file appears under its name, or nothing changes.
+// AtomicFile: atomic writing, used for every file of the project. Either the whole file appears under its name, or nothing changes.
 //
 //   AtomicFile file("table.csv");
 //   file.write("a,b\n");
@@ -17,10 +17,10 @@
 
 namespace isoatlas {
 
-/// Writes a file without a name in the folder of `path`, or, where the disk has none, one whose name nobody can foretell; commit() syncs it
-/// and gives it the name `path`. Without commit(), or with the process, it is gone; names that a crash has left are removed by the next
-/// file in that folder. What may be replaced and what is refused: isoatlas/output_file.h. Of two writers of one path the last one stays.
-/// Every function throws Error{resource} with path, reason of the system and next step. Writes are buffered. Not thread safe.
+/// Writes a file without a name in the folder of `path`, or, where the disk has none, one with an unpredictable name; commit() syncs it and
+/// gives it the name `path`. Without commit(), or when the process ends, it is gone; names that a crash has left are removed by the next
+/// file in that folder. What may be replaced and what is refused: isoatlas/output_file.h. Of two writers of one path the last commit()
+/// wins. Every function throws Error{resource} with path, reason of the system and next step. Writes are buffered. Not thread safe.
 class AtomicFile {
 public:
     explicit AtomicFile(std::string path);
@@ -33,7 +33,7 @@ public:
     /// Writes anywhere: over what is there, e.g. a length in a header, or behind it; a hole reads as zeros. Not possible on devices and
     /// pipes.
     void write_at(std::int64_t offset, std::span<const std::byte> bytes);
-    /// Takes room on the disk for a file of that size, where the system can: a full disk is better told before the work than after it.
+    /// Reserves disk space for a file of that size, where the system can, so that a full disk is reported before the work.
     void reserve(std::int64_t size);
     /// Lengthens the file by zeros. size >= size().
     void extend(std::int64_t size);

@@ -33,12 +33,12 @@ char* map_memory(std::size_t size) {
     return begin + head;
 }
 
-/// Fresh memory at a place that may have been given away.
+/// Maps fresh memory at an address whose pages may have been moved away.
 void replace_memory(char* at, std::size_t size) {
     if (mmap(at, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED) throw std::bad_alloc();
 }
 
-/// Memory in use and memory kept for reuse. Their sum never exceeds the most that was ever in use at once: keeping costs nothing.
+/// Memory in use and memory kept for reuse. Their sum never exceeds the peak of memory in use: keeping costs nothing.
 class Pool {
 public:
     char* take(std::size_t size) {
@@ -98,7 +98,7 @@ private:
         return memory;
     }
 
-    /// Pages of free pieces, none of which is large enough, to where they are wanted: a page that was in use need not be cleared again.
+    /// Moves pages of free pieces, none of which is large enough, to a new piece: a page that was in use need not be cleared again.
     void move_pages(char* to, std::size_t size) {
         while (size > 0 && !free_.empty()) {
             const auto piece = std::prev(free_.end());

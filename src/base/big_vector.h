@@ -1,6 +1,6 @@
 // BigVector: a vector for the large arrays of the engine, in the same memory as results (isoatlas/array.h).
 //
-// Arrays are aligned to huge pages, which the system uses if it likes; asking for them is a loss where it must fetch them from a host
+// Arrays are aligned to huge pages, which the system may use; requesting them is a loss where it must fetch them from a host
 // (docs/decisions/0006).
 #pragma once
 
@@ -13,7 +13,7 @@ namespace isoatlas {
 template <class T>
 using BigVector = Array<T>;
 
-/// v.resize(count) when nobody needs what is in v. A vector that was used before gets room to grow.
+/// v.resize(count) that does not keep the content of v. A vector that was used before gets room to grow.
 template <class T>
 void resize_for_overwrite(BigVector<T>& v, std::size_t count) {
     if (count > v.capacity()) {
@@ -25,7 +25,7 @@ void resize_for_overwrite(BigVector<T>& v, std::size_t count) {
     v.resize(count);
 }
 
-/// Empties a vector and gives its memory back (`v = {}` keeps it).
+/// Empties a vector and releases its memory (`v = {}` keeps it).
 template <class T>
 void release(BigVector<T>& vector) {
     BigVector<T>().swap(vector);

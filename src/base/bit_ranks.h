@@ -1,4 +1,4 @@
-// A set of numbers below a bound as bits; afterwards its numbers are counted: rank(x) = how many are smaller than x.
+// BitRanks: bit vector with rank queries. A set of numbers below a bound; rank(x) = how many of them are smaller than x.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ public:
         words_.assign(bound / kBits + 1, std::uint64_t{0});
     }
 
-    /// From several threads at once, too.
+    /// Thread safe.
     void add(std::size_t x) {
         const std::atomic_ref<std::uint64_t> word(words_[x / kBits]);
         const std::uint64_t bit = std::uint64_t{1} << x % kBits;

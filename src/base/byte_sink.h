@@ -1,4 +1,4 @@
-// Where bytes go, one piece after the other.
+// ByteSink: receives a stream of bytes, piece by piece.
 #pragma once
 
 #include <cstddef>

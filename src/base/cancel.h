@@ -1,4 +1,4 @@
-// Where a long call looks whether its caller still wants the answer.
+// Polling of Context::cancelled in long calls.
 #pragma once
 
 #include <thread>
@@ -8,12 +8,12 @@
 
 namespace isoatlas {
 
-/// Throws Error{cancelled} when he does not.
+/// Throws Error{cancelled} when the caller has cancelled.
 inline void stop_if_cancelled(const Context& context) {
     if (context.cancelled && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
 }
 
-/// The same for work that several threads share: looks on the thread that made it, on the others it does nothing.
+/// The same for work shared by several threads: polls on the thread that constructed it, does nothing on the others.
 class CallerLooks {
 public:
     explicit CallerLooks(const Context& context) : context_(context) {}

@@ -1,4 +1,4 @@
-// Sorting what is larger than memory: pieces are sorted one by one, then read side by side through small buffers (part_streams.h).
+// External merge sort: runs that fit in memory are sorted one by one, then merged through small buffers (part_streams.h).
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void merge_runs(std::span<const std::span<const T>> runs, const Before& before, 
     }
 }
 
-/// Sorts an array in the scratch file that is too large for memory: every so many items on their own. Returns the runs.
+/// Sorts an array in the scratch file that is too large for memory into runs of so many items. Returns the runs.
 template <class T, class Key, class Before>
 [[nodiscard]] std::vector<std::span<const T>> sort_runs(int threads, std::span<T> all, std::size_t items, const Key& key,
                                                         const Before& before) {
@@ -67,7 +67,7 @@ template <class T, class Key, class Before>
     return runs;
 }
 
-/// The same, and hands the items in order to put(place of the first, items), some at once.
+/// The same, and passes the items in order to put(place of the first, items), several at a time.
 template <class T, class Key, class Before, class ByteSink>
 void sort_large(int threads, std::span<T> all, std::size_t items, const Key& key, const Before& before, const ByteSink& put) {
     const std::vector<std::span<const T>> runs = sort_runs(threads, all, items, key, before);

@@ -1,7 +1,7 @@
-// The door to files: all that is written and all that is read by offsets goes through a FileSystem. The system's is the default; tests put
-// another one behind the door, which fails, loses what was not synced, or lives in memory.
+// FileSystem: the interface to files, for all that is written and all that is read by offsets. The default is the operating system's; tests
+// substitute one that fails, loses what was not synced, or lives in memory.
 //
-// Nothing here throws: numbers below zero are -errno. Turning them into errors that name file and next step is the callers' business
+// Nothing here throws: numbers below zero are -errno. Callers turn them into errors that name file and next step
 // (formats/common/file_access.h for what is read, base/atomic_file.h for what is written).
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace isoatlas {
 
-/// An open file, closed by its destructor. Offsets are absolute; nothing is buffered. What a kind of file does not offer, it refuses.
+/// An open file, closed by its destructor. Offsets are absolute; nothing is buffered. Operations that a kind of file does not support fail.
 class File {
 public:
     File() = default;
@@ -25,23 +25,23 @@ public:
     [[nodiscard]] virtual std::int64_t size() const = 0;
     /// Reads at most out.size() bytes at offset; the number read (0 at the end of the file), or -errno. May be called by several threads.
     [[nodiscard]] virtual std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out);
-    /// read_at(), of what need not be waited for: -EAGAIN where nothing of it is in memory.
+    /// read_at() that does not block: -EAGAIN where none of the bytes is in memory.
     [[nodiscard]] virtual std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out);
-    /// Says that bytes, at least one, will be read soon: they may be fetched meanwhile.
+    /// Hint that bytes, at least one, will be read soon (WILLNEED).
     virtual void prefetch(std::int64_t offset, std::int64_t bytes);
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
     [[nodiscard]] virtual std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes);
     /// Cuts the file, or lengthens it by zeros. 0 or -errno, as all that follow.
     [[nodiscard]] virtual int resize(std::int64_t size);
-    /// Takes room on the disk for the bytes [0, size). Systems that cannot do so say that it went well.
+    /// Reserves disk space for the bytes [0, size). Systems that cannot do so report success.
     [[nodiscard]] virtual int reserve(std::int64_t size);
     /// Returns when all that was written would survive a power failure.
     [[nodiscard]] virtual int sync();
     /// Permissions, exactly these.
     [[nodiscard]] virtual int set_mode(unsigned mode);
-    /// Gives a file of create_unnamed() a name. -EEXIST: there is something of that name.
+    /// Gives a file of create_unnamed() a name. -EEXIST: the name exists.
     [[nodiscard]] virtual int take_name(const std::string& path);
-    /// The last word about what was written. Called at most once, and nothing after it.
+    /// Closes the file and reports errors of earlier writes. Called at most once, as the last function.
     [[nodiscard]] virtual int close();
 };
 
@@ -67,44 +67,44 @@ public:
     FileSystem(const FileSystem&) = delete;
     FileSystem& operator=(const FileSystem&) = delete;
     virtual ~FileSystem();
-    /// What a path names; links are followed: Kind::link is never told.
+    /// Status of a path; links are followed: Kind::link is never returned.
     [[nodiscard]] virtual FileStatus status(const std::string& path) = 0;
-    /// What a path itself is: a link where it ends in one.
+    /// Status of a path itself: a link where it ends in one.
     [[nodiscard]] virtual FileStatus status_of_name(const std::string& path);
     /// Opens a regular file to read it.
     [[nodiscard]] virtual OpenedFile open(const std::string& path) = 0;
-    /// What a symbolic link contains; empty: the path names no link.
+    /// Target of a symbolic link; empty: the path is not a link.
     [[nodiscard]] virtual std::string link(const std::string& path);
-    /// The absolute path of what a path names, without links, "." and ".."; what does not exist keeps its name. Others than the system's
-    /// have no links.
+    /// The absolute path without links, "." and ".."; what does not exist keeps its name. File systems other than the system's have no
+    /// links.
     [[nodiscard]] virtual std::string resolved(const std::string& path);
     /// Opens a device or pipe to write to it: its write_at takes the next bytes, whatever the offset.
     [[nodiscard]] virtual OpenedFile open_stream(const std::string& path);
-    /// Makes a file that was not there, with these permissions less the process's mask, and holds it until it is closed. -EEXIST: there is
-    /// something of that name, be it a link to nowhere.
+    /// Creates a new file with these permissions less the process's mask, locked until it is closed. -EEXIST: the name exists, even as a
+    /// dangling link.
     [[nodiscard]] virtual OpenedFile create(const std::string& path, unsigned mode);
-    /// The same in a folder without a name, so that it is gone with its process: -EOPNOTSUPP where the disk has no such files.
+    /// The same in a folder without a name, so that it vanishes with its process: -EOPNOTSUPP where the disk has no such files.
     [[nodiscard]] virtual OpenedFile create_unnamed(const std::string& folder, unsigned mode);
-    /// Opens a file, or makes an empty one, and holds it until it is closed; content stays. -EWOULDBLOCK: somebody else holds it; -EPERM:
-    /// it is no regular file of this user with one name.
+    /// Opens a file, or creates an empty one, and locks it until it is closed; content stays. -EWOULDBLOCK: it is locked already; -EPERM:
+    /// not a regular file of this user with one name.
     [[nodiscard]] virtual OpenedFile lock(const std::string& path);
-    /// Does somebody hold a file that lock() gave him? Asking takes nothing.
+    /// Is the file locked by lock()? Does not take the lock.
     [[nodiscard]] virtual bool is_held(const std::string& path);
-    /// Removes a regular file of this user with one name that nobody holds; where that cannot be told it stays.
+    /// Removes a regular file of this user with one name that is not locked; it stays where locks cannot be tested.
     virtual void remove_abandoned(const std::string& path);
     [[nodiscard]] virtual int rename(const std::string& from, const std::string& to);
     [[nodiscard]] virtual int remove(const std::string& path);
-    /// -EEXIST: there is something of that name.
+    /// -EEXIST: the name exists.
     [[nodiscard]] virtual int make_folder(const std::string& path);
     /// An empty one.
     [[nodiscard]] virtual int remove_folder(const std::string& path);
-    /// Names of at most `most` entries of a folder, in no order; nothing when it cannot be read.
+    /// Names of at most `max` entries of a folder, unordered; empty when it cannot be read.
     [[nodiscard]] virtual std::vector<std::string> entries(const std::string& path, std::size_t max);
-    /// Returns when the names in a folder would survive a power failure. Systems that cannot promise it say that it went well.
+    /// Returns when the names in a folder would survive a power failure. Systems that cannot guarantee it report success.
     [[nodiscard]] virtual int sync_folder(const std::string& path);
 };
 
-/// The one in use: this thread's own one, or that of all.
+/// The file system in use: this thread's own one, or the global one.
 [[nodiscard]] FileSystem& file_system();
 /// That of the operating system.
 [[nodiscard]] FileSystem& system_files();
@@ -121,7 +121,7 @@ private:
     FileSystem* before_;
 };
 
-/// While it lives, `files` is in use in the thread that made it; others do not notice.
+/// While it lives, `files` is in use in the thread that made it; other threads are not affected.
 class OwnFileSystem {
 public:
     explicit OwnFileSystem(FileSystem& files);

@@ -1,4 +1,4 @@
-// A value that is made when it is first asked for, once, whichever thread asks.
+// Lazy: a value computed once, on first access, from any thread.
 #pragma once
 
 #include <mutex>

@@ -1,7 +1,7 @@
-// Which entries of a long array reach a limit? A pyramid over the array: the furthest of every 16 entries, of every 16 of these, ...
+// MaxPyramid: finds all entries of a long array that reach a limit, by the maxima (minima) of every 16 entries, of every 16 of these, ...
 //
-// Intervals [i, end(i)), one for each i, are stabbed by it: those that contain r are the entries of [0, r) that reach r. So the array of
-// the ends is all that an interval tree would hold, and the pyramid adds a fifteenth of it.
+// Stabbing queries of intervals [i, end(i)), one for each i: those that contain r are the entries of [0, r) that reach r. So the array of
+// the ends replaces an interval tree, and the pyramid adds a fifteenth of it.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +44,7 @@ public:
 private:
     static constexpr std::size_t kGroup = 16;
 
-    /// Size of a group that begins at i and has no entry that reaches the limit, of the lowest level on which there is none above it;
-    /// 0: there is no such group.
+    /// Size of the largest group that begins at i and has no entry that reaches the limit; 0: there is none.
     template <class Reaches>
     [[nodiscard]] std::size_t empty_group(std::size_t i, const Reaches& reaches) const {
         std::size_t size = 1, empty = 0;

@@ -82,7 +82,7 @@ Resident resident_memory(int statm) {
     return {pages[1] * static_cast<std::int64_t>(kPage), pages[2] * static_cast<std::int64_t>(kPage)};
 }
 
-/// What vectors give back goes back to the system: the allocator would keep up to 32 MB for each thread, and more the more is freed.
+/// Freed memory of vectors returns to the system: the allocator would keep up to 32 MB for each thread, and more the more is freed.
 void keep_heap_small() {
     constexpr int kMapped = 1 << 18, kKept = 1 << 18, kArenas = 2;
     (void)::mallopt(M_MMAP_THRESHOLD, kMapped);
@@ -144,7 +144,7 @@ public:
         const std::optional<off_t> unused = reuse(size);
         const off_t offset = unused ? *unused : static_cast<off_t>(std::exchange(end_, end_ + size));
         ++calls_;
-        lock.unlock();  // the disk may take its time, and the watcher must not wait for it
+        lock.unlock();  // reserving blocks may be slow, and the watcher must not wait for it
         // Blocks are reserved now: a full disk is an error here, and not a signal when a page is written.
         const int error = unused ? 0 : ::posix_fallocate(file_, offset, static_cast<off_t>(size));
         void* const mapped = error == 0 ? map_scratch(file_, offset, size) : nullptr;
@@ -190,7 +190,7 @@ public:
         if (into >= piece->second.size) return false;
         const off_t offset = piece->second.offset + static_cast<off_t>(into);
         const int file = file_;
-        lock.unlock();  // whoever copies holds the array
+        lock.unlock();  // the caller of the copy keeps the array alive
         copy(file, offset);
         return true;
     }
@@ -198,8 +198,8 @@ public:
 
     [[nodiscard]] std::int64_t at_random() const noexcept { return std::max(limit_ - kElse, limit_ / 4) / 20 * 13; }
 
-    /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then: never so little that
-    /// threads do nothing but ask.
+    /// Unmaps the arrays when what is resident comes close to the limit. Returns how much is left until then: never so little that threads
+    /// only poll.
     std::int64_t check() {
         if (const std::int64_t before = left(); before > limit_ / 32) return before;
         make_room(limit_ / 8);
@@ -220,7 +220,7 @@ private:
                 const auto& [memory, it] = *piece;
                 std::size_t from = next_unmapped_ > memory ? static_cast<std::size_t>(next_unmapped_ - memory) : 0;
                 for (; from < it.size; from += part) {
-                    // Another thread may have been here; little is not worth it when other memory takes the room.
+                    // Another thread may have unmapped; little is not worth it when other memory takes the room.
                     const Resident resident = resident_memory(statm_);
                     if (left() >= bytes || resident.of_files - program_ < kWorthIt) return;
                     ::madvise(memory + from, std::min(part, it.size - from), MADV_DONTNEED);
@@ -232,7 +232,7 @@ private:
         }
     }
 
-    // What is on its way into memory while nobody looks.
+    // What may become resident between two checks.
     static constexpr std::int64_t kReserve = std::int64_t{10} << 20;
     static constexpr std::int64_t kElse = std::int64_t{40} << 20;    // what is in memory anyway: the program, tiles, pages of the file
     static constexpr std::int64_t kWorthIt = std::int64_t{2} << 20;  // less is not worth unmapping, when other memory takes the room
@@ -242,7 +242,7 @@ private:
         std::size_t size;
     };
 
-    /// The smallest part of the file that nobody uses and that is large enough: its pages are in memory already, or its blocks on the disk.
+    /// The smallest unused part of the file that is large enough: its pages are in memory already, or its blocks on the disk.
     std::optional<off_t> reuse(std::size_t size) {
         auto best = unused_.end();
         for (auto part = unused_.begin(); part != unused_.end(); ++part) {
@@ -309,7 +309,7 @@ private:
     std::map<std::size_t, int> kept_{};  // how many of each size
     std::string folder_;
     int file_ = -1;
-    std::atomic<int> statm_ = -1;  // opened once: whoever looks after a limit that ends may still read it
+    std::atomic<int> statm_ = -1;  // opened once: a check may still read it when a limit ends
     int calls_ = 0;                // that use the file right now
     std::size_t end_ = 0;
     std::map<char*, Piece> pieces_;

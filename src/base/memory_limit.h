@@ -32,13 +32,13 @@ inline constexpr std::int64_t kMinMemory = std::int64_t{80} << 20;
 /// Arrays of fewer bytes stay in memory.
 inline constexpr std::size_t kMinScratch = std::size_t{1} << 20;
 
-/// Bytes for arrays that stay in memory, of the limit in force: what is accessed at random may take so much. Nothing is in force: no bound.
+/// Bytes of the limit in force for arrays that stay in memory because they are accessed at random. No limit in force: no bound.
 [[nodiscard]] std::int64_t memory_at_random() noexcept;
 
 /// Memory that this process may use: of the machine, or less when a control group says so.
 [[nodiscard]] std::int64_t available_memory();
 
-/// The most memory that was ever resident, in bytes.
+/// Peak of the resident memory, in bytes.
 [[nodiscard]] std::int64_t peak_memory();
 
 /// While one lives, arrays that this thread makes stay in memory as long as they take no more than memory_at_random() together: those
@@ -58,12 +58,12 @@ private:
 /// give_scratch: false: not from here.
 [[nodiscard]] void* take_scratch(std::size_t bytes);
 [[nodiscard]] bool give_scratch(void* memory, std::size_t bytes) noexcept;
-/// Looks after the limit at once, as the watcher may be late on a busy machine: after every block of work (parallel.h), and now and then in
-/// long loops that read many arrays at a time. Returns how many bytes this thread may bring into memory before it must look again, one of
-/// as many threads as there are processors. Cost: about a microsecond, nothing where no limit is in force.
+/// Enforces the limit at once, as the watcher may be late on a loaded machine: after every block of work (parallel.h), and regularly in
+/// long loops that read many arrays at a time. Returns how many bytes this thread may bring into memory before the next check, one of as
+/// many threads as there are processors. Cost: about a microsecond, nothing where no limit is in force.
 std::size_t check_memory();
-/// Calls it in a loop as soon as the steps may have used up what the last call allowed: so the limit does not depend on the watcher. What
-/// they did use up is known from the page faults of the thread, which cost less to ask for.
+/// Calls check_memory() in a loop as soon as the steps may have used up what the last call allowed, so that the limit does not depend on
+/// the watcher. What they did use up is known from the page faults of the thread, which cost less to query.
 class BudgetPoll {
 public:
     /// bytes: that the step may bring into memory, on average where it runs in order; kTouch for every array that it goes anywhere in.

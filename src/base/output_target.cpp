@@ -25,14 +25,14 @@ std::string octal(unsigned mode) {
     return digits;
 }
 
-/// Of what lies where the links end.
+/// Of the file where the links end.
 Obstacle obstacle_at(const OutputTarget& target, bool behind_link) {
     const FileStatus& status = target.status;
     const std::string place = behind_link ? "is a link to " + target.path + ", which " : "";
     if (status.kind == Kind::missing && status.error != -ENOENT) return refused_by_system(status.error);
     if (status.kind == Kind::missing && behind_link) return {place + "is not there", "remove the link, or name the file itself"};
     if (status.kind == Kind::folder) return {place + "cannot be written: is a directory", next_step_after(-EISDIR)};
-    if (status.kind == Kind::other) return {place + "is no regular file, but a device, a pipe or a socket", kOtherName};
+    if (status.kind == Kind::other) return {place + "is not a regular file but a device, a pipe or a socket", kOtherName};
     if (status.kind == Kind::regular && behind_link && !status.own) return {place + "belongs to another user", kOtherName};
     if (status.kind == Kind::regular && !status.writable)
         return {place + "is there and may not be written to (permissions " + octal(status.mode) + ")",

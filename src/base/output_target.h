@@ -1,4 +1,4 @@
-// Where an output goes, and whether it may (isoatlas/output_file.h).
+// The target of an output, and whether it may be written (isoatlas/output_file.h).
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ struct OutputTarget {
     bool is_stream = false;  ///< what the process has open already
 };
 
-/// What is wrong with an output, and what a user can do. Nothing is wrong: `what` is empty.
+/// Why an output cannot be written, and the next step of a user. It can: `what` is empty.
 struct Obstacle {
     std::string what, next;
 };
 
-/// Looks where `path` leads; `obstacle` tells why nothing may be written there.
+/// Resolves `path`; `obstacle` says why nothing may be written there.
 [[nodiscard]] OutputTarget find_target(const std::string& path, Obstacle& obstacle);
 /// The same; throws Error{resource} when there is an obstacle.
 [[nodiscard]] OutputTarget require_target(const std::string& path);

@@ -1,4 +1,4 @@
-// Filling large arrays while memory is limited: an array that is written in one go would be resident as a whole before anybody looks.
+// Filling large arrays while memory is limited: written in one go, an array would be resident as a whole before the limit is checked.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace isoatlas {
 
-/// The array has count items of a value; nobody needs what was in it.
+/// Resizes the array to count items of a value; its content is lost.
 template <class T>
 void fill_fresh(BigVector<T>& array, std::size_t count, const T& value) {
     constexpr std::size_t kTogether = std::size_t{1} << 13;

@@ -30,7 +30,7 @@ tbb::task_arena& arena_of(int threads) {
     return *arena;
 }
 
-/// Runs work in an arena. That the system refuses a thread oneTBB tells by a runtime_error with the name of the call.
+/// Runs work in an arena. oneTBB reports a refused thread by a runtime_error with the name of the call.
 template <class Work>
 void execute(int threads, const Work& work) try {
     arena_of(threads).execute(work);

@@ -1,4 +1,4 @@
-// The only door to threads. Work is cut into numbered blocks; what a block computes must not depend on which thread runs it.
+// The only interface to threads. Work is cut into numbered blocks; what a block computes must not depend on which thread runs it.
 // Where the system refuses a thread, Error{resource}.
 #pragma once
 
@@ -27,7 +27,7 @@ void for_each_index(int threads, std::size_t n, const Work& work) {
         for (std::size_t begin = first; begin < last; begin += kTogether) {
             const std::size_t end = std::min(begin + kTogether, last);
             for (std::size_t i = begin; i < end; ++i) work(i);
-            memory.step((end - begin) * (BudgetPoll::kTouch / 8));  // many a step goes anywhere
+            memory.step((end - begin) * (BudgetPoll::kTouch / 8));  // many steps access memory at random
         }
     });
 }

@@ -1,6 +1,6 @@
-// The same door to threads with the standard library alone, for builds with the thread sanitizer: oneTBB is not instrumented, so the
+// The interface of parallel.h with the standard library alone, for builds with the thread sanitizer: oneTBB is not instrumented, so the
 // sanitizer would not see how TBB orders what the caller wrote, what a block does and what the caller reads afterwards, and would report
-// races that are none.
+// false races.
 #ifdef __SANITIZE_THREAD__
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void for_each_block(int threads, std::int64_t blocks, const std::function<void(s
     std::vector<std::thread> helpers;
     try {
         for (std::int64_t i = 1; i < std::min<std::int64_t>(thread_count(threads), blocks); ++i) helpers.emplace_back(take_blocks);
-    } catch (const std::system_error&) {  // fewer threads do it, too
+    } catch (const std::system_error&) {  // fewer threads suffice
     }
     take_blocks();
     for (std::thread& helper : helpers) helper.join();

@@ -54,9 +54,9 @@ private:
     double steps_ = 0, low_ = 0, factor_ = 0;
 };
 
-/// Hands all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double):
-/// key(p) < key(q) implies before(p, q). allocate(n) is called once, before the first put. Puts come from several threads, in any order.
-/// Consumes the chunks. Cost: O(n log n) time, a second copy of the items.
+/// Passes all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double): key(p) <
+/// key(q) implies before(p, q). allocate(n) is called once, before the first put. Puts come from several threads, in any order. Consumes
+/// the chunks. Cost: O(n log n) time, a second copy of the items.
 template <class T, class Key, class Before, class Allocate, class ByteSink>
 void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
                  const ByteSink& put) {
@@ -75,7 +75,7 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
     }
     const Buckets buckets(std::move(sample), count);
 
-    // Count per group of chunks and bucket, turn counts into places, scatter, sort every bucket.
+    // Count per group of chunks and bucket, exclusive scan, scatter, sort every bucket.
     const std::size_t groups = std::min(chunks.size(), kGroups * static_cast<std::size_t>(thread_count(threads)));
     std::vector<std::size_t> place(groups * count, 0), first(count + 1, 0);
     const auto for_chunks_of = [&](std::int64_t g, const auto& visit) {

@@ -1,4 +1,4 @@
-// Parts of an array that are read, or written, in order, all of them in turn.
+// Parts of an array that are read, or written, in order, all of them alternately.
 //
 // Where the array lies in the scratch file (memory_limit.h) every part has a buffer, which is copied from and to the file: of mapped memory
 // a touch brings 64 KB, and hundreds of parts as much each. Elsewhere the parts are read and written in place.

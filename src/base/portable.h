@@ -1,4 +1,4 @@
-// Arithmetic whose bits are the same on every IEEE machine: no libm function whose last digit is a matter of taste, no std distribution.
+// Arithmetic whose bits are the same on every IEEE machine: no libm function, whose last digit depends on the library, no std distribution.
 // Only + - * / and sqrt (correctly rounded by IEEE 754) are used, in a fixed order and without contraction.
 #pragma once
 

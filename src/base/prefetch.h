@@ -1,13 +1,13 @@
-// Asking for memory before it is needed, where the processor cannot guess the next address.
+// Software prefetch, where the processor cannot predict the next address.
 //
-// In assembler where that is known: g++ 12 takes a function that does nothing but ask to have no effect, and drops its calls.
+// In assembler where possible: g++ 12 takes a function that only prefetches to have no effect, and drops its calls.
 #pragma once
 
 #include <cstddef>
 
 namespace isoatlas {
 
-/// Asks for the cache line of an address; it need not be one that may be read.
+/// Prefetches the cache line of an address, which need not be readable.
 inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__x86_64__) && defined(__GNUC__)
     asm volatile("prefetcht0 %0" : : "m"(*static_cast<const char*>(address)));
@@ -16,7 +16,7 @@ inline void prefetch([[maybe_unused]] const void* address) {
 #endif
 }
 
-/// The same, to be written.
+/// The same for writing.
 inline void prefetch_to_write([[maybe_unused]] const void* address) {
 #if defined(__x86_64__) && defined(__GNUC__)
     asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(address)));

@@ -20,13 +20,13 @@ constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 077;
     throw Error(ErrorKind::resource, {.where = path, .what = what, .next = "set XDG_RUNTIME_DIR to a folder of yours"});
 }
 
-/// Without a slash at its end; empty: not told, or no whole path.
+/// Without a trailing slash; empty: not set, or not an absolute path.
 std::string folder_in(const char* variable) {
     const char* folder = std::getenv(variable);
     return folder != nullptr && *folder == '/' ? folder : std::string();
 }
 
-/// Where programs of this user meet; empty: nowhere.
+/// The folder for files shared by programs of this user; empty: none.
 std::string user_folder() {
     for (const char* variable : {"XDG_RUNTIME_DIR", "XDG_CACHE_HOME"}) {
         if (const std::string folder = folder_in(variable); !folder.empty()) return folder;
@@ -40,11 +40,11 @@ std::string path_of(const std::string& name) {
     return folder.empty() ? folder : folder + "/isoatlas/" + name;
 }
 
-/// It is a folder of this user, and nobody else may enter it.
+/// Ensures a folder of this user that no other user may enter.
 void make_own_folder(const std::string& path) {
     struct stat status{};
-    if (::mkdir(path.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
-    if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) refuse(path, "is no folder");
+    if (::mkdir(path.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse(path, std::string("cannot be created: ") + std::strerror(errno));
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) refuse(path, "is not a folder");
     if (status.st_uid != ::geteuid()) refuse(path, "belongs to another user");
     if ((status.st_mode & kOthers) != 0 && ::chmod(path.c_str(), kOwnFolder) != 0) refuse(path, "is open to other users");
 }
@@ -54,13 +54,13 @@ bool write_all(int file, const std::string& text) { return ::write(file, text.da
 }  // namespace
 
 PrivateFile::PrivateFile(const std::string& name, const std::string& text) : path_(path_of(name)) {
-    if (path_.empty()) refuse(name, "has no place: neither XDG_RUNTIME_DIR, XDG_CACHE_HOME nor HOME is set");
+    if (path_.empty()) refuse(name, "has no folder: none of XDG_RUNTIME_DIR, XDG_CACHE_HOME and HOME is set");
     (void)::mkdir(user_folder().c_str(), kOwnFolder);  // ~/.cache of a new user
     make_own_folder(path_.substr(0, path_.rfind('/')));
     const std::string made = path_ + "." + std::to_string(::getpid());
     (void)::unlink(made.c_str());
     const int file = ::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile);
-    if (file < 0) refuse(made, std::string("cannot be made: ") + std::strerror(errno));
+    if (file < 0) refuse(made, std::string("cannot be created: ") + std::strerror(errno));
     struct stat status{};
     const bool good = write_all(file, text) && ::fstat(file, &status) == 0;
     if (::close(file) != 0 || !good || ::rename(made.c_str(), path_.c_str()) != 0) {

@@ -1,4 +1,4 @@
-// Small secrets between programs of one user: files that nobody else can read, in a folder of their own.
+// PrivateFile: a small secret shared by programs of one user, in a file that no other user can read.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the operating system refuses, as errors that say what to do.
+// Errors for what the operating system refuses, with the next step.
 #pragma once
 
 #include <string>

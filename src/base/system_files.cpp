@@ -33,7 +33,7 @@ struct flock whole_file(short type) {
     return lock;
 }
 
-/// An open file without a name: to give it one by its number alone takes the superuser.
+/// Path of an open file without a name: linking it by its descriptor alone takes the superuser.
 std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 class SystemFile : public File {
@@ -54,7 +54,7 @@ public:
         const ::iovec part{out.data(), out.size()};
         const ::ssize_t done = ::preadv2(descriptor_, &part, 1, offset, RWF_NOWAIT);
         if (done >= 0) return done;
-        return errno == EAGAIN ? -EAGAIN : read_at(offset, out);  // not every file system can tell
+        return errno == EAGAIN ? -EAGAIN : read_at(offset, out);  // not every file system supports it
     }
     void prefetch(std::int64_t offset, std::int64_t bytes) override {
         (void)::posix_fadvise(descriptor_, offset, bytes, POSIX_FADV_WILLNEED);
@@ -103,19 +103,19 @@ public:
     int sync() override { return 0; }
 };
 
-/// Does the path still name the open file? Somebody may have renamed or removed it before we held the lock.
+/// Does the path still name the open file? It may have been renamed or removed before the lock was taken.
 bool is_named(int descriptor, const std::string& path) {
     struct stat own{}, named{};
     return ::fstat(descriptor, &own) == 0 && ::lstat(path.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
 }
 
-/// A regular file of this user, which has no other name that somebody may mean.
+/// A regular file of this user without other hard links.
 bool is_plainly_own(int descriptor) {
     struct stat status{};
     return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && status.st_nlink == 1;
 }
 
-/// Takes the lock of an open file. Systems without locks say that it went well, unless `must_be_told`.
+/// Takes the lock of an open file. Systems without locks report success, unless `must_be_told`.
 int take_lock(int descriptor, bool must_be_told) {
     struct flock lock = whole_file(F_WRLCK);
     const int error = repeated([&] { return ::fcntl(descriptor, F_OFD_SETLK, &lock); });
@@ -167,7 +167,7 @@ public:
         const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
         const int error = error_of(descriptor);
         OpenedFile result{std::make_unique<SystemFile>(descriptor), error};
-        // Whoever tidies up may have come between: then there is another name to be had.
+        // A cleanup may have removed it meanwhile: then the caller tries another name.
         if (error == 0 && (take_lock(descriptor, false) < 0 || !is_named(descriptor, path))) result.error = -EEXIST;
         if (result.error < 0) {
             forget_unfinished(path);
@@ -180,7 +180,7 @@ public:
         if (descriptor < 0) return {nullptr, errno == EISDIR || errno == EINVAL || errno == ENOSYS ? -EOPNOTSUPP : -errno};
         OpenedFile result{std::make_unique<SystemFile>(descriptor), 0};
         if (::access(path_of(descriptor).c_str(), F_OK) != 0) return {nullptr, -EOPNOTSUPP};  // it could not get a name
-        (void)take_lock(descriptor, false);  // of a file that only we can see; it counts from the moment when it has a name
+        (void)take_lock(descriptor, false);  // the file is not visible yet; the lock counts once it has a name
         return result;
     }
     OpenedFile lock(const std::string& path) override {
@@ -203,7 +203,7 @@ public:
         const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (descriptor < 0) return false;
         const SystemFile closes(descriptor);
-        struct flock lock = whole_file(F_RDLCK);  // asked for, not taken: taking it would be in the way of lock()
+        struct flock lock = whole_file(F_RDLCK);  // tested, not taken: taking it would block lock()
         return repeated([&] { return ::fcntl(descriptor, F_OFD_GETLK, &lock); }) == 0 && lock.l_type != F_UNLCK;
     }
     void remove_abandoned(const std::string& path) override {
@@ -236,7 +236,7 @@ public:
     }
     int sync_folder(const std::string& path) override {
         const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (descriptor < 0) return 0;  // one may write to a folder that one may not read
+        if (descriptor < 0) return 0;  // a folder may be writable but not readable
         const int error = SystemFile(descriptor).sync();
         return error == -ENOTSUP || error == -EBADF || error == -EACCES ? 0 : error;
     }

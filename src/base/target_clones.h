@@ -1,5 +1,5 @@
-// Functions for the widest vectors of the processor, chosen when the program runs. Results are the same bytes: every operation rounds as it
-// does alone (contraction is off, cmake/warnings.cmake).
+// Function multiversioning: code for the widest vectors of the processor, chosen at run time. Results are the same bytes as of scalar code:
+// every operation rounds alike (contraction is off, cmake/warnings.cmake).
 #pragma once
 
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 namespace isoatlas {
 
-/// Does the environment say ISOATLAS_SIMD=scalar? Then the loops that other processors run serve here too, so that tests reach them.
+/// Is ISOATLAS_SIMD=scalar set in the environment? Then the scalar code path runs on every processor, so that tests reach it.
 inline bool simd_is_scalar() {
     const char* simd = std::getenv("ISOATLAS_SIMD");
     return simd != nullptr && std::string_view(simd) == "scalar";

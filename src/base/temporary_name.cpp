@@ -16,7 +16,7 @@ std::string hexadecimal(std::uint64_t number, std::size_t digits) {
     return text;
 }
 
-/// FNV-1a: it tells chance, not malice; whose file it is tells the rest.
+/// FNV-1a: guards against accidental names, not against malice, for which the owner of the file is checked.
 std::string check_of(std::string_view digits) {
     std::uint32_t sum = 2166136261U;
     for (const char c : digits) sum = (sum ^ static_cast<unsigned char>(c)) * 16777619U;

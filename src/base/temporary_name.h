@@ -1,4 +1,4 @@
-// Names of files that are being written: nobody can foretell them, and nobody else gives such names by chance.
+// Names of files that are being written: unpredictable, and not given by other programs by chance.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Texts that cost something to make, kept by name; the oldest ones are forgotten.
+// TextCache: computed texts by name; the oldest ones are evicted.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace isoatlas {
 
-/// From many threads.
+/// Thread safe.
 class TextCache {
 public:
     explicit TextCache(std::size_t max) : max_(max) {}

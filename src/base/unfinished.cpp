@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-/// Plain memory: a signal handler may neither allocate nor wait. More files at a time, or longer names, stay behind then.
+/// Plain memory: a signal handler may neither allocate nor wait. More files at a time, or longer names, are not removed.
 struct Slot {
     std::atomic<bool> used = false;
     std::array<char, 4096> path{};

@@ -23,7 +23,7 @@ bool Workers::post(std::function<void()> job) {
             threads_.reserve(threads_.size() + 1);
             threads_.emplace_back([this] { work(); });
             ++idle_;                       // it takes the next job
-        } catch (const std::exception&) {  // std::system_error, std::bad_alloc: those that are there do it, later
+        } catch (const std::exception&) {  // std::system_error, std::bad_alloc: existing threads run the job later
             if (threads_.empty()) {
                 jobs_.pop_back();
                 return false;

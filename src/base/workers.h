@@ -1,4 +1,4 @@
-// Threads for work that mostly waits, such as the questions of clients. They are started when they are needed and stay.
+// Workers: thread pool for jobs that mostly wait, such as requests of clients. Threads are started on demand and stay.
 #pragma once
 
 #include <condition_variable>
@@ -12,16 +12,16 @@ namespace isoatlas {
 
 class Workers {
 public:
-    /// most: threads.
+    /// max: number of threads.
     explicit Workers(int max) : max_(max) {}
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
     /// Waits for all jobs.
     ~Workers();
 
-    /// From any thread. The job begins when a thread is free; it must not throw. False: the system gives no thread, and there is none.
+    /// Thread safe. The job begins when a thread is free; it must not throw. False: there is no thread, and the system refuses one.
     [[nodiscard]] bool post(std::function<void()> job);
-    /// Until no job waits or runs.
+    /// Returns when no job waits or runs.
     void wait();
 
 private:

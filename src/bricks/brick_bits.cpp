@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kRow = kBrickRow, kSide = kBrickSize[1];
 
 #if defined(__SSE2__)
-/// Which of 16 samples are at least `least`, as bits.
+/// Bit mask of those of 16 samples that are >= `min`.
 template <class T>
 std::uint16_t bits_of_row(const T* samples, T min) {
     typedef T Vector __attribute__((vector_size(16)));  // NOLINT(modernize-use-using): an alias template would lose the attribute

@@ -14,15 +14,15 @@ inline constexpr std::int64_t kBrickRows = kBrickSize[1] * kBrickSize[2];
 /// Bit x of row y + 8 z: is the sample High? Beyond the size of a smaller brick: zeros.
 using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)>;
 
-/// samples: of the place of a brick (bricks/brick_layout.h), row after row, all slices that bricks of the grid have. least: of the Highs.
+/// samples: of the slot of a brick (bricks/brick_layout.h), row by row, all slices of a full brick. min: smallest value of a High sample.
 /// T: a sample type.
 template <class T>
 [[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T min);
 
-/// Writes them where the brick lies, over what is there.
+/// Writes them at the position of the brick, overwriting.
 void put_brick(const BrickBits& bits, const Box& box, HighBits& high);
 
-/// Layers of a brick along each axis that have Highs, that have Lows; what lies beyond a smaller brick is Low.
+/// Layers of a brick along each axis that have Highs, and that have Lows; samples beyond a smaller brick are Low.
 struct BrickFaces {
     std::array<std::uint16_t, 3> high{}, low{};
 };

@@ -81,7 +81,7 @@ void BrickCache::trim() {
     for (std::size_t b = 0; b < state_.size(); ++b) {
         if (state_[b].present && state_[b].leases == 0) idle.push_back(static_cast<std::int64_t>(b));
     }
-    // Of the same age the last first: neighbours share pages.
+    // For equal age the last one first, because neighbours share pages.
     std::sort(idle.begin(), idle.end(), [this](std::int64_t p, std::int64_t q) {
         const std::uint64_t p_used = state_[static_cast<std::size_t>(p)].used, q_used = state_[static_cast<std::size_t>(q)].used;
         return p_used != q_used ? p_used < q_used : p > q;

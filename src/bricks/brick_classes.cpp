@@ -7,9 +7,6 @@
 
 namespace isoatlas {
 
-using Box;
-using BrickGrid;
-
 namespace {
 
 /// Are the bits [begin, end) of a row all equal to `high`? At most 64 of them.
@@ -20,14 +17,14 @@ bool all_equal(const std::uint64_t* row, std::int64_t begin, std::int64_t end, b
     return (bits & mask) == (high ? mask : 0);
 }
 
-/// Samples of a box that face one in direction d along an axis: the first one before it, all of them, the first one behind it.
+/// Range of samples of a box that are adjacent to another box in direction d along an axis: the first layer, all, the last layer.
 std::array<std::int64_t, 2> facing(const Box& box, int axis, std::int64_t d) {
     if (d < 0) return {box.begin[axis] - 1, box.begin[axis]};
     return d == 0 ? std::array{box.begin[axis], box.end[axis]} : std::array{box.end[axis], box.end[axis] + 1};
 }
 
-/// Are there samples of the other class among those of a divided brick that lie in a cell with one of a brick, which it touches along an
-/// edge or in a corner?
+/// Has a divided brick, which touches another one along an edge or at a corner, samples of the other class in a cell shared with that
+/// brick?
 bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::array<std::int64_t, 3>& d) {
     const auto xs = facing(box, 0, d[0]), ys = facing(box, 1, d[1]), zs = facing(box, 2, d[2]);
     for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
@@ -38,7 +35,7 @@ bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::ar
     return false;
 }
 
-/// Layers of a brick, as bits, that lie at most `steps` from what lies in direction -d of it.
+/// Layers of a brick, as bits, within `steps` of its neighbour in direction -d.
 std::uint16_t near_layers(std::size_t axis, std::int64_t d, int steps) {
     const int first = (1 << steps) - 1;
     return static_cast<std::uint16_t>(d > 0 ? first : first << (kBrickSize[axis] - steps));

@@ -15,21 +15,20 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
     if (p % 64 > 48) row[p / 64 + 1] |= bits >> (64 - p % 64);
 }
 
-/// Which bricks are High or Low as a whole, and beside a brick of another class or, if High, at an end of the grid?
+/// Flags bricks that are entirely High or Low and adjacent to a brick of another class or, if High, at the border of the grid.
 [[nodiscard]] std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vector<BrickClass>& classes);
 
-/// Of a brick that touches others: is there something else among the samples around it that matter (bricks/brick_surroundings.h)? sides: of
-/// the divided bricks.
+/// Does the halo of a brick (bricks/brick_surroundings.h) contain samples of the other class? sides: of the divided bricks.
 [[nodiscard]] bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides,
                                    std::int64_t brick);
-/// All of these.
+/// All such bricks.
 [[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks,
                                                        const std::vector<BrickFaces>& sides, int threads);
 
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
 [[nodiscard]] std::vector<std::uint8_t> with_halo(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside = 0);
 
-/// The numbers of the flagged bricks.
+/// The indices of the flagged bricks.
 [[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);
 
 /// Calls visit(brick) for all bricks, a layer at a time.

@@ -9,13 +9,13 @@
 namespace isoatlas {
 namespace {
 
-/// Which of the parts between edges a value lies in: 0 before the first edge, edges.size() behind the last.
+/// Bin of a value: 0 before the first edge, edges.size() after the last.
 std::size_t part_of(std::span<const double> edges, double value) {
     if (value == edges.back()) return edges.size() - 1;
     return static_cast<std::size_t>(std::ranges::upper_bound(edges, value) - edges.begin());
 }
 
-/// The same for samples: looked up for those of few bits.
+/// The same for samples: by lookup table for small integer types.
 template <class T>
 class PartOf {
 public:

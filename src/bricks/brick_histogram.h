@@ -1,4 +1,4 @@
-// How many samples lie between which values: bricks that lie between two neighbouring edges as a whole are counted without reading them.
+// Histogram of the samples of a store: bricks with their range inside one bin are counted without reading them.
 #pragma once
 
 #include <span>

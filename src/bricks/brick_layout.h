@@ -1,5 +1,5 @@
-// Where the samples of bricks lie when every brick has a place of its own: brick after brick, in each its samples, x fastest. Bricks at the
-// far ends of a volume leave the end of each of their rows and slices empty.
+// Memory layout of bricks in slots of fixed size: brick by brick, x fastest within a brick. Bricks at the far ends of a volume leave the
+// ends of their rows and slices unused.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@ class BrickLayout {
 public:
     explicit BrickLayout(const BrickGrid& grid) : grid_(grid), slices_(std::min(kBrickSize[2], grid.extent.size[2])) {}
 
-    /// Of the place of a brick.
+    /// Size of the slot of a brick.
     [[nodiscard]] std::int64_t samples_of_brick() const { return kSlice * slices_; }
     [[nodiscard]] std::int64_t first_sample(std::int64_t brick) const { return brick * samples_of_brick(); }
     /// First sample of a row of a brick; y, z: in the brick.
     [[nodiscard]] std::int64_t row(std::int64_t brick, std::int64_t y, std::int64_t z) const {
         return first_sample(brick) + y * kBrickRow + z * kSlice;
     }
-    /// The same places by coordinates of voxels.
+    /// The same positions by voxel coordinates.
     [[nodiscard]] SampleLayout by_voxel() const {
         const std::int64_t along_x = samples_of_brick(), along_y = along_x * grid_.size[0], along_z = along_y * grid_.size[1];
         return {{{axis(0, 1, along_x), axis(1, kBrickRow, along_y), axis(2, kSlice, along_z)}}};

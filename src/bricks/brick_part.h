@@ -14,13 +14,13 @@ struct BrickPart {
     explicit BrickPart(const BrickGrid& all) : BrickPart(all, {{0, 0, 0}, all.size}) {}
     BrickPart(const BrickGrid& all, const Box& bricks)
         : whole(all), first(bricks.begin), origin(all.box(all.brick(bricks.begin)).begin), grid(extent_of(all, bricks)) {}
-    /// The number in the whole grid.
+    /// Brick index in the whole grid.
     [[nodiscard]] std::int64_t number(std::int64_t brick) const {
         const std::array<std::int64_t, 3> at = grid.place(brick);
         return whole.brick({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
     }
 
-    /// The number of a voxel of the whole in the part.
+    /// Voxel index in the part of a voxel of the whole.
     [[nodiscard]] std::int64_t voxel(std::int64_t whole_voxel) const {
         const std::array<std::int64_t, 3> at = whole.extent.voxel(whole_voxel);
         return grid.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);

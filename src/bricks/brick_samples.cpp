@@ -9,11 +9,7 @@
 namespace isoatlas {
 namespace {
 
-using Box;
-using BrickGrid;
-using IoCounters;
-
-/// The first step at or behind a sample, of those that start at `begin`.
+/// The first step at or after a sample, for steps that start at `begin`.
 std::int64_t first_step(std::int64_t sample, std::int64_t begin, std::int64_t step) {
     return sample <= begin ? 0 : steps_along(sample - begin, step);
 }

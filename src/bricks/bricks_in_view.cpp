@@ -7,10 +7,7 @@
 namespace isoatlas {
 namespace {
 
-using BrickGrid;
-using kBrickSize;
-
-/// Between what the values in the cells of a brick lie: those at its end have corners in the next bricks.
+/// Value range of the cells of a brick: cells at its end have corners in the next bricks.
 std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, const std::vector<std::array<double, 2>>& ranges) {
     const std::array<std::int64_t, 3> first = grid.place(brick);
     std::array<double, 2> all = ranges[brick];
@@ -49,7 +46,7 @@ std::vector<std::uint8_t> bricks_in_view(const BrickGrid& grid, const SamplesWan
             flags[b] = std::any_of(wanted.values.begin(), wanted.values.end(),
                                    [&](const std::array<double, 2>& values) { return cells[1] >= values[0] && cells[0] <= values[1]; });
         }
-        // Whatever lies within a few samples of a cell lies in the bricks around: those that have others behind them are whole.
+        // Samples near a cell lie in the adjacent bricks: bricks with a successor are full.
         flags = with_halo(grid, std::move(flags));
     }
     for (const SampleBox& box : wanted.boxes) flag_box(grid, box, flags);

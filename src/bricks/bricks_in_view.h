@@ -1,4 +1,4 @@
-// Which bricks a picture needs.
+// Selects the bricks that a picture needs.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace isoatlas {
 
-/// Flags of the bricks that hold what is wanted. range: lowest and highest sample of a brick.
+/// Flags of the bricks with wanted samples. range: lowest and highest sample of a brick.
 /// Cost: O(bricks * ranges).
 [[nodiscard]] std::vector<std::uint8_t> bricks_in_view(const BrickGrid& grid, const SamplesWanted& wanted,
                                                        const std::function<std::array<double, 2>(std::int64_t)>& range);

@@ -18,12 +18,6 @@
 namespace isoatlas {
 namespace {
 
-using Box;
-using BrickGrid;
-using BrickReader;
-using IoCounters;
-using kBrickRow;
-
 template <class T>
 class Samples final : public StoredSamples {
 public:
@@ -79,7 +73,7 @@ public:
     [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
 
     [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) override {
-        LevelQuery own;  // what is copied need not be held; ends after the lock
+        LevelQuery own;  // copied samples need no lease; destroyed after the lock
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const BrickPart part(grid_, bricks);
@@ -114,7 +108,7 @@ public:
     }
 
     [[nodiscard]] double sample(std::int64_t voxel, IoCounters& counters) override {
-        LevelQuery query;  // ends after the lock
+        LevelQuery query;  // destroyed after the lock
         const std::lock_guard lock(mutex_);
         const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);
         Context alone;
@@ -167,7 +161,7 @@ public:
 private:
     [[nodiscard]] T* samples() { return reinterpret_cast<T*>(array_.data()); }
 
-    /// The samples of a brick, from how they are coded to its place.
+    /// Decodes the samples of a brick into its slot.
     void place(std::int64_t brick, std::span<const T> values) {
         if (static_cast<std::int64_t>(values.size()) == layout_.samples_of_brick()) {
             std::copy(values.begin(), values.end(), samples() + layout_.first_sample(brick));
@@ -185,7 +179,7 @@ private:
         throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
     }
 
-    /// Of bricks in ascending order, for those that lie side by side at once.
+    /// For bricks in ascending order; adjacent ones are merged into one call.
     void take_memory(const std::vector<std::int64_t>& bricks, int threads) {
         constexpr std::int64_t kTogether = 1024;
         const auto count = static_cast<std::int64_t>(bricks.size());
@@ -194,14 +188,14 @@ private:
             for (std::int64_t i = block * kTogether; i < end;) {
                 std::int64_t next = i + 1;
                 while (next < end && bricks[next] == bricks[next - 1] + 1) ++next;
-                array_.take(static_cast<std::size_t>(layout_.first_sample(bricks[i])) * sizeof(T),
-                            static_cast<std::size_t>(layout_.first_sample(next - i)) * sizeof(T));
+                array_.commit(static_cast<std::size_t>(layout_.first_sample(bricks[i])) * sizeof(T),
+                              static_cast<std::size_t>(layout_.first_sample(next - i)) * sizeof(T));
                 i = next;
             }
         });
     }
 
-    /// Makes bricks present; the query holds them.
+    /// Loads bricks and leases them to the query.
     void load(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
         const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
         try {
@@ -213,7 +207,7 @@ private:
         }
         cache_.settle(missing);
     }
-    /// The same, and the query looks at them.
+    /// The same, and counts them as read by the query.
     void hold(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
         load(wanted, context, query);
         for (const std::int64_t b : wanted) query.visited += grid_.box(b).count();
@@ -245,7 +239,7 @@ private:
         return result;
     }
 
-    /// Numbers in the whole grid.
+    /// Indices in the whole grid.
     static std::vector<std::int64_t> divided_bricks(const BrickPart& part, const LevelBricks& bricks) {
         std::vector<std::int64_t> divided;
         for (std::int64_t b = 0; b < part.grid.count(); ++b) {
@@ -254,7 +248,7 @@ private:
         return divided;
     }
 
-    /// Which bricks have a sample that one isovalue calls High and the other one Low?
+    /// Bricks with a sample whose class differs between two isovalues.
     [[nodiscard]] std::vector<std::uint8_t> bricks_between(Threshold<T> low, Threshold<T> high) const {
         if (low.none_high || (!high.none_high && high.min < low.min)) std::swap(low, high);
         std::vector<std::uint8_t> between(static_cast<std::size_t>(grid_.count()));
@@ -283,7 +277,7 @@ private:
         return bits;
     }
 
-    /// What the numbers of the bricks say.
+    /// Classification by the ranges of the bricks alone.
     [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold, int threads) const {
         LevelBricks bricks{part.grid, std::vector<BrickClass>(static_cast<std::size_t>(part.grid.count())), {}, {}};
         for_bricks(part.grid, threads, [&](std::int64_t b) { bricks.classes[b] = class_of(part.number(b), threshold); });

@@ -1,9 +1,9 @@
-// The samples of a store at one isovalue: the bricks that the surface passes are read, the others are High or Low as a whole.
+// The samples of a store at one isovalue: bricks that the surface intersects are read, the others are entirely High or Low.
 //
-// Samples lie brick by brick in a virtual array that has a place for every brick (bricks/brick_layout.h): a brick touches one or two pages
-// of memory, and the kernels find a sample as they find it in a volume (field/sample_grid.h). Which bricks are needed:
-//   1. those that the isovalue divides (low < tau <= high): afterwards all classes are known;
-//   2. those with a sample next to an active cell: cells between two bricks, and normals, which look one sample further.
+// Samples are stored brick by brick in a virtual array with a slot for every brick (bricks/brick_layout.h): a brick spans one or two pages
+// of memory, and kernels address samples as in a volume (field/sample_grid.h). Required bricks:
+//   1. those divided by the isovalue (low < tau <= high): they determine all classes;
+//   2. those with a sample next to an active cell: cells between two bricks, and normals, which read one sample further.
 #pragma once
 
 #include <memory>
@@ -34,17 +34,17 @@ struct StoredWindow {
     }
 };
 
-/// The classes at an isovalue, kept so that those at the next one need not start anew.
+/// The classes at an isovalue, kept for an incremental update at the next one.
 struct KeptLevel {
-    std::optional<StoredLevel> level{};  ///< nothing yet
+    std::optional<StoredLevel> level{};  ///< none yet
     std::optional<double> tau{};
     std::vector<std::uint8_t> beside{};  ///< per brick: not divided, but its samples are needed
     std::vector<BrickFaces> sides{};     ///< of the divided bricks
 };
 
-/// A question while it is being answered: what it has cost, and the bricks that stay present for it.
+/// A running query: its cost and its leased bricks.
 struct LevelQuery : IoCounters {
-    std::int64_t visited = 0;  ///< samples of the bricks that were looked at, present or not
+    std::int64_t visited = 0;  ///< samples of the bricks that were used, cached or not
     BrickLease held{};
 };
 
@@ -54,17 +54,17 @@ public:
 
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view()
     /// as long as the query lives.
-    /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only words that are busy
-    /// (levelset/candidate_words.h) need be looked at.
+    /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only candidate words (levelset/candidate_words.h)
+    /// need to be processed.
     [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, LevelQuery& query) = 0;
-    /// The same for another isovalue than that of `kept`, which becomes this one: only bricks with a sample between the two are classified
-    /// again. Returns how many these are. When it throws, `kept` must not be used again.
+    /// The same for another isovalue than that of `kept`, which is updated: only bricks with a sample between the two are reclassified.
+    /// Returns their number. When it throws, `kept` must not be used again.
     virtual std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) = 0;
-    /// What names need (levelset/component_representatives.h) of the bricks of a level.
+    /// Brick data for representatives (levelset/component_representatives.h) at an isovalue.
     virtual void add_extremes(LevelBricks& bricks, const Context& context) const = 0;
-    /// classify() for the bricks of a box alone (bricks, not samples), with all that names need. Cost: proportional to the box.
+    /// classify() for the bricks of a box alone (bricks, not samples), with all data for representatives. Cost: proportional to the box.
     [[nodiscard]] virtual StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) = 0;
-    /// What classify() would read of a store that was just opened: the divided bricks at least, at most also those beside bricks of
+    /// Bounds of what classify() would read of a newly opened store: at least the divided bricks, at most also those adjacent to bricks of
     /// another class. Reads nothing.
     struct Foreseen {
         IoCounters min, max;
@@ -80,7 +80,7 @@ public:
     [[nodiscard]] virtual double sample(std::int64_t voxel, IoCounters& counters) = 0;
     /// All samples, x fastest.
     virtual void read_all(std::span<std::byte> samples, const Context& context, IoCounters& counters) = 0;
-    /// Those of the flagged bricks; all others are the lowest one of their brick.
+    /// All samples of the flagged bricks; all others are the lowest sample of their brick.
     virtual void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
                            IoCounters& counters) = 0;
     /// bricks/brick_samples.h; out: samples of the type of the store.
@@ -89,15 +89,15 @@ public:
     /// bricks/brick_histogram.h
     [[nodiscard]] virtual std::vector<std::int64_t> histogram(std::span<const double> edges, const Context& context,
                                                               IoCounters& counters) = 0;
-    /// Reads all bricks; throws Error{input} where what is said about one is not so.
+    /// Reads all bricks; throws Error{input} where the index of a brick is wrong.
     virtual void check(const Context& context) const = 0;
-    /// Forgets the samples that are present, but for those that queries hold.
+    /// Evicts all present samples that are not leased.
     virtual void clear() = 0;
-    /// Memory of the samples that are present.
+    /// Memory of the present samples.
     [[nodiscard]] virtual std::int64_t present_bytes() const = 0;
 };
 
-/// The store must outlive what is returned. cache_bytes: how much memory samples may take that no query holds, in pages; 0: any.
+/// The store must outlive the result. cache_bytes: memory budget of unleased samples, in pages; 0: unlimited.
 [[nodiscard]] std::unique_ptr<StoredSamples> stored_samples(const Container& store, std::int64_t cache_bytes);
 
 }  // namespace isoatlas

@@ -19,7 +19,7 @@ CountColumn column_of(const SpectrumInterval& interval, double low, double high)
     return {low, high, interval.all, interval.all, interval.significant, interval.significant};
 }
 
-/// Ascending, what is the same joined.
+/// Ascending, with equal neighbours joined.
 std::vector<SpectrumInterval> clipped_intervals(std::span<const SpectrumInterval> intervals, double low, double high) {
     std::vector<SpectrumInterval> inside;
     for (const SpectrumInterval& whole : std::views::reverse(intervals)) {

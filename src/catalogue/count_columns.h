@@ -1,4 +1,4 @@
-// Counts over the isovalue, thinned to what can be drawn.
+// Counts over the isovalue, reduced to the resolution of a plot.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace isoatlas {
 
-/// For isovalues in (low, high] the counts take their values between least and most, both of them.
+/// For isovalues in (low, high] the counts lie between min and max, both included.
 struct CountColumn {
     double low, high;  ///< stored values
     LevelCounts min, max, min_significant, max_significant;
 };
 
 /// Columns by ascending isovalue that cover the part of `intervals` (as in Spectrum) that lies in (low, scale.high]. When there are at most
-/// so many intervals, they are the columns and least equals most; else the columns are equally wide on the axis: drawn with a column a
-/// pixel they look as all intervals would (Jugel et al., M4, 2014). Cost: O(intervals + columns).
+/// that many intervals, they are the columns and min equals max; else the columns are equally wide on the axis: with a column a pixel the
+/// plot equals that of all intervals (Jugel et al., M4, 2014). Cost: O(intervals + columns).
 [[nodiscard]] std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> intervals, double low, const AxisScale& scale,
                                                      std::int64_t columns);
 
-/// What the object of a branch is like for every isovalue: the intervals (merges, appears] from the event at which the branch begins down,
-/// counts of one object in `all`. Cost: O(events of the branch).
+/// Counts of the object of a branch for every isovalue: the intervals (merges, appears] downwards from the event at which the branch
+/// begins, counts of one object in `all`. Cost: O(events of the branch).
 [[nodiscard]] std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::int64_t branch_top, double merges);
 
 }  // namespace isoatlas

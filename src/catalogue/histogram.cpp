@@ -18,7 +18,7 @@ Histogram make_histogram(const Atlas& atlas, const AxisScale& scale, const Conte
         const double part = static_cast<double>(i) / static_cast<double>(bins);
         histogram.edges.push_back(each ? scale.low - 0.5 + static_cast<double>(i) : scale.tau(part));
     }
-    // What the bend rounds must not lose the first and the last sample.
+    // Rounding of the axis scale must not lose the first and the last sample.
     histogram.edges.front() = std::min(histogram.edges.front(), scale.low);
     histogram.edges.back() = std::max(histogram.edges.back(), scale.high);
     histogram.counts = atlas.histogram(histogram.edges, context);

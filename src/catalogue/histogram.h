@@ -1,4 +1,4 @@
-// How many samples have which value.
+// Histogram of the samples.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace isoatlas {
 
 struct Histogram {
     std::vector<double> edges;         ///< ascending
-    std::vector<std::int64_t> counts;  ///< one less, as in Atlas::histogram()
+    std::vector<std::int64_t> counts;  ///< one fewer, as in Atlas::histogram()
 };
 
 /// Integers of a range of at most 256 have a bin for every value, else there are 160 bins, equally wide on the axis.

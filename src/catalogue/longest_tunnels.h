@@ -1,4 +1,4 @@
-// The tunnels of the objects of a page that noise does not explain.
+// The significant tunnels of the objects of a page.
 #pragma once
 
 #include "catalogue/page_contents.h"

@@ -1,4 +1,4 @@
-// The axis of a page.
+// The isovalue axis of a page.
 #pragma once
 
 #include "field/axis_scale.h"

@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    /// Those of the table, and the first ones by rank.
+    /// Branches of the table, and the first ones by rank.
     void add_object_branches(const ObjectTable& table) {
         const std::span<const BranchInfo> all = hierarchy_.branches();
         std::vector<bool> is_significant(all.size(), false), is_shown(all.size(), false);
@@ -124,7 +124,7 @@ private:
         return isovalue ? std::optional(isovalue->reason) : std::nullopt;
     }
 
-    /// A dark object merges into the one around it, or into the outside.
+    /// A cavity merges into the one around it, or into the outside.
     void add_cavities(const CavityTable& cavities) {
         const auto first_branch = static_cast<std::int64_t>(contents_.branches.size());
         const auto first_entry = static_cast<std::int64_t>(contents_.entries.size());
@@ -158,7 +158,7 @@ private:
                                          .reason = entry.reason});
         }
     }
-    /// The entry of the object around it, of several the one whose isovalue is closest; -1: that object has none.
+    /// The entry of the surrounding object, of several the one with the closest isovalue; -1: that object has none.
     std::int64_t entry_around(const CavityEntry& cavity) const {
         const ActiveObjects there = atlas_.active(cavity.best_tau, false);
         const auto object = std::ranges::find(there.objects, cavity.object, &ActiveObject::id);
@@ -182,7 +182,7 @@ private:
     const Analysis& analysis_;
     const BranchHierarchy& hierarchy_;
     std::unordered_map<std::int64_t, std::int64_t> place_of_top_;
-    std::vector<std::int64_t> branch_of_event_;  ///< -1: of no branch that has an entry
+    std::vector<std::int64_t> branch_of_event_;  ///< -1: of a branch without an entry
     PageContents contents_;
 };
 

@@ -1,4 +1,4 @@
-// What a page shows, before it is written. Stored values.
+// Contents of a page, independent of its format. Stored values.
 #pragma once
 
 #include <cstdint>
@@ -21,45 +21,45 @@ struct PageTunnel {
     double opens, closes;
 };
 
-/// An object of the volume, as long as it is on its own: for isovalues between appears and merges.
+/// A branch: an object for isovalues between appears and merges.
 struct PageBranch {
     bool is_cavity = false;
     std::int64_t id = 0;
     std::int64_t rank = 0;           ///< among all of its side, from 0: BranchHierarchy::branches(), CavityTable::entries
     double appears = 0, merges = 0;  ///< merges of the main branch: -infinity
-    std::int64_t parent = -1;        ///< position of the branch it merges into, or of the closest one on the page that goes on from there
+    std::int64_t parent = -1;        ///< position of the branch it merges into, or of its closest ancestor on the page
     double hypervolume = 0;
     std::int64_t voxels = 0;  ///< just before it merges
     double measure = 0;
-    std::int64_t joined = 0;                       ///< objects that merge into it, those that are not on the page included
-    bool stands_out = false;                       ///< noise does not explain it, and it is not tiny beside the largest
-    std::vector<CountColumn> shape{};              ///< what it is like over its isovalues; empty: not on the page
-    std::vector<RecommendedIsovalue> isovalues{};  ///< others that show it well, without an entry
-    std::int64_t top = -1;                         ///< bright: the event at which it begins
-    std::vector<PageTunnel> tunnels{};             ///< that open in it, the longest: catalogue/longest_tunnels.h
-    std::int64_t standing_tunnels = 0;             ///< how many of these noise does not explain
+    std::int64_t joined = 0;                       ///< objects that merge into it, also those not on the page
+    bool stands_out = false;                       ///< significant: above the noise level and not tiny compared with the largest
+    std::vector<CountColumn> shape{};              ///< counts over its isovalues; empty: not on the page
+    std::vector<RecommendedIsovalue> isovalues{};  ///< further recommended isovalues, without an entry
+    std::int64_t top = -1;                         ///< objects: the event at which it begins
+    std::vector<PageTunnel> tunnels{};             ///< the longest that open in it: catalogue/longest_tunnels.h
+    std::int64_t standing_tunnels = 0;             ///< number of significant ones
 };
 
-/// A branch at an isovalue that shows it.
+/// A branch at one of its recommended isovalues.
 struct PageEntry {
     std::int64_t branch = 0;
-    std::int64_t id = 0;  ///< of the object (bright), of the contour around it (dark)
+    std::int64_t id = 0;  ///< of the object, or of the contour around the cavity
     double tau = 0, tau_low = 0, tau_high = 0;
     std::int64_t voxels = 0;
     double measure = 0;
-    std::int64_t tunnels = 0, cavities = 0;  ///< dark: of its wall; bright objects inside it
+    std::int64_t tunnels = 0, cavities = 0;  ///< cavity: of its wall; objects inside it
     std::int64_t inside = -1;                ///< entry of the same side that contains it
-    std::int64_t around = -1;                ///< dark: entry of the object that it is a cavity of
-    std::optional<IsovalueReason> reason{};  ///< why this isovalue, where it is known
+    std::int64_t around = -1;                ///< cavity: entry of the surrounding object
+    std::optional<IsovalueReason> reason{};  ///< reason of the isovalue, if known
     Turntable picture{};
     Colour colour{};
 };
 
 struct PageContents {
-    std::vector<PageBranch> branches;                                ///< bright ones by rank, then dark ones by rank
+    std::vector<PageBranch> branches;                                ///< objects by rank, then cavities by rank
     std::vector<PageEntry> entries;                                  ///< in the same order
     std::int64_t objects = 0, cavities = 0;                          ///< in all
-    std::int64_t significant_objects = 0, significant_cavities = 0;  ///< of these, what noise does not explain and is not tiny
+    std::int64_t significant_objects = 0, significant_cavities = 0;  ///< significant ones of these
     double noise = 0;
     AxisScale scale;
     SelectionCurve curve;  ///< of hypervolume, thinned
@@ -70,7 +70,7 @@ struct PageContents {
 
 /// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context);
-/// What an entry shows of a 3D volume. dark: of its id, which is that of a contour. Cost: Atlas::extract().
+/// The surface of an entry of a 3D volume. is_cavity: its id is that of a contour. Cost: Atlas::extract().
 [[nodiscard]] Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context);
 /// Cost: options.frames pictures for every entry.
 void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);

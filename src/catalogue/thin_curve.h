@@ -1,4 +1,4 @@
-// A curve with so few points as can be told apart.
+// Reduces a curve to the points that a plot can resolve.
 #pragma once
 
 #include "isoatlas/simplify.h"

@@ -49,7 +49,7 @@ Turntable draw_turntable(Surface surface, const Colour& colour, const PageOption
 
 Turntable draw_still(const Volume& volume, double tau, const Colour& colour, const PageOptions& options, const Context& context) {
     const Image slice = slice_picture(volume, {.contours = {{tau, colour}}, .side = options.picture_size}, context).picture;
-    Image square(options.picture_size, options.picture_size);  // transparent beside the slice
+    Image square(options.picture_size, options.picture_size);  // transparent outside the slice
     const std::int64_t left = (square.width - slice.width) / 2, top = (square.height - slice.height) / 2;
     for (std::int64_t y = 0; y < slice.height; ++y) std::copy_n(slice.at(0, y), 4 * slice.width, square.at(left, top + y));
     return {webp_uri(std::move(square)), 1, options.picture_size};

@@ -38,7 +38,7 @@ std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std:
     for (const ObjectEntry& entry : entries) {
         if (entry.branch_top < 0 || entry.branch_top >= static_cast<std::int64_t>(tree.size())) contradiction();
         for (auto e = static_cast<std::size_t>(entry.branch_top); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
-            if (significant[e]) break;  // another entry of the branch: branches have no event in common
+            if (significant[e]) break;  // another entry of the branch: branches share no event
             significant[e] = true;
             if (tree.is_root(e)) break;
         }

@@ -47,7 +47,7 @@ EventChains::EventChains(const Analysis& analysis) {
 }
 
 std::int64_t EventChains::meeting(std::int64_t a, std::int64_t b) const {
-    // The path that contains the meeting has the head with the larger id: ids grow towards the root.
+    // The path that contains the meeting event has the head with the larger id: ids grow towards the root.
     while (head_[static_cast<std::size_t>(a)] != head_[static_cast<std::size_t>(b)]) {
         std::int64_t& other = head_[static_cast<std::size_t>(a)] < head_[static_cast<std::size_t>(b)] ? a : b;
         other = below(head_[static_cast<std::size_t>(other)]);

@@ -1,7 +1,7 @@
-// Chains of the criticality tree: an event and some of those that follow it towards the root. Where do two chains meet?
+// Chains of the criticality tree: an event and some of its ancestors. Finds the event at which two chains meet.
 //
-// The tree is cut into heavy paths (every event continues the path of its child with most events above it), so two events find where they
-// meet in O(log events), and a chain is O(log events) ranges of positions.
+// The tree is cut into heavy paths (every event continues the path of its child with most events above it), so the lowest common ancestor
+// takes O(log events), and a chain is O(log events) ranges of positions.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ public:
     [[nodiscard]] std::int64_t below(std::int64_t event) const { return below_[static_cast<std::size_t>(event)]; }
     /// The critical value; -infinity for size().
     [[nodiscard]] double value(std::int64_t event) const { return value_[static_cast<std::size_t>(event)]; }
-    /// The highest event that both become part of.
+    /// The lowest common ancestor: the highest event that both become part of.
     [[nodiscard]] std::int64_t meeting(std::int64_t a, std::int64_t b) const;
-    /// Where an event lies on the heavy paths.
+    /// Position of an event on the heavy paths.
     [[nodiscard]] std::int64_t position(std::int64_t event) const { return position_[static_cast<std::size_t>(event)]; }
 
     /// Calls visit(first, last) for ranges of positions, both included, that make up the chain.
@@ -56,12 +56,12 @@ private:
     std::vector<double> value_;                          ///< one more
 };
 
-/// The lowest value that was put on any chain that contains an event. Values may come from many threads.
+/// Minimum of the values put on chains that contain an event. Thread safe.
 class ChainMinima {
 public:
     explicit ChainMinima(const EventChains& events);
     void put(Chain chain, double value);
-    /// After all have been put: per event, infinity when there is none. Leaves nothing.
+    /// After the last put: per event, infinity when there is none. Consumes the values.
     [[nodiscard]] std::vector<double> take();
 
 private:

@@ -1,4 +1,4 @@
-// How many of many intervals contain an isovalue, for a sorted list of isovalues.
+// Counts the intervals that contain an isovalue, for a sorted list of isovalues.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ public:
     /// isovalues: ascending; they must outlive this.
     explicit IntervalCounts(std::span<const double> isovalues) : isovalues_(isovalues), change_(isovalues.size() + 1, 0) {}
 
-    /// Counts (low, high] so many times; nothing when it is empty. From any thread. Cost: O(log isovalues).
+    /// Counts (low, high] `times` times; no effect when it is empty. From any thread. Cost: O(log isovalues).
     void add(double low, double high, std::int64_t times = 1) {
         if (!(low < high)) return;
         const auto first = std::ranges::upper_bound(isovalues_, low), last = std::upper_bound(first, isovalues_.end(), high);

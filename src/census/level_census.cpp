@@ -80,7 +80,7 @@ void count_row(const Slice<T>& slice, const Slice<T>* above, std::int64_t y, std
     }
 }
 
-/// How many have at least each value, from how many there are of each bin.
+/// Suffix sums of the bins: number of samples of at least each value.
 Counts from_above(const Counts& of_bin) {
     Counts sums(of_bin.begin() + 1, of_bin.end());
     for (std::size_t i = sums.size(); i-- > 1;) sums[i - 1] += sums[i];

@@ -1,8 +1,8 @@
-// How much is there at an isovalue? Samples, hits and active cells, counted for all isovalues at once while a store is built.
+// Numbers of samples, hits and active cells for all isovalues, counted while a store is built.
 //
-// A cell is active at tau when its lowest corner is below tau and its highest is not; so is an edge of the grid hit. So four numbers for
-// each of some values tell: cells and edges whose highest end is at least that value, and whose lowest is. For integers of few values these
-// are all values, and the answer is exact; else the two values around an isovalue bound it.
+// A cell is active at tau when its lowest corner is below tau and its highest is not; so is an edge of the grid hit. So four numbers per
+// value are sufficient: cells and edges whose highest end is at least that value, and whose lowest is. For integers of few values these are
+// all values and the counts are exact; else the two values around an isovalue give bounds.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace isoatlas {
 
 struct LevelCensus {
     std::vector<double> value;                                              ///< ascending, from the lowest sample to the highest
-    std::vector<std::uint64_t> samples;                                     ///< of at least this value
+    std::vector<std::uint64_t> samples;                                     ///< number of samples >= this value
     std::vector<std::uint64_t> cells_high, cells_low, hits_high, hits_low;  ///< whose highest, lowest end is at least this value
 
     struct Counts {
@@ -27,10 +27,10 @@ struct LevelCensus {
     [[nodiscard]] Counts at(double tau, bool whole) const;
 };
 
-/// The values that are counted for finite samples from low to high: all that there are, or as many as are worth their room.
+/// The counted values for finite samples from low to high: all, or a limited number.
 [[nodiscard]] std::vector<double> census_values(double low, double high, bool whole, std::int64_t voxels);
 
-/// Counts by bin, of a part of a volume; parts add up. Bin 0 is the padding, bin i + 1 holds what lies from value[i] to below value[i + 1].
+/// Counts by bin, of a part of a volume; parts are additive. Bin 0 is the padding, bin i + 1 is [value[i], value[i + 1]).
 struct CensusPart {
     using Counts = std::vector<std::uint64_t>;
     Counts samples, cells_high, cells_low, hits_high, hits_low;
@@ -46,7 +46,7 @@ template <class T>
 [[nodiscard]] CensusPart count_layers(const T* slab, std::int64_t begin, const Extent& extent, std::span<const double> values,
                                       std::int64_t first, std::int64_t last);
 
-/// The same for any threads. Samples are finite. Cost: two passes over the samples.
+/// Parallel version; the result does not depend on threads. Samples are finite. Cost: two passes over the samples.
 [[nodiscard]] LevelCensus take_census(const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas

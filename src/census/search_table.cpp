@@ -13,9 +13,6 @@
 namespace isoatlas {
 namespace {
 
-using Box;
-using BrickGrid;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The middles of the intervals in which zones do not change, ascending.
@@ -62,7 +59,7 @@ struct BrickCounts {
     std::vector<std::int64_t> cells, bricks;  ///< per isovalue: loaded; read
 };
 
-/// A brick is read at isovalues in (low, high]: of its samples and those around it that matter, -infinity outside the volume.
+/// A brick is read at isovalues in (low, high]: range of its samples and its halo, -infinity outside the volume.
 void count_brick(const Volume& volume, const Box& box, IntervalCounts& loaded, IntervalCounts& read) {
     const Extent& extent = volume.info.extent;
     Box seen = box;

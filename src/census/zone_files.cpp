@@ -64,7 +64,7 @@ public:
         files.points.assign(points_.begin(), points_.end() - 1);
         for (std::int64_t e = 0; e < events_.size(); ++e) {
             const std::int64_t parent = events_.below(e);
-            // The cell that ends the search has been looked at too.
+            // The cell that ends the search is visited too.
             visited_.add(std::max(events_.value(parent), lowest[static_cast<std::size_t>(e)]), events_.value(e));
             if (parent < events_.size()) files.points[static_cast<std::size_t>(parent)] += files.points[static_cast<std::size_t>(e)];
         }

@@ -16,7 +16,7 @@ namespace isoatlas {
 struct ZoneFiles {
     std::vector<std::int64_t> points;   ///< per event: of its file
     std::vector<std::int64_t> loaded;   ///< per isovalue: cells in the files of the active zones
-    std::vector<std::int64_t> visited;  ///< per isovalue: those that are looked at: from the highest down to the first below the isovalue
+    std::vector<std::int64_t> visited;  ///< per isovalue: visited cells: from the highest down to the first below the isovalue
 };
 
 /// analysis: of the volume, with zones. isovalues: ascending. Cost: O(cells log events) time, O(slab + events + isovalues) memory.

@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kWidest = 64;
 
-/// Widths of groups are stored in `more` bits, less `least`.
+/// Widths of groups are stored in `more` bits, minus `min`.
 struct Widths {
     int min = 0, more = 0;
     std::int64_t bytes = 0;  ///< of everything
 };
 
-/// Rows and columns of 8 x 8 bits change places (Warren, Hacker's Delight, 7-3).
+/// Transposes 8 x 8 bits (Warren, Hacker's Delight, 7-3).
 [[gnu::always_inline]] inline std::uint64_t transposed(std::uint64_t bits) {
     std::uint64_t change = (bits ^ bits >> 7) & 0x00aa00aa00aa00aa;
     bits ^= change ^ change << 7;
@@ -38,7 +38,7 @@ int width_of(const N* group) {
 
 std::int64_t bytes_of_widths(std::int64_t groups, int more) { return (groups + 7) / 8 * more; }
 
-/// The cheapest way to tell the widths: narrow groups may be stored wider than they need.
+/// The cheapest coding of the widths: narrow groups may be stored wider than necessary.
 template <class N>
 Widths best_widths(std::span<const N> numbers) {
     std::array<std::int64_t, kWidest + 1> count{};
@@ -72,7 +72,7 @@ void append_group(const N* group, int width, std::vector<std::byte>& out) {
 }
 
 template <class N>
-constexpr std::size_t kLookedAt = 8 * sizeof(N) + 8;  ///< bytes from the start of a group on
+constexpr std::size_t kLookedAt = 8 * sizeof(N) + 8;  ///< bytes read from the start of a group
 
 std::uint64_t word_at(const std::byte* from) {
     std::uint64_t word;
@@ -80,7 +80,7 @@ std::uint64_t word_at(const std::byte* from) {
     return word;
 }
 
-/// Reads one group without a branch.
+/// Reads one group, branch-free.
 template <class N>
 [[gnu::always_inline]] inline void read_group(const std::byte* from, int width, N* group) {
     const int whole = width / 8, left = width % 8;
@@ -127,7 +127,7 @@ ISOATLAS_AVX512 void read_groups_wide(const std::byte* from, std::span<const std
 }
 #endif
 
-/// Groups one behind the other; kLookedAt bytes may be read from the start of the last one on.
+/// Consecutive groups; kLookedAt bytes are readable from the start of the last one.
 template <class N>
 void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
 #if ISOATLAS_HAS_AVX512
@@ -139,7 +139,7 @@ void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N*
     }
 }
 
-/// Reads groups of the widths that they have; false where they end too early.
+/// Reads groups of variable widths; false when the input is too short.
 template <class N>
 bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_t> widths, N* numbers) {
     const std::size_t size = std::accumulate(widths.begin(), widths.end(), std::size_t{0});

@@ -27,9 +27,9 @@ struct Head {
     [[nodiscard]] bool is_known() const { return static_cast<int>(kind) < 3 && std::ranges::max(orders) < 3; }
 };
 
-constexpr std::int64_t kFewTailBits = 4;  ///< a sample: with fewer, keys have not been better by more than a hundredth
+constexpr std::int64_t kFewTailBits = 4;  ///< bits a sample: below this, keys were never better by more than 1 %
 
-/// The numbers of a brick, and zeros behind them up to whole groups.
+/// The numbers of a brick, padded with zeros to whole groups.
 template <class N>
 struct Numbers {
     std::array<N, kBrickSamples> of;
@@ -68,7 +68,7 @@ BrickCode cost(const Numbers<N>& numbers, const BoxSize& size, const Head& head)
     return {head.byte(), 1 + group_bytes<N>(arranged(numbers, size, head.orders).groups())};
 }
 
-/// Goes through the axes once and keeps the best order of each.
+/// Chooses the best order of differences for each axis in turn.
 template <class N>
 BrickCode best_orders(const Numbers<N>& numbers, const BoxSize& size, Kind kind) {
     Head head{kind, {1, 1, 1}};
@@ -76,7 +76,7 @@ BrickCode best_orders(const Numbers<N>& numbers, const BoxSize& size, Kind kind)
     for (int axis = 2; axis >= 0; --axis) {
         for (const int order : {2, 0}) {
             head = Head::of(best.head);
-            if (order == 0 && head.orders[axis] == 2) continue;  // rough and smooth at once?
+            if (order == 0 && head.orders[axis] == 2) continue;  // both rough and smooth?
             head.orders[axis] = order;
             const BrickCode code = cost(numbers, size, head);
             if (code.bytes < best.bytes) best = code;

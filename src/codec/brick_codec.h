@@ -1,11 +1,11 @@
-// One brick of samples in few bytes: differences of whole numbers, in groups of as many bits as they need. Nothing is lost.
+// Lossless compression of a brick of samples: finite differences of integers, packed in groups of minimal bit width.
 //
-//   1 byte    orders of the differences along x, y, z (differences.h), two bits each; 64 or 128 more for floats in units
+//   1 byte    orders of the differences along x, y, z (differences.h), two bits each; plus 64 or 128 for floats in units
 //   2 bytes   floats in units only: exponent of the unit (float_units.h), as int16
-//   groups    (bit_groups.h) the differences, arranged (differences.h), zeros behind them to a multiple of 8
+//   groups    (bit_groups.h) the differences, arranged (differences.h), padded with zeros to a multiple of 8
 //   tails     floats in units with 128 in the first byte only (float_units.h)
 //
-// The numbers are those of the samples above that of the lowest one, which must be known from elsewhere: keys of the same order
+// The numbers are relative to that of the lowest sample, which is stored elsewhere: order-preserving keys
 // (sample_keys.h), or floats in units. A constant brick has no bytes.
 //
 // In the literature: lossless predictive coding (Lindstrom, Isenburg, Fast and efficient compression of floating-point data, 2006).
@@ -26,22 +26,22 @@ namespace isoatlas {
 template <class T>
 [[nodiscard]] std::pair<T, T> extremes_of(std::span<const T> samples);
 
-/// How a brick is coded.
+/// The code of a brick.
 struct BrickCode {
     std::uint8_t head = 0;  ///< its first byte
     std::int64_t bytes = 0;
 };
 
-/// A small code for samples of a box, x fastest, at most kBrickSamples, not constant. Cost: about seven codings.
+/// Chooses a code for the samples of a box, x fastest, at most kBrickSamples, not constant. Cost: about seven encodings.
 template <class T>
 [[nodiscard]] BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low);
 
-/// Appends the samples with a code that was chosen for them; low is the lowest of them.
+/// Appends the samples, encoded with their chosen code; low is the lowest of them.
 template <class T>
 void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::uint8_t head, std::vector<std::byte>& out);
 
-/// Inverse. Returns whether `packed` is a brick of that size and nothing more; any bytes are safe. Samples of a packed brick of no bytes
-/// are all low.
+/// Inverse. Returns whether `packed` is exactly a brick of that size; any bytes are safe. An empty packed brick has samples that are all
+/// low.
 template <class T>
 [[nodiscard]] bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low, std::span<T> samples);
 

@@ -1,4 +1,4 @@
-// Every byte of a store lies under a checksum: XXH3, 64 bits, of the library xxHash.
+// Checksums of stores: XXH3, 64 bits, of the library xxHash. They cover every byte.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace isoatlas {
 
 [[nodiscard]] inline std::uint64_t checksum(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
-/// The checksum of bytes that come in parts.
+/// Incremental checksum.
 class Checksum {
 public:
     Checksum() { XXH3_64bits_reset(&state_); }

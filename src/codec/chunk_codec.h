@@ -1,7 +1,6 @@
-// Chunks of arrays, compressed as HDF5's filters "shuffle" and "deflate" would: any HDF5 reader opens them.
+// Compression of array chunks, compatible with HDF5's filters "shuffle" and "deflate".
 //
-// Shuffle puts the first bytes of all numbers in front, then the second bytes, ...: ids and sorted values have high bytes that hardly
-// change.
+// Shuffle stores the first bytes of all numbers first, then the second bytes, ...: the high bytes of ids and sorted values hardly change.
 //
 // In the literature: byte shuffle and DEFLATE (Deutsch, RFC 1951, 1996).
 #pragma once
@@ -19,7 +18,7 @@ inline constexpr int kDeflateLevel = 6;
 /// width: bytes of a number; raw.size() is a multiple of it. Cost: about 150 million bytes a second.
 [[nodiscard]] std::vector<std::byte> encode_chunk(std::span<const std::byte> raw, std::int64_t width);
 
-/// Fills raw. Returns false when the bytes are not the code of exactly that many.
+/// Fills raw. Returns false unless the input decodes to exactly that many bytes.
 [[nodiscard]] bool decode_chunk(std::span<const std::byte> packed, std::int64_t width, std::span<std::byte> raw);
 
 }  // namespace isoatlas

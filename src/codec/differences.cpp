@@ -19,7 +19,7 @@ Lines lines_of(const BoxSize& size, int axis) {
     return {1, size[2], size[0] * size[1]};
 }
 
-/// Subtracts from each line, from number `first` on, the one before it.
+/// Subtracts from each line, starting with line `first`, its predecessor.
 template <class N>
 void subtract(N* numbers, const Lines& shape, std::int64_t first) {
     const std::int64_t length = shape.length;
@@ -29,7 +29,7 @@ void subtract(N* numbers, const Lines& shape, std::int64_t first) {
     }
 }
 
-/// Inverse: running sums.
+/// Inverse: prefix sums.
 template <class N>
 [[gnu::always_inline]] inline void add(N* numbers, const Lines& shape, std::int64_t first) {
     for (std::int64_t block = 0; block < shape.blocks; ++block, numbers += shape.lines * shape.length) {

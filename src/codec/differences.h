@@ -1,6 +1,6 @@
-// What is left of the numbers of a box when each is compared with those before it: finite differences of order 0, 1 or 2 along each axis.
+// Finite differences of the numbers of a box, of order 0, 1 or 2 along each axis.
 //
-// Order 1 keeps the first number of a row, order 2 also the difference of the second one. Numbers wrap around, so nothing is lost.
+// Order 1 keeps the first number of a row, order 2 also the difference of the second one. Modular arithmetic, so lossless.
 //
 // In the literature: delta coding; order 1 along all three axes is the Lorenzo predictor (Ibarria et al., Out-of-core compression and
 // decompression of large n-dimensional scalar fields, 2003).
@@ -22,9 +22,8 @@ void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& o
 template <class N>
 void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders);
 
-/// The order in which differences are stored: the first one of all rows, the second one if the order along x is 2, then what is left of
-/// every row: so that numbers of like size lie side by side. Small ones of both signs become small ones without (0 -1 1 -2 ...), unless all
-/// orders are 0.
+/// Storage order of the differences: the first one of all rows, the second one if the order along x is 2, then the rest of every row, which
+/// groups numbers of similar size. Signed numbers are zigzag coded (0 -1 1 -2 ...), unless all orders are 0.
 template <class N>
 void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out);
 

@@ -20,7 +20,7 @@ constexpr int kDigits = std::numeric_limits<T>::digits;  ///< bits of a mantissa
 template <class T>
 constexpr int kMinPlace = std::numeric_limits<T>::min_exponent - kDigits<T>;  ///< 2^this is the smallest number
 
-/// A float as mantissa * 2^place.
+/// A float decomposed as mantissa * 2^place.
 template <class T>
 struct Parts {
     Key<T> mantissa;
@@ -41,7 +41,7 @@ bool is_positive_zero(T sample) {
     return std::bit_cast<Key<T>>(sample) == 0;
 }
 
-/// Calls put(value, bits) for every piece of the tails: at most 56 bits each.
+/// Calls put(value, bits) for every piece of the tails, at most 56 bits each.
 template <class T, class ByteSink>
 void for_each_piece(std::span<const T> samples, const Units& units, const ByteSink& put) {
     for (const T sample : samples) {
@@ -66,10 +66,10 @@ public:
         std::copy(bytes.begin(), bytes.end(), bytes_.begin());
         std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(size_), kLookedAt, std::byte{0});
     }
-    /// More bytes than tails of a brick ever take.
+    /// Upper bound of the bytes of the tails of a brick.
     static constexpr std::size_t kMax = static_cast<std::size_t>(kBrickSamples) * (sizeof(std::uint64_t) + 1);
 
-    /// The next bits, at most 56; zeros behind the end.
+    /// The next bits, at most 56; zeros after the end.
     std::uint64_t take(int bits) {
         std::uint64_t word;
         std::memcpy(&word, bytes_.data() + std::min(position_ / 8, size_), 8);
@@ -88,7 +88,7 @@ public:
     [[nodiscard]] bool ends_at(std::size_t position) const { return (position + 7) / 8 == size_; }
 
 private:
-    static constexpr std::size_t kLookedAt = 8;  ///< bytes behind the end
+    static constexpr std::size_t kLookedAt = 8;  ///< bytes after the end
     static constexpr std::array<std::uint64_t, 57> kMasks = [] {
         std::array<std::uint64_t, 57> masks{};
         for (std::size_t bits = 0; bits < masks.size(); ++bits) masks[bits] = (std::uint64_t{1} << bits) - 1;
@@ -96,7 +96,7 @@ private:
     }();
 
     std::size_t size_, position_ = 0;
-    std::array<std::byte, kMax + kLookedAt> bytes_;  // only what is read has a value
+    std::array<std::byte, kMax + kLookedAt> bytes_;  // only read bytes are initialised
 };
 
 template <class T>
@@ -107,7 +107,7 @@ T take_small(BitReader& reader) {
     return std::bit_cast<T>(bits);
 }
 
-/// join_tails() where no sample is of 0 units: where each tail lies is known before any is read.
+/// join_tails() where no sample is of 0 units: the position of each tail is known in advance.
 template <class T>
 [[gnu::always_inline]] inline bool join_each(const BitReader& reader, std::span<const std::int8_t> bits, std::span<T> samples) {
     std::array<std::uint32_t, kBrickSamples> position;
@@ -122,7 +122,7 @@ template <class T>
 #if ISOATLAS_HAS_AVX512
 constexpr std::int8_t kMaxTogether = 24;  ///< bits that are whole in 4 bytes, wherever they begin
 
-/// The same for 16 floats at once, none with more than kMaxTogether bits.
+/// AVX-512 version for 16 floats, none with more than kMaxTogether bits.
 ISOATLAS_AVX512 bool join_wide(const BitReader& reader, std::span<const std::int8_t> bits, std::span<float> samples) {
     const __m512i zero = _mm512_setzero_si512(), one = _mm512_set1_epi32(1);
     __m512i end = zero;  // of the tails before, in every lane
@@ -146,7 +146,7 @@ ISOATLAS_AVX512 bool join_wide(const BitReader& reader, std::span<const std::int
 }
 #endif
 
-/// join_each(), as fast as it gets here.
+/// join_each(), by the fastest code path of this processor.
 template <class T>
 [[gnu::always_inline]] inline bool join_fast(const BitReader& reader, std::span<const std::int8_t> bits, std::span<T> samples) {
 #if ISOATLAS_HAS_AVX512

@@ -16,7 +16,7 @@ struct End {
 };
 static_assert(sizeof(End) == kTrailerEnd);
 
-/// What lies under the checksum of the trailer: all before it.
+/// The bytes under the checksum of the trailer: all before it.
 std::span<const std::byte> checked(std::span<const std::byte> trailer) {
     return trailer.first(trailer.size() - sizeof kName - sizeof(std::uint64_t));
 }

@@ -1,7 +1,7 @@
-// The frame of a store: every byte that no other checksum covers, which are HDF5's structures and the gaps around them. From version 3 on
-// they lie under a checksum too, so no byte of the file can change unnoticed.
+// The frame of a store: all bytes that no other checksum covers, i.e. HDF5's structures and the gaps around them. From version 3 on they
+// have a checksum too, so that a change of any byte is detected.
 //
-// It is written behind the end of what HDF5 knows: the ranges of the frame (two 64-bit numbers each: offset, bytes), their number, the
+// It is written after the end of the HDF5 file: the ranges of the frame (two 64-bit numbers each: offset, bytes), their number, the
 // checksum of the bytes in them one after the other, the checksum of all this, and 16 bytes that name it. docs/format.md shows it.
 #pragma once
 
@@ -23,15 +23,15 @@ struct StoreFrame {
     std::uint64_t checksum = 0;     ///< of their bytes
 };
 
-/// What of the bytes [0, size) lies in none of the ranges. They come in any order and may overlap.
+/// The bytes of [0, size) in none of the ranges, which may be unsorted and overlap.
 [[nodiscard]] std::vector<ByteRange> outside(std::vector<ByteRange> ranges, std::uint64_t size);
 
-/// Bytes at the end of a file that say how long the trailer is.
+/// Bytes at the end of a file that give the length of the trailer.
 inline constexpr std::int64_t kTrailerEnd = 40;
 [[nodiscard]] std::vector<std::byte> bytes_of_trailer(const StoreFrame& frame);
-/// Bytes of the whole trailer, by the last kTrailerEnd bytes of a file; nothing: they are none of a trailer.
+/// Bytes of the whole trailer, by the last kTrailerEnd bytes of a file; nullopt: not a trailer.
 [[nodiscard]] std::optional<std::int64_t> trailer_bytes(std::span<const std::byte> end, std::int64_t file_size);
-/// Of a whole trailer; nothing: it is damaged.
+/// Parses a whole trailer; nullopt: it is damaged.
 [[nodiscard]] std::optional<StoreFrame> frame_of_trailer(std::span<const std::byte> trailer, std::int64_t file_size);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Samples as whole numbers of the same order, so that they can be subtracted and put back without losing a bit.
+// Order-preserving integer keys of samples, for lossless differences.
 // In the literature: order-preserving map of floats to integers (Lindstrom, Isenburg, Fast and efficient compression of floating-point
 // data, 2006).
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace isoatlas {
 
-/// The unsigned numbers as wide as T.
+/// The unsigned type as wide as T.
 template <class T>
 using Key =
     std::conditional_t<sizeof(T) == 1, std::uint8_t,

@@ -104,7 +104,7 @@ void Basins<Id>::exits() {
 
 template <class Id>
 void Basins<Id>::finish(std::int64_t slab) {
-    // What is not resolved by now points to a border slice of another slab, which exits() resolved: nobody writes there any more.
+    // What is not resolved by now points to a border slice of another slab, which exits() resolved: no thread writes there any more.
     const Slab range = this->range(slab);
     const std::int64_t first = range.z_begin * extent_.slice(), last = range.z_end * extent_.slice();
     for (std::int64_t v = first; v < last; ++v) {

@@ -1,4 +1,4 @@
-// Basins: every voxel knows one maximum that an ascending path reaches, and one minimum (or the outside) that a descending path reaches.
+// Basins: for every voxel one maximum that an ascending path reaches, and one minimum (or the outside) that a descending path reaches.
 //
 // Any ascending path will do, not only the steepest: all neighbours above a voxel lie in its object just above it, so the tree built on
 // the maxima does not depend on the choice (docs/theory/3-trees.md#only-critical-elements; docs/decisions/0003). Paths prefer neighbours
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] static constexpr Id number(Id entry) { return entry & ~kNumber; }
 
 private:
-    static constexpr Id kNumber = Id{1} << (8 * sizeof(Id) - 1);  ///< set: a basin number; clear: a voxel to look at
+    static constexpr Id kNumber = Id{1} << (8 * sizeof(Id) - 1);  ///< set: a basin number; clear: a voxel to follow
 
     [[nodiscard]] Slab range(std::int64_t slab) const { return slab_at(slab, height_, extent_.size[2]); }
     void point(Slab slab, Id& next);

@@ -1,7 +1,7 @@
 // Body points: where the trilinear interpolant joins two regions of a cell through its interior (docs/theory/6-interior.md#body-points).
 //
-// Face F of a cell: Highs a, c and Lows b, d; a' b' c' d' lie behind them on the opposite face. The sign of G (side_sign) tells whether the
-// Highs of F are joined inside the cell just under F (G > 0) or its Lows are (G < 0). Where it differs from the default type of F
+// Face F of a cell: Highs a, c and Lows b, d; a' b' c' d' lie behind them on the opposite face. The sign of G (side_sign) decides whether
+// the Highs of F are joined inside the cell just under F (G > 0) or its Lows are (G < 0). Where it differs from the default type of F
 // (critical/faces.h) the cell holds a body point:
 //   opening  B1 above F: two High regions A, C are joined there by a tunnel through the interior, and F only closes the ring of Lows
 //            around the tunnel. Default type Lows, in truth Highs.
@@ -23,7 +23,7 @@
 namespace isoatlas {
 
 /// D^2 times the derivative of the trilinear interpolant into the cell at the saddle of face f, rounded, and the sum of the absolute values
-/// of its four terms: rounding is less than 2^-49 of that. The sum has the same bits for a turned or mirrored face.
+/// of its four terms: rounding is less than 2^-49 of that. The sum has the same bits for a rotated or mirrored face.
 struct SideSlope {
     double sum, terms;
 };
@@ -60,7 +60,7 @@ DisagreeingFaces disagreeing_faces(const CellElements& cell, unsigned default_ty
     for (unsigned rest = cell.ambiguous; rest != 0; rest &= rest - 1) {
         const int f = std::countr_zero(rest);
         const auto slope = sign(f);
-        const unsigned joined = default_types >> f & 1;  // no branches: nobody can predict them
+        const unsigned joined = default_types >> f & 1;  // branch-free: branches would be unpredictable
         faces.openings |= (unsigned{slope > 0} & ~joined) << f;
         faces.closings |= (unsigned{slope < 0} & joined) << f;
     }

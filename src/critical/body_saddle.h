@@ -14,7 +14,7 @@ struct BodySaddle {
     std::array<double, 3> position;  ///< strictly inside the unit cube; approximate
 };
 
-/// The saddle of this kind strictly inside the cell. Decided exactly; the same value for mirrored and turned cells. Cost: about 400 flops;
+/// The saddle of this kind strictly inside the cell. Decided exactly; the same value for mirrored and rotated cells. Cost: about 400 flops;
 /// some microseconds where twice the precision of doubles does not decide.
 std::optional<BodySaddle> body_saddle(const CellValues& value, SaddleKind kind);
 

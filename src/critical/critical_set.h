@@ -1,9 +1,9 @@
-// The critical elements of any domain, as the tree stage takes them: nothing here knows of grids.
+// CriticalSet: the critical elements of any domain, the input of the tree stage; independent of grids.
 //
-// Structure of arrays, indexed by critical element in descending total order (0 = highest). An element names the extrema its surroundings
-// lead to ("representatives", docs/theory/3-trees.md#only-critical-elements): above, the maxima reached from the h0 objects that meet
-// there; below, the minima reached from the l0 low components. Equal representatives of a pair are allowed: they may or may not be one
-// component.
+// Structure of arrays, indexed by critical element in descending total order (0 = highest). An element refers to the extrema that its
+// neighbourhood leads to ("representatives", docs/theory/3-trees.md#only-critical-elements): above, the maxima reached from the h0 objects
+// that meet there; below, the minima reached from the l0 low components. Equal representatives of a pair are allowed: they may or may not
+// be one component.
 //
 // In the literature: an extremum graph, saddles with the extrema that they lead to; merge trees from it: Lukasczyk et al., ExTreeM, 2023.
 #pragma once
@@ -19,8 +19,8 @@ template <class Id>
 struct CriticalSet {
     BigVector<double> value;
     BigVector<std::uint64_t> code;  ///< ElementCode bits; the tree reads h0, l0 only
-    BigVector<Id> up_a, up_b;       ///< maxima numbers; equal when h0 < 2; a maximum names itself
-    BigVector<Id> low_a, low_b;     ///< minima numbers, 0 = outside; a minimum names itself
+    BigVector<Id> up_a, up_b;       ///< maxima numbers; equal when h0 < 2; a maximum is its own representative
+    BigVector<Id> low_a, low_b;     ///< minima numbers, 0 = outside; a minimum is its own representative
     std::int64_t maxima = 0;        ///< maxima are numbered 0 .. maxima-1
     std::int64_t minima = 0;        ///< minima are numbered 1 .. minima; 0 is the outside
     int rank = 3;

@@ -21,7 +21,7 @@ std::array<double, 8> scaled(const std::array<double, 8>& value, int& exponent) 
     return result;
 }
 
-/// A way to look at a cell: corner k of the turned cell is corner image(k), new axis a is old axis order[a], seen from corner `origin`.
+/// A symmetry of the cube: corner k of the transformed cell is corner image(k), new axis a is old axis order[a], seen from corner `origin`.
 struct Symmetry {
     int origin;
     std::array<int, 3> order;
@@ -38,7 +38,7 @@ struct Symmetry {
     }
 };
 
-/// The turn after which mirrored and permuted copies of a cell are the same: its highest corner first, then the highest neighbours of that.
+/// The symmetry that makes mirrored and permuted copies of a cell the same: its highest corner first, then the highest neighbours of that.
 Symmetry canonical_symmetry(const std::array<double, 8>& value) {
     std::optional<Symmetry> best;
     std::array<double, 8> max{};

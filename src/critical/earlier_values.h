@@ -1,6 +1,6 @@
-// Values of saddles as isoatlas computed them until version 2 of the store: with rounding errors of their own.
+// Values of saddles as isoatlas computed them until version 2 of the store, with other rounding errors.
 //
-// Stores of these versions whose values are made again from the samples (atlas/element_arrays.h) are in the order of these values.
+// Stores of these versions whose values are recomputed from the samples (atlas/element_arrays.h) are in the order of these values.
 #pragma once
 
 #include "critical/bodies.h"

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Is there a sample beside this voxel along all these axes?
+/// Has this voxel a next sample along all these axes?
 bool has_next(const Extent& extent, std::int64_t voxel, unsigned axes) {
     if (voxel < 0 || voxel >= extent.voxels()) return false;
     const std::array<std::int64_t, 3> at = extent.voxel(voxel);

@@ -1,4 +1,4 @@
-// Values of critical elements once more, from their codes and the samples around them.
+// Values of critical elements recomputed from their codes and the samples around them.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Critical elements with the extrema around them: these are looked up while elements lie in the order of the grid, and go with an element
+// Critical elements with their representatives: these are looked up while elements lie in the order of the grid, and move with an element
 // when it is sorted.
 #pragma once
 

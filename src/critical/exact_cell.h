@@ -1,6 +1,6 @@
-// The trilinear function of one cell decided without rounding: slopes at face saddles, saddles inside, their values.
+// Exact predicates of the trilinear interpolant of one cell: slopes at face saddles, saddles inside, their values.
 //
-// For the few cells whose doubles cannot tell (critical/bodies.h, critical/body_saddle.h). Any finite corner values.
+// For the few cells that doubles do not decide (critical/bodies.h, critical/body_saddle.h). Any finite corner values.
 // Corner values are integers times a power of two; signs of polynomials in them are signs of integers. Cost: 0.1 microseconds where
 // the corners differ by less than 2^38 of their unit (products fit 128 bits), else a few microseconds.
 //

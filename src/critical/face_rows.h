@@ -1,4 +1,4 @@
-// Values of the ambiguous faces around a row of cells, found together: every face takes part in two cells and in the critical elements.
+// Values of the ambiguous faces around a row of cells, computed together: every face takes part in two cells and in the critical elements.
 #pragma once
 
 #include <algorithm>

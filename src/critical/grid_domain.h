@@ -1,7 +1,23 @@
 // The regular grid as a domain: the slab passes of this folder, put together.
 //
-// Domain is what the stages behind ask for, and all they ask for: a critical set, a basin per vertex, positions of elements.
-// Grids of other dimensions and simplicial meshes join by offering the same (docs/theory/2-critical-elements.md#other-dimensions).
+// Domain is the interface to the later stages: a critical set, a basin per vertex, positions of elements.
+// Grids of other dimensions and simplicial meshes would implement it (docs/theory/2-critical-elements.md#other-dimensions).
+//
+// The notation of this folder:
+//   High, Low       a sample or element of value >= tau, < tau; everything outside the grid (EXT) is Low
+//   vertex          a voxel
+//   element         a vertex, the face point of an ambiguous face, or a body point of a cell; ordered by field/order.h
+//   F, a b c d      an ambiguous face and its corners (field/cell.h); a' b' c' d' lie behind them on the opposite face of a cell
+//   type H, L       of a face in a cell: its Highs are joined above F in this cell; its Lows are joined below (faces.h)
+//   B1, B2          body points: an opening one above its face, a closing one below (bodies.h)
+//   h0, l0          how many objects meet just above an element, how many low components just below; (h0, l0) is its type
+//   link            the neighbours of a vertex that lie above it, one bit each (links.h)
+//   basin           of a vertex: the number of an extremum at the end of a monotone path (basins.h)
+//   representative  the basin of a neighbour: stands for a component that meets at an element (representative_lookup.h)
+//   rank            position of a critical element in descending total order
+//   slab            consecutive slices, the unit of parallel work; tile: a box of voxels, the unit of work in bounded memory (tiling.h)
+//
+// The stages: scan (links and critical elements of all slabs), basins, representatives, sort by rank.
 #pragma once
 
 #include <array>
@@ -15,7 +31,7 @@
 
 namespace isoatlas {
 
-/// What critical() gives: the sorted critical elements, and for every vertex the number of a maximum above it (Basins::number).
+/// Result of critical(): the sorted critical elements, and for every vertex the number of a maximum above it (Basins::number).
 template <class Id>
 struct Criticals {
     CriticalSet<Id> set;

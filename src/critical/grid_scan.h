@@ -1,4 +1,4 @@
-// The slab passes over a whole grid: links of all voxels and all critical elements, before anybody knows where they lead.
+// The slab passes over a whole grid: links of all voxels and all critical elements, before their representatives are known.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct GridScan {
     std::int64_t maxima = 0, minima = 0, elements = 0;
 };
 
-/// Slices per slab: what the context asks for, or enough slabs to keep every thread busy.
+/// Slices per slab: given by the context, or enough slabs for all threads.
 [[nodiscard]] std::int64_t slab_height(const Extent& extent, const Context& context);
 
 /// tunnel_height: of tunnel_height_of (critical/bodies.h). Cost: O(voxels); a byte a voxel and 16 bytes a critical element.

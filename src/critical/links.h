@@ -2,7 +2,7 @@
 //
 // Bit 2a: the neighbour before along axis a is above; bit 2a+1: the neighbour behind. Outside the grid is below everything.
 // The neighbour before has the smaller voxel number: it must be strictly larger; the one behind may be equal.
-// A vertex is regular iff some axis has exactly one neighbour above; else it is critical and k = #axes with both above tells how
+// A vertex is regular iff some axis has exactly one neighbour above; else it is critical and k = #axes with both above decides how
 // (docs/theory/2-critical-elements.md#voxels: maximum, two saddles, minimum). Multi-saddles do not exist on such grids.
 //
 // In the literature: upper and lower link (Banchoff, Critical points and curvature for embedded polyhedral surfaces, 1970).

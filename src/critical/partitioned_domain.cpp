@@ -24,7 +24,7 @@ struct Renumbering {
     std::vector<Id> first;  // by tile, and of the end
 };
 
-/// Elements of extrema come in the order of their old numbers, which begin at least.
+/// Elements of extrema come in the order of their old numbers, which begin at min.
 template <class Id, class IsExtremum>
 Renumbering<Id> renumber(const GridScan& scan, const Tiling& tiling, std::int64_t extrema, Id min, const IsExtremum& is_extremum) {
     const PinInMemory keep;

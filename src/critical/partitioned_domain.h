@@ -1,4 +1,4 @@
-// Critical elements of a grid in the order of ranks and cut into tiles at the same time: what trees in bounded memory are made of.
+// Critical elements of a grid, in the order of ranks and partitioned into tiles: the input of trees in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct PartitionedCriticals {
 };
 
 /// Tiles so small that what is done to one of them on every thread stays well within the memory limit (base/memory_limit.h); their sides
-/// are those of slabs where the context asks for slabs. At most 65536.
+/// are those of slabs where the context sets slabs. At most 65536.
 [[nodiscard]] Tiling tiling_for(const Extent& extent, const Context& context);
 
 /// Consumes the scan. Cost: O(voxels + c log c) time; every pass runs through its arrays in order, or stays within some tiles.

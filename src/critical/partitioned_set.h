@@ -1,8 +1,8 @@
-// Critical elements cut into parts (slabs of a grid), for trees in bounded memory: every pass works on one part, or on all parts at once in
-// the order of ranks.
+// Critical elements partitioned into parts (tiles of a grid), for trees in bounded memory: every pass works on one part, or on all parts at
+// once in the order of ranks.
 //
-// Elements lie part after part, descending within a part. As in critical_set.h an element names the extrema its surroundings lead to; those
-// of a part have numbers of their own range.
+// Elements lie part after part, descending within a part. As in critical_set.h an element refers to its representatives; the extrema of a
+// part have consecutive numbers.
 //
 // In the literature: domain decomposition for merge trees (Morozov, Weber, Distributed merge trees, 2013).
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace isoatlas {
 
-/// Names of the components that meet at an element, above and below. Those of an extremum on its empty side name itself.
+/// Representatives of the components that meet at an element, above and below. On its empty side an extremum is its own.
 template <class Id>
 struct Representatives {
     std::array<Id, 2> above, below;
@@ -33,12 +33,12 @@ template <class Id>
 struct RepresentedSet {
     BigVector<std::uint8_t> branches;
     BigVector<Representatives<Id>> representatives;
-    std::size_t maxima = 0, minima = 0;  ///< names above: 0 .. maxima-1; names below: 0 .. minima, 0 = outside
+    std::size_t maxima = 0, minima = 0;  ///< above: 0 .. maxima-1; below: 0 .. minima, 0 = outside
 
     [[nodiscard]] std::size_t size() const { return representatives.size(); }
 };
 
-/// An element of a part. Side by side, because it is read in the order of ranks: from all parts in turn.
+/// An element of a part. Side by side, because it is read in the order of ranks: from all parts alternately.
 template <class Id>
 struct PartitionedElement {
     Representatives<Id> representatives;

@@ -1,4 +1,4 @@
-// Where the surroundings of a critical element lead (docs/theory/3-trees.md#only-critical-elements).
+// Representatives of a critical element: the extrema that its neighbourhood leads to (docs/theory/3-trees.md#only-critical-elements).
 // In the literature: the edges of an extremum graph (Lukasczyk et al., ExTreeM, 2023).
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// basin: of all voxels, finished, in the direction that is asked for.
+/// basin: of all voxels, finished, in the direction of the lookup.
 template <class Id>
 class RepresentativeLookup {
 public:

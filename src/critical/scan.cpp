@@ -138,7 +138,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kTogether = 32;  // most voxels give nothing
+    static constexpr std::size_t kTogether = 32;  // most voxels are regular
 
     /// Bit k: voxel k is critical or has an ambiguous face. Count, where it is not 0, is known to the compiler.
     template <std::size_t Count>

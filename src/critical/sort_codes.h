@@ -1,4 +1,4 @@
-// The total order of critical elements once more, from their codes and the samples.
+// The total order of critical elements restored from their codes and the samples.
 #pragma once
 
 #include <cstdint>

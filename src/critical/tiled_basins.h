@@ -14,7 +14,7 @@ template <class Id>
 struct TiledBasins {
     BigVector<Id> maximum;  ///< per voxel: the number of a maximum above it
     std::vector<Id> first;  ///< per tile: the number of its first maximum; and of the end
-    BitRanks open;          ///< maxima that voxels or critical elements of another tile than their own may name
+    BitRanks open;          ///< maxima that may be basins or representatives in another tile than their own
 };
 
 /// Cost: O(voxels) time, a byte a voxel beyond the result, and an Id each maximum.

@@ -27,7 +27,7 @@ ObjectSums sum_objects(const ObjectTree<Id>& tree, const ZoneSums& zones) {
     return sums;
 }
 
-/// Per event: the child that goes on, -1: there is none. Children come before their parents.
+/// Per event: the child whose branch continues, -1: there is none. Children come before their parents.
 template <class Id>
 BigVector<std::int64_t> continuing_children(const ObjectTree<Id>& tree, std::span<const double> hypervolume) {
     BigVector<std::int64_t> next_above = filled<std::int64_t>(tree.size(), std::int64_t{-1});
@@ -91,7 +91,7 @@ BranchDecomposition decompose_branches(const ObjectTree<Id>& tree, const ZoneSum
     const auto goes_on = [&](std::size_t e) { return !tree.is_root(e) && next_above[tree.parent[e]] == static_cast<std::int64_t>(e); };
     std::size_t count = 0;
     for (std::size_t e = 0; e < events; ++e) count += !goes_on(e), memory.step(BudgetPoll::kTouch);
-    branches.reserve(count);  // a vector that grows is there twice
+    branches.reserve(count);  // a growing vector is held twice
     for (std::size_t e = events; e-- > 0;) {
         memory.step(6 * BudgetPoll::kTouch);
         if (goes_on(e)) continue;

@@ -1,8 +1,20 @@
-// Branch decomposition: a tree of objects cut into objects, by hypervolume (docs/theory/7-which-objects-matter.md#branches-by-hypervolume).
+// Branch decomposition of a merge tree by hypervolume (docs/theory/7-which-objects-matter.md#branches-by-hypervolume).
 //
-// Hypervolume of the object of event e at its low end tau: sum over its voxels of (height - tau). Where objects merge, the one with the
-// largest hypervolume goes on; the others are branches that end there. (By height instead, a large body becomes the branch of a small
+// Hypervolume of the object of event e at its low end tau: sum over its voxels of (height - tau). Where objects merge, the branch of the
+// largest hypervolume continues; the others end there. (By height instead, as in the elder rule, a large body becomes the branch of a small
 // bright peak.)
+//
+// The notation of this folder (docs/theory/7-which-objects-matter.md#notation):
+//   height           value of a sample for superlevel sets, value negated for sublevel sets (analysis/object_tree.h)
+//   branch           a path of events from a maximum of height (top) down to the height at which it ends (bottom: its last event)
+//   appears, merges  heights of its two ends, between which it is an object of its own
+//   main branch      the branch that never ends; position 0 of every list by rank
+//   rank             position by descending hypervolume
+//   V(tau), q        voxels of the object of a branch at tau; q = -d ln V / d tau (features/stable_isovalue.h)
+//   stable           an isovalue of locally least q; outline, outer, inner, merge, middle: the other reasons (isoatlas/objects.h)
+//   gate             drops what noise explains (features/select_branches.h); significant: a branch that passes it
+//   row, candidate   a branch and one isovalue on it (features/candidates.h)
+//   cavity           a low component of the sublevel side; wall: the contour around it (features/cavity_walls.h)
 //
 // In the literature: branch decomposition (Pascucci, Cole-McLaughlin, Scorzelli 2004) by hypervolume (Carr, Snoeyink, van de Panne,
 // Simplifying flexible isosurfaces using local geometric measures, 2004).
@@ -15,7 +27,7 @@
 
 namespace isoatlas {
 
-/// Values are heights (side_tree.h).
+/// Values are heights (analysis/object_tree.h).
 struct Branch {
     std::int64_t top, bottom;  ///< its highest event (a maximum) and its lowest
     std::int64_t highest;      ///< event of the highest element in the object at the low end (may lie in another branch)

@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// Equal steps of heights (side_tree.h), as equal steps of isovalues are.
+/// Equal steps of heights (analysis/object_tree.h), as equal steps of isovalues are.
 struct HeightAxis {
     double lowest = 0;  ///< stored value
     double bend = 0;    ///< as in AxisScale; 0: positions are heights

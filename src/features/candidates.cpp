@@ -15,7 +15,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr double kLargePart = 0.15;  // of the volume: what ends so large is what is not background
+constexpr double kLargePart = 0.15;  // of the volume: a branch that ends so large is everything but background
 
 constexpr IsovalueReason kOutline = IsovalueReason::outline;
 
@@ -40,7 +40,7 @@ private:
     [[nodiscard]] bool is_superlevel() const { return tree_.sign > 0; }
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
-    /// Whatever is selected. By rank.
+    /// The significant branches by rank, whatever is selected.
     [[nodiscard]] std::vector<std::int64_t> standing_out(const NoiseModel& noise) const {
         return significant_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
     }
@@ -98,7 +98,7 @@ private:
             const Branch& b = branches_.branch[kept[k]];
             std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
             std::size_t rows = 1;
-            if (k == 0 && is_superlevel()) {  // the dark main branch is the outside, which has no rows
+            if (k == 0 && is_superlevel()) {  // the main branch of sublevel sets is the outside, which has no rows
                 const std::vector<BranchIsovalue> more = before_merges(branches_, standing_out(noise), result.histograms[k], own, noise);
                 own.insert(std::ranges::find(own, kOutline, &BranchIsovalue::reason), more.begin(), more.end());
                 rows = arrange_main_branch(own, volume_.info->extent.voxels());
@@ -110,7 +110,7 @@ private:
         return result;
     }
 
-    /// At the low end of the range, or the lowest one when it is most of what there is; unless there is nothing else
+    /// At the low end of the range, or the lowest one and large; a single one must be both
     /// (docs/theory/7-which-objects-matter.md#stable-isovalues).
     [[nodiscard]] bool is_outline(const StableIsovalue& peak, const std::vector<StableIsovalue>& peaks) const {
         const bool is_large = peak.volume > kLargePart * static_cast<double>(volume_.info->extent.voxels());
@@ -122,7 +122,7 @@ private:
     [[nodiscard]] std::vector<BranchIsovalue> isovalues(std::int64_t branch, const BranchHistogram& histogram) const {
         const Branch& b = branches_.branch[branch];
         std::vector<StableIsovalue> peaks = stable_isovalues(histogram);
-        const std::int64_t min = min_voxels(volume_.info->extent.voxels());  // of a few voxels the gaps between their values are seen
+        const std::int64_t min = min_voxels(volume_.info->extent.voxels());  // below it the gaps between values of single voxels dominate
         std::erase_if(peaks, [min](const StableIsovalue& peak) { return peak.volume < static_cast<double>(min); });
         std::vector<BranchIsovalue> own;
         for (const StableIsovalue& peak : peaks)
@@ -137,15 +137,15 @@ private:
         return own;
     }
 
-    /// The closest isovalue at which the branch is there. A sample is High when its value is at least tau, Low when it is below: a bright
-    /// branch lives in (merges, appears], a dark one in [merges, appears) as heights go.
+    /// The closest isovalue at which the branch is there. A sample is High when its value is at least tau, Low when it is below: in
+    /// heights, a branch of superlevel sets lives in (merges, appears], one of sublevel sets in [merges, appears).
     [[nodiscard]] double alive(double tau, const Branch& b) const {
         const double end = std::max(b.merges, lowest());
         if (is_superlevel()) return std::clamp(tau, std::nextafter(end, b.appears), b.appears);
         return std::clamp(tau, end, std::nextafter(b.appears, end));
     }
 
-    /// No isovalue stands out: one bin above the height at which the branch ends, the middle of the range for the main branch.
+    /// No isovalue is stable: one bin above the height at which the branch ends, the middle of the range for the main branch.
     [[nodiscard]] double just_above(const Branch& b, const BranchHistogram& histogram) const {
         if (b.merges < lowest()) return (lowest() + b.appears) / 2;
         const double room = histogram.axis.position(b.appears) - histogram.low;

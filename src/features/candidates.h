@@ -1,5 +1,4 @@
-// Rows of a table of objects in the making: which branches matter, and the isovalues that show each
-// (docs/theory/7-which-objects-matter.md).
+// CandidateTable: the significant branches of one side, and the isovalues that show each best (docs/theory/7-which-objects-matter.md).
 #pragma once
 
 #include <vector>
@@ -11,7 +10,7 @@
 
 namespace isoatlas {
 
-/// A branch and one isovalue on it. Values are heights (side_tree.h).
+/// A branch and one isovalue on it. Values are heights (analysis/object_tree.h).
 struct Candidate {
     std::int64_t branch;
     double appears, merges, tau, hypervolume;

@@ -1,4 +1,4 @@
-// Dark objects in the making: the dark tree, its branches, and those that matter.
+// CavityCandidates: the sublevel tree, its branches, and the significant ones.
 // In the literature: components of sublevel sets; cavities or voids where an object encloses them.
 #pragma once
 
@@ -14,7 +14,7 @@ struct CavityCandidates {
     BranchDecomposition branches;
     CandidateTable chosen;  ///< without the outside; one row a branch
 
-    /// Lowest voxel of the dark object of an event; -1: the outside.
+    /// Lowest voxel of the low component of an event; -1: the outside.
     [[nodiscard]] std::int64_t voxel(const AnalysisArrays<Id>& arrays, std::int64_t event) const {
         return lowest_voxel(arrays, sublevel, static_cast<std::size_t>(branches.highest[event]));
     }

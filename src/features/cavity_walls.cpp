@@ -11,10 +11,10 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMaxCavities = 5;  // of one branch; all are in the table of dark objects
+constexpr std::size_t kMaxCavities = 5;  // of one branch; all are in the table of cavities
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Per dark branch: the row of the closest branch that has one, itself or one it ends in; -1: there is none.
+/// Per sublevel branch: the row of the closest branch that has one, itself or one it ends in; -1: there is none.
 template <class Id>
 BigVector<std::int64_t> rows_of_branches(const CavityCandidates<Id>& candidates) {
     const std::vector<Candidate>& rows = candidates.chosen.rows;
@@ -40,7 +40,7 @@ double joins(const BranchDecomposition& branches, std::int64_t event, double val
     return value;
 }
 
-/// While a dark branch lies in another one it is closed as long as that is.
+/// While a sublevel branch lies in another one it is closed as long as that is.
 template <class Id>
 void widen(std::vector<std::vector<Enclosure>>& all, const CavityCandidates<Id>& candidates) {
     const std::vector<Candidate>& rows = candidates.chosen.rows;
@@ -159,7 +159,7 @@ std::vector<std::int64_t> objects_around(const Analysis& analysis, const Analysi
     for (const Candidate& row : candidates.chosen.rows) {
         const Branch& b = candidates.branches.branch[row.branch];
         const ActiveObjects there = index.at(-b.merges);
-        const std::int64_t id = lowest_voxel(arrays, candidates.candidates, static_cast<std::size_t>(b.highest));
+        const std::int64_t id = lowest_voxel(arrays, candidates.sublevel, static_cast<std::size_t>(b.highest));
         const auto wall = std::ranges::find_if(
             there.contours, [id](const ActiveContour& contour) { return contour.shell == Shell::inner && contour.id == id; });
         if (wall == there.contours.end()) throw Error(ErrorKind::internal, {.what = "a cavity without a wall"});

@@ -1,4 +1,4 @@
-// The head of a table of objects, the notes that its entries have there, and why their isovalues were chosen.
+// The first entries of a table of objects, their notes there, and texts for the reasons of their isovalues.
 #include <algorithm>
 #include <set>
 
@@ -27,7 +27,7 @@ const char* text_of(IsovalueReason reason) {
         case IsovalueReason::outer: return "its outside alone, as if its cavities were filled, is sharpest here";
         case IsovalueReason::inner: return "the wall of one of its cavities is sharpest here";
         case IsovalueReason::merge: return "as large as it gets before it merges with another object";
-        case IsovalueReason::middle: return "the middle of its range; no isovalue stands out";
+        case IsovalueReason::middle: return "the middle of its range; no isovalue is stable";
     }
     return "";
 }
@@ -59,7 +59,7 @@ void keep_first(std::vector<Entry>& entries, std::int64_t top) {
     keep_entries(entries, keep);
 }
 
-/// Those of objects that have lines.
+/// Keeps those of objects that have rows.
 void keep_isovalues(std::vector<RecommendedIsovalue>& isovalues, const std::set<std::int64_t>& branches) {
     std::erase_if(isovalues, [&](const RecommendedIsovalue& isovalue) { return !branches.contains(isovalue.branch_top); });
 }

@@ -1,4 +1,4 @@
-// What a BranchHierarchy holds, and one made from what a store holds.
+// The data of a BranchHierarchy, and restoring one from a store.
 // In the literature: branch decomposition (Pascucci, Cole-McLaughlin, Scorzelli, Multi-resolution computation and presentation of contour
 // trees, 2004).
 #pragma once

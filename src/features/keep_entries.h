@@ -1,4 +1,4 @@
-// Leaving lines out of a table of objects.
+// Removing entries from a table of objects.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace isoatlas {
 
-/// keep: per entry. What contains an entry lies in each other: when the closest one is gone, the one around it is the closest.
+/// keep: per entry. Entries that contain an entry are nested: when the closest one is removed, the next one around it is the closest.
 template <class Entry>
 void keep_entries(std::vector<Entry>& entries, const std::vector<bool>& keep) {
     std::vector<std::int64_t> place(entries.size(), -1);

@@ -8,7 +8,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kRows = 5;
-constexpr double kPart = 0.05;       // of a joint object that is worth being told of
+constexpr double kPart = 0.05;       // of a joint object that makes a merge significant
 constexpr double kGrown = 4.0 / 3;   // a volume that looks different
 constexpr double kReproduced = 0.9;  // of the volume, in spite of noise
 constexpr double kProminence = 1e3;  // instead of infinity

@@ -1,8 +1,7 @@
-// How noisy are the samples? A standard deviation for the whole volume, and one that grows with the value
-// (docs/theory/8-noise-and-stability.md).
+// Noise estimation: a standard deviation for the whole volume, and one that grows with the value (docs/theory/8-noise-and-stability.md).
 //
 // Counting detectors (PET, light microscopes) have more noise where the signal is strong: one number for the whole volume is that of the
-// background, and what noise makes of a bright region would pass for objects.
+// background, and noise in regions of high values would pass for objects.
 //
 // In the literature: noise variance estimation from second differences (Immerkaer 1996); signal-dependent noise (Foi et al., Practical
 // Poissonian-Gaussian noise modeling and fitting, 2008).
@@ -20,7 +19,7 @@ namespace isoatlas {
 /// off. From at most about 10^6 samples on a fixed pattern: the same number for any thread count. Cost: O(min(voxels, 10^6)).
 [[nodiscard]] double estimate_noise(const VolumeView& volume);
 
-/// Standard deviation of the noise around a value: sigma, or more where a line through the quiet neighbourhoods says so.
+/// Standard deviation of the noise around a value: sigma, or more by a line through the quiet neighbourhoods.
 struct NoiseModel {
     double sigma = 0;            ///< of estimate_noise()
     double base = 0, slope = 0;  ///< base + slope * (value - low) for low <= value <= high, constant beyond
@@ -29,7 +28,7 @@ struct NoiseModel {
     [[nodiscard]] double at(double value) const { return std::max(sigma, base + slope * (std::clamp(value, low, high) - low)); }
 };
 
-/// Neighbourhoods are grouped by their mean, finer towards bright ones; of each group the 20th percentile of the variance around the plane
+/// Neighbourhoods are grouped by their mean, finer towards high ones; of each group the 20th percentile of the variance around the plane
 /// that fits best is taken: edges and texture only add to it. The line is the quantile regression through the groups at 0.3, in relative
 /// terms, for the same reason. It has a slope only when that explains the groups twice as well as none, and when the same holds for the
 /// median of the finest second difference, to which smooth structure adds nothing. Cost: as above.

@@ -89,7 +89,7 @@ double sigma_of_masks(std::span<const Window> windows) {
     return quantile(windows, 2, [](const Window& window) { return window.mask; }) / 0.6745;
 }
 
-/// Each group takes some 30 % of what is left, so that few bright neighbourhoods have groups of their own.
+/// Each group takes some 30 % of what is left, so that few neighbourhoods of high values have groups of their own.
 template <class Sigma>
 std::vector<Group> groups_of(std::span<const Window> windows, const Sigma& sigma) {
     std::vector<Group> groups;
@@ -142,7 +142,7 @@ NoiseModel line_through(const std::vector<Group>& groups) {
 NoiseModel fit_noise(const VolumeView& volume) {
     const std::vector<Window> windows = visit_samples(volume, [&](auto samples) { return windows_of(samples, volume.info->extent); });
     NoiseModel model = line_through(groups_of(windows, sigma_around_planes));
-    // Structure that grows with the value is no noise: noise shows in the finest differences too.
+    // Structure that grows with the value is not noise: noise shows in the finest differences too.
     if (line_through(groups_of(windows, sigma_of_masks)).slope == 0) model = {};
     model.sigma = estimate_noise(volume);
     return model;

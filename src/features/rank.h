@@ -8,8 +8,8 @@
 
 namespace isoatlas {
 
-/// Cost: the dark tree (features/cavity_candidates.h), and four passes over samples and zones in order, one voxel after the other; 60 bytes
-/// an event.
+/// Cost: the sublevel tree (features/cavity_candidates.h), and four passes over samples and zones in order, one voxel after the other; 60
+/// bytes an event.
 [[nodiscard]] ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                        const Context& context);
 
@@ -19,7 +19,7 @@ namespace isoatlas {
 [[nodiscard]] ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                            const Context& context);
 
-/// The table of a side that is made. Cost: up to top queries at isovalues (isoatlas/active.h).
+/// The table of given candidates. Cost: up to top queries at isovalues (isoatlas/active.h).
 template <class Id>
 [[nodiscard]] CavityTable cavity_table(const VolumeView& volume, const Analysis& analysis, const AnalysisArrays<Id>& arrays,
                                        const CavityCandidates<Id>& side, const NoiseModel& noise, std::int64_t top);

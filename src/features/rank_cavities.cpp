@@ -1,4 +1,4 @@
-// The table of dark objects, and their labels.
+// The table of cavities, and their labels.
 #include <algorithm>
 #include <cmath>
 #include <limits>

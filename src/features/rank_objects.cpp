@@ -71,7 +71,7 @@ private:
     BranchDecomposition branches_;
 };
 
-/// Calls use(arrays, noise, dark objects that matter, table of bright objects).
+/// Calls use(arrays, noise, significant cavities, table of objects).
 template <class Use>
 auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context, const Use& use) {
     if (volume.info->extent != analysis.extent())
@@ -100,7 +100,7 @@ ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const R
 ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     return with_tables(volume, analysis, options, context,
                        [&](const auto& arrays, const NoiseModel& noise, const auto& cavities, ObjectTable table) {
-                           const bool is_same = options.gate && !options.selection;  // as what matters for the bright ones
+                           const bool is_same = options.gate && !options.selection;  // the same cavities as for the table of objects
                            CavityTable cavity_rows = is_same ? cavity_table(volume, analysis, arrays, cavities, noise, options.top)
                                                              : rank_cavities(volume, analysis, options, context);
                            return ObjectsAndCavities{std::move(table), std::move(cavity_rows)};

@@ -1,4 +1,4 @@
-// Which branches are kept: by a selection, or by what noise explains (docs/theory/7-which-objects-matter.md#the-noise-gate).
+// Selection of branches: by sizes, or by what noise explains (docs/theory/7-which-objects-matter.md#the-noise-gate).
 // In the literature: topological simplification by persistence (Edelsbrunner, Letscher, Zomorodian 2002) and by geometric measures (Carr,
 // Snoeyink, van de Panne 2004).
 #pragma once
@@ -16,15 +16,14 @@ namespace isoatlas {
 template <class Id>
 [[nodiscard]] BigVector<double> branch_measures(const ObjectTree<Id>& tree, const BranchDecomposition& branches, const VolumeInfo& info);
 
-/// Positions by rank, the main branch first. measure: of branch_measures(); empty when the selection does not ask for it. Cost:
-/// O(branches).
+/// Positions by rank, the main branch first. measure: of branch_measures(); empty when the selection does not use it. Cost: O(branches).
 [[nodiscard]] std::vector<std::int64_t> select_branches(const BranchDecomposition& branches, std::span<const double> measure,
                                                         const Selection& selection);
 
-/// How many voxels say something of a shape, in a volume of so many.
+/// How many voxels a shape needs to be significant, in a volume of so many.
 [[nodiscard]] std::int64_t min_voxels(std::int64_t voxels);
 
-/// Branches that noise does not explain and that are not tiny beside the largest; the main branch first. The noise is that
+/// Branches that noise does not explain and that are not tiny compared with the largest; the main branch first. The noise is that
 /// around the value where they merge. voxels: of the volume; sign: of ObjectTree. Cost: O(branches that are large enough).
 [[nodiscard]] std::vector<std::int64_t> significant_branches(const BranchDecomposition& branches, std::int64_t voxels,
                                                              const NoiseModel& noise, double sign);

@@ -37,7 +37,7 @@ double prominence(const std::vector<double>& s, std::size_t i) {
     return s[i] - std::max(valley(-1), valley(1));
 }
 
-/// Do the voxels that join around a peak, less than after its valley, tell the two apart? Counts vary as their square roots.
+/// Are the voxels that join around a peak significantly fewer than after its valley? Counts vary as their square roots.
 bool is_significant(double stability, double prominence, double volume) {
     if (!std::isfinite(prominence)) return true;
     const double peak = std::exp(-stability) * volume * kSmoothedBins, valley = peak * std::exp(prominence);

@@ -1,5 +1,4 @@
-// At which isovalues does an object look like itself? Where its volume changes least
-// (docs/theory/7-which-objects-matter.md#stable-isovalues).
+// Stable isovalues of an object: where its volume changes least (docs/theory/7-which-objects-matter.md#stable-isovalues).
 //
 // q(tau) = -d ln V / d tau for the volume V(tau) of the object. A minimum of q is a steep boundary of a compact body (by the coarea formula
 // q is area / volume times the mean of 1/gradient); it counts when -ln q has a prominence of at least ln 1.5 and the
@@ -15,7 +14,7 @@
 
 namespace isoatlas {
 
-/// Bins that the smoothing takes together: isovalues closer than that are not told apart.
+/// Bins that the smoothing takes together: isovalues closer than that are not distinguished.
 inline constexpr double kSmoothedBins = 7.1;
 
 struct StableIsovalue {

@@ -1,4 +1,4 @@
-// Where the extremes of a brick lie: they name the components that a brick lies in, without its samples.
+// Places of the extremes of a brick: with them representatives of components are found without its samples.
 // In the literature: min-max blocks (Wilhelms, Van Gelder, Octrees for faster isosurface generation, 1992).
 #pragma once
 

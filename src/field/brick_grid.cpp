@@ -6,7 +6,7 @@
 namespace isoatlas {
 namespace {
 
-/// Is p before q on the curve that takes the bits of z, y, x in turns? The highest bit in which they differ decides (Chan 2002).
+/// Is p before q in Morton order (bits of z, y, x interleaved)? The highest bit in which they differ decides (Chan 2002).
 bool comes_before(const std::array<std::int64_t, 3>& p, const std::array<std::int64_t, 3>& q) {
     int axis = 2;
     std::int64_t max = p[2] ^ q[2];

@@ -1,4 +1,4 @@
-// How a volume is cut into bricks of 16 x 8 x 8 samples (docs/decisions/0014); the last ones of an axis are smaller.
+// BrickGrid: partition of a volume into bricks of 16 x 8 x 8 samples (docs/decisions/0014); the last ones of an axis are smaller.
 #pragma once
 
 #include <array>

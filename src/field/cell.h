@@ -66,7 +66,7 @@ constexpr bool face_is_split(int pattern, int f) {
 /// here (critical/open_tunnel.h).
 std::array<std::uint8_t, 8> cell_regions(int pattern, int joined);
 
-/// What default face types are looked up in; 256 patterns, made once.
+/// Lookup tables for default face types; 256 patterns, made once.
 struct CellTable {
     /// Bit f: face f is split by the pattern.
     std::array<std::uint8_t, 256> split;

@@ -29,7 +29,7 @@ struct CellCaseTables {
     std::array<std::uint8_t, 256> split_faces;          ///< bit f: face f is split by the pattern
     std::array<std::uint16_t, 256> hit_edges;           ///< bit e: edge e is hit
     std::array<std::uint16_t, 256> first_case;          ///< the case with no face joined
-    std::array<std::uint16_t, 256 * 64> numbered_case;  ///< [pattern * 64 + joined]; joined bits of faces that are not split do not matter
+    std::array<std::uint16_t, 256 * 64> numbered_case;  ///< [pattern * 64 + joined]; joined bits of faces that are not split are ignored
     std::array<CellLoops, kCellCases> loops;
     /// One pattern and joined mask of each case.
     std::array<std::uint8_t, kCellCases> pattern_of, joined_of;

@@ -15,8 +15,8 @@ void check(const Extent& extent, const SampleBox& box) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (box.begin[axis] >= 0 && box.begin[axis] < box.end[axis] && box.end[axis] <= extent.size[axis]) continue;
         throw Error(ErrorKind::usage, {.what = "the box " + std::to_string(box.begin[axis]) + ":" + std::to_string(box.end[axis]) +
-                                               " along axis " + std::to_string(axis) + " is no part of the volume",
-                                       .expected = "first:behind the last sample, in a volume of " + text_of(extent),
+                                               " along axis " + std::to_string(axis) + " does not lie inside the volume",
+                                       .expected = "FIRST:END, samples of a volume of " + text_of(extent),
                                        .next = "choose a box inside the volume"});
     }
 }

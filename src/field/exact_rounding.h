@@ -1,4 +1,4 @@
-// Rounding of saddle values (field/rounding.h) by comparisons with integers of any size: where twice the precision of doubles cannot tell.
+// Rounding of saddle values (field/rounding.h) by comparisons with integers of any size: where double-double arithmetic does not decide.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

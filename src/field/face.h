@@ -60,7 +60,7 @@ public:
     static constexpr std::size_t kMax = 256;
 
     [[nodiscard]] std::size_t count() const { return count_; }
-    /// At most kMax. The Lows in any order: which is lower nobody can predict, and vectors need not.
+    /// At most kMax. The Lows in any order: a branch on which is lower is unpredictable, and vector code needs none.
     void add(double low_1, double low_2, double high_1, double high_2) {
         column_[0][count_] = low_1, column_[1][count_] = low_2;
         column_[2][count_] = high_1, column_[3][count_] = high_2;

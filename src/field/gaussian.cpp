@@ -1,5 +1,5 @@
-// Slice after slice: a slice is filtered along x and y when it first comes into reach, and kept until it is out of reach; the slice in the
-// middle becomes the weighted sum of those that are kept. Every sum runs in one order, so the bytes do not depend on the threads.
+// Separable convolution with a sliding window of slices: a slice is filtered along x and y when it enters the window; the slice in the
+// middle becomes the weighted sum of the window. Every sum runs in one order, so the bytes do not depend on the threads.
 #include "field/gaussian.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Kernel kernel_of(double sigma, std::int64_t radius) {
     return kernel;
 }
 
-/// out[i] = sum of kernel[d] * row(at +- d)[i]; beyond the ends the last of `count` rows goes on. row(r): numbers of row r.
+/// out[i] = sum of kernel[d] * row(at +- d)[i]; beyond the ends the last of `count` rows is repeated. row(r): numbers of row r.
 template <class Row>
 void add_rows(const Kernel& kernel, std::int64_t at, std::int64_t count, const Row& row, std::span<double> out) {
     const auto* middle = row(at);

@@ -1,4 +1,4 @@
-// The Gaussian of isoatlas/filter.h, on samples that stay where they are.
+// The Gaussian filter of isoatlas/filter.h, in place.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace isoatlas {
 
-/// Replaces the samples of a volume, and tells it in info. Reads and writes slices once, in their order.
+/// Replaces the samples of a volume, and records the filter in info. Reads and writes slices once, in their order.
 /// Memory beyond the samples: 2 * gaussian_radius + 1 slices of doubles. Throws as gaussian_filter().
 void filter_in_place(VolumeInfo& info, std::byte* samples, double sigma, const Context& context);
 

@@ -1,4 +1,4 @@
-// A grid of samples as the stages above see it: slices that are there, and nothing else.
+// GridView: a grid of samples as later stages access it, by the slices that are in memory.
 //
 // The slab passes touch only the slices [z_begin - 1, z_end] of their slab, so the same code serves a volume in memory and one that is
 // streamed. z is the last axis of a 3D grid; a 2D grid is one slice.

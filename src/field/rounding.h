@@ -1,4 +1,4 @@
-// How the value of a saddle becomes a double: rounded once, downwards.
+// Rounding of saddle values to double: once, downwards.
 //
 // The value of an element is the greatest double at most the exact one. So "value >= tau" is true exactly when "exact value >= tau" is, for
 // every isovalue tau there is (docs/theory/1-elements-and-order.md#numbers). Rounding to nearest could lift a saddle to a sample above it.

@@ -42,7 +42,7 @@ struct SampleGrid {
 
     [[nodiscard]] T at(std::int64_t x, std::int64_t y, std::int64_t z) const { return samples[layout.at(x, y, z)]; }
     [[nodiscard]] T at(const std::array<std::int64_t, 3>& voxel) const { return at(voxel[0], voxel[1], voxel[2]); }
-    /// Sample at corner k of the cell whose corner 0 is a voxel, or lies beside one.
+    /// Sample at corner k of the cell whose corner 0 is a voxel, or adjacent to one.
     [[nodiscard]] T corner(const std::array<std::int64_t, 3>& cell, int k) const {
         return at(cell[0] + (k & 1), cell[1] + (k >> 1 & 1), cell[2] + (k >> 2));
     }

@@ -11,13 +11,13 @@
 
 namespace isoatlas {
 
-/// What a step brings into memory that reads every stride-th sample.
+/// Bytes that a step brings into memory when every stride-th sample is read.
 template <class T>
 [[nodiscard]] std::size_t bytes_of_stride(std::int64_t stride) {
     return std::min(static_cast<std::size_t>(stride) * sizeof(T), BudgetPoll::kTouch);
 }
 
-/// The least and the largest of the samples; there is at least one.
+/// Minimum and maximum of the samples; there is at least one.
 template <class T>
 [[nodiscard]] std::pair<T, T> sample_range(std::span<const T> samples) {
     constexpr std::size_t kTogether = std::size_t{1} << 13;

@@ -20,7 +20,7 @@ struct Slices {
     std::int64_t voxels;  ///< of one slice
 };
 
-/// Height of a slab: what the context says, or a few slabs for each thread, none too small to be worth a thread.
+/// Height of a slab: given by the context, or a few slabs for each thread, none too small to be worth a thread.
 [[nodiscard]] std::int64_t slab_height(const Context& context, const Slices& slices);
 
 /// Runs work on the slabs that cover all slices. Progress is reported, and cancellation polled, by the calling thread only.

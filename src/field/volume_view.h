@@ -1,4 +1,4 @@
-// A volume whose samples lie anywhere, for stages that look at some of them: what is not looked at need not be there.
+// VolumeView: a volume whose samples lie anywhere, for stages that read some of them: the others need not be in memory.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,9 @@
-// APNG: a PNG file whose further frames lie in chunks of their own (W3C PNG, third edition).
+// APNG: a PNG file with further frames in chunks of their own (W3C PNG, third edition).
 #include <cmath>
 
 #include "image/animation.h"
 #include "image/png.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 
@@ -35,8 +36,8 @@ std::vector<std::uint8_t> frame_control(std::uint32_t sequence, const Animation&
     const auto milliseconds = static_cast<std::uint16_t>(std::lround(1000 / animation.frames_per_second));
     for (const std::uint16_t n : {milliseconds, std::uint16_t{1000}})
         control.push_back(static_cast<std::uint8_t>(n >> 8)), control.push_back(static_cast<std::uint8_t>(n));
-    control.push_back(0);  // the frame stays
-    control.push_back(0);  // and replaces what was there
+    control.push_back(0);  // the frame is kept
+    control.push_back(0);  // and overwrites the previous one
     return control;
 }
 
@@ -50,7 +51,7 @@ std::vector<std::byte> encode_apng(const Animation& animation) {
     chunks.begin(animation.frames[0].width, animation.frames[0].height, with_alpha);
     std::vector<std::uint8_t> control;
     put_number(control, static_cast<std::uint32_t>(animation.frames.size()));
-    put_number(control, 0);  // for ever
+    put_number(control, 0);  // endless loop
     chunks.chunk("acTL", control);
     std::uint32_t sequence = 0;
     for (std::size_t i = 0; i < animation.frames.size(); ++i) {

@@ -1,4 +1,4 @@
-// GIF 89a: one palette for all frames; pixels that stay as they were are transparent.
+// GIF 89a: one palette for all frames; unchanged pixels are transparent.
 #include <algorithm>
 #include <cmath>
 
@@ -84,7 +84,7 @@ void compress(const std::vector<std::uint8_t>& indices, GifBytes& out) {
         prefix = indices[i];
     }
     codes.put(prefix, width);
-    if (used == 1 << width && width < 12) ++width;  // the decoder has one code more by now
+    if (used == 1 << width && width < 12) ++width;  // the decoder has one more code here
     codes.put(kEnd, width);
     codes.finish();
 }
@@ -98,11 +98,11 @@ void put_header(const Animation& animation, const Quantiser& quantiser, GifBytes
         for (int c = 0; c < 3; ++c) out.byte(i < quantiser.colours().size() ? quantiser.colours()[i][c] : 0);
     }
     out.byte(0x21), out.byte(0xFF), out.byte(11), out.text("NETSCAPE2.0");
-    out.byte(3), out.byte(1), out.word(0), out.byte(0);  // for ever
+    out.byte(3), out.byte(1), out.word(0), out.byte(0);  // endless loop
 }
 
 void put_frame(const Image& frame, int hundredths, const std::vector<std::uint8_t>& indices, GifBytes& out) {
-    out.byte(0x21), out.byte(0xF9), out.byte(4), out.byte(0x05);  // stays when the next one comes; has a transparent colour
+    out.byte(0x21), out.byte(0xF9), out.byte(4), out.byte(0x05);  // kept for the next frame; has a transparent colour
     out.word(hundredths);
     out.byte(kSame), out.byte(0);
     out.byte(0x2C), out.word(0), out.word(0), out.word(frame.width), out.word(frame.height), out.byte(0);
@@ -127,7 +127,7 @@ std::vector<std::byte> encode_gif(const Animation& animation) {
         for (std::size_t i = 0; f > 0 && i < changed.size(); ++i) {
             if (indices[i] == shown[i]) changed[i] = kSame;
         }
-        // Times are whole hundredths: rounded so that the frames so far take what they should.
+        // Times are whole hundredths of a second: rounding errors do not accumulate.
         const auto due = [&](std::size_t frames) { return std::lround(100 * static_cast<double>(frames) / animation.frames_per_second); };
         put_frame(frame, static_cast<int>(due(f + 1) - due(f)), changed, out);
         shown = indices;

@@ -1,4 +1,4 @@
-// PNG (ISO/IEC 15948), written here: a handful of chunks around one deflated block.
+// PNG (ISO/IEC 15948), written directly: a few chunks around one deflated block.
 #include <libdeflate.h>
 
 #include <algorithm>

@@ -73,7 +73,7 @@ std::vector<Box> cut_boxes(const std::vector<Bin>& bins) {
             std::stable_partition(worst->bins.begin(), worst->bins.end(), [&](int i) { return middle(bins[i], axis) <= at; });
         upper.bins.assign(above, worst->bins.end());
         worst->bins.erase(above, worst->bins.end());
-        if (upper.bins.empty() || worst->bins.empty()) {  // all at the mean but for rounding
+        if (upper.bins.empty() || worst->bins.empty()) {  // all at the mean, except for rounding
             worst->bins.insert(worst->bins.end(), upper.bins.begin(), upper.bins.end());
             worst->error = 0;
             continue;

@@ -1,4 +1,4 @@
-// 255 colours that stand for all colours of some pictures.
+// Colour quantisation: a palette of 255 colours for some pictures.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ public:
     explicit Quantiser(std::span<const Image> frames);
 
     [[nodiscard]] const std::vector<std::array<std::uint8_t, 3>>& colours() const { return colours_; }
-    /// Number of the colour for a pixel at (x, y). Ordered dithering: what does not move does not flicker.
+    /// Palette index of a pixel at (x, y). Ordered dithering, so that static parts do not flicker.
     [[nodiscard]] std::uint8_t index(const std::uint8_t* pixel, std::int64_t x, std::int64_t y) const;
 
 private:

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "image/animation.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::int64_t kMaxSide = 16383;
 
 [[noreturn]] void fail(const std::string& what) {
-    throw Error(ErrorKind::resource, {.what = "WebP could not be made: " + what, .next = "write .png or .gif, or smaller frames"});
+    throw Error(ErrorKind::resource, {.what = "WebP encoding failed: " + what, .next = "write .png or .gif, or smaller frames"});
 }
 
 struct PictureOwner {

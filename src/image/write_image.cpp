@@ -1,5 +1,6 @@
 // Pictures and animations as files; the format follows the name.
 #include "base/atomic_file.h"
+#include "isoatlas/error.h"
 #include "isoatlas/image.h"
 
 namespace isoatlas {
@@ -13,7 +14,7 @@ void write(const std::string& path, const std::vector<std::byte>& bytes) {
 
 [[noreturn]] void unknown(const std::string& path, const std::string& known) {
     throw Error(ErrorKind::usage,
-                {.file = path, .what = "no picture format has this extension", .expected = known, .next = "choose another name"});
+                {.file = path, .what = "unknown extension of a picture", .expected = known, .next = "choose another name"});
 }
 
 }  // namespace

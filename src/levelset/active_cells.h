@@ -1,4 +1,4 @@
-// Walking over the cells that the surface passes through, 64 cells at a time.
+// Enumeration of the active cells, those that the surface passes through, 64 at a time.
 //
 // Cell row (y, z) lies between the rows (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1); y and z from -1 (padding). Its cell p has the
 // voxels x = p - 1 and x = p. In 2D a row of squares lies between the rows y and y + 1.
@@ -71,7 +71,7 @@ void for_active_cells(const CellRow<kRows>& rows, const CellWindow& window, Visi
     });
 }
 
-/// The cells of a row that are active, as a number.
+/// Number of active cells of a row.
 template <int kRows>
 std::int64_t count_active_cells(const CellRow<kRows>& rows, const CellWindow& window) {
     std::int64_t count = 0;

@@ -1,5 +1,5 @@
-// Which words of the rows of cells may hold active cells, as far as bricks tell before any sample is looked at. Where all bricks around are
-// of one class nothing changes, and nobody needs to look.
+// CandidateWords: the words of the rows of cells that may hold active cells, found from bricks before any sample is read. Where all bricks
+// around are of one class no cell is active.
 #pragma once
 
 #include <array>

@@ -8,12 +8,9 @@
 namespace isoatlas {
 namespace {
 
-using kBrickRow;
-using kBrickSize;
-
 constexpr Extremum kNone{-1, 0};
 
-/// Highs are named by their highest voxel, Lows by their lowest.
+/// The representative of Highs is their highest voxel, of Lows their lowest.
 bool beats(bool high, const Extremum& a, const Extremum& b) {
     if (a.voxel == -1 || b.voxel == -1) return a.voxel != -1;
     return high ? a.is_above(b) : b.is_above(a);
@@ -29,7 +26,7 @@ public:
         if (bricks_ != nullptr) take_bricks();
     }
 
-    /// Looks at the samples: extremes of runs first, from several threads, then of components.
+    /// From the samples: extremes of runs first, on several threads, then of components.
     void take_runs(const Context& context) {
         constexpr auto kNowhere = std::numeric_limits<std::uint32_t>::max();
         std::vector<std::uint32_t> found(static_cast<std::size_t>(runs_.count()), kNowhere);
@@ -52,7 +49,7 @@ public:
     [[nodiscard]] const std::vector<Extremum>& lowest() const { return lowest_; }
 
 private:
-    /// Not the runs of the outside: it has no name.
+    /// Not the runs of the outside: it has no representative.
     template <class Visit>
     void for_named_runs(std::int64_t r, Visit&& visit) const {
         const RunRow row = runs_.row(r);
@@ -148,7 +145,7 @@ void find_representatives(const TauLevel& level, const Context& context, Compone
         components.highest = voxels_of(namer.highest());
         components.lowest = voxels_of(namer.lowest());
     });
-    components.lowest[0] = -1;  // the outside has no name
+    components.lowest[0] = -1;  // the outside has no representative
 }
 
 }  // namespace isoatlas

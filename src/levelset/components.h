@@ -46,7 +46,7 @@ struct Components {
 /// tunnel joins. Cost: O(runs) beyond the bits, and O(active cells) for tunnels. Same result for any threads and slabs.
 [[nodiscard]] Components find_components(const TauLevel& level, double tunnel_height, const Context& context);
 
-/// Walks along a row and tells the component of ascending positions. Outside the volume everything is low component 0.
+/// Cursor along a row: the component of ascending positions. Outside the volume everything is low component 0.
 class ComponentCursor {
 public:
     ComponentCursor(const Components& components, std::int64_t y, std::int64_t z) {

@@ -1,4 +1,4 @@
-// How many hits and loops each contour has: its Euler number, hence its genus.
+// Numbers of hits and loops of each contour: its Euler number, hence its genus.
 #pragma once
 
 #include "field/sample_grid.h"

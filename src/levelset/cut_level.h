@@ -1,4 +1,4 @@
-// What cut() does once the samples are classified.
+// cut() of classified samples.
 #pragma once
 
 #include "isoatlas/cut.h"

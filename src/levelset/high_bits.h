@@ -20,10 +20,10 @@ class HighBits {
 public:
     /// All Low.
     explicit HighBits(const Extent& extent);
-    /// Only words that the bricks call busy need be looked at. Rows hold anything until they are written.
+    /// Only candidate words (levelset/candidate_words.h) need be read. Rows are uninitialised until they are written.
     explicit HighBits(const LevelBricks& bricks);
 
-    /// The bricks are others now: other words are busy. What rows hold stays.
+    /// Finds the candidate words of other bricks. The rows keep their bits.
     void set_candidates(const LevelBricks& bricks) { candidates_ = CandidateWords(bricks, words_); }
 
     [[nodiscard]] const Extent& extent() const { return extent_; }

@@ -1,4 +1,4 @@
-// The bricks of a volume at one isovalue: what they say about classes and names before any sample is looked at.
+// LevelBricks: classes and extremes of the bricks of a volume at one isovalue, known before any sample is read.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct Extremum {
 };
 
 struct LevelBricks {
-    BrickGrid grid;                         ///< of the volume, or of the window that is asked
+    BrickGrid grid;                         ///< of the volume, or of the window of the query
     std::vector<BrickClass> classes;        ///< per brick
     std::vector<Extremum> highest, lowest;  ///< per brick: of one that has a High, of one that has a Low; voxels are those of the grid.
-                                            ///< Empty where nobody asks for names
+                                            ///< Empty where no representatives are needed
 };
 
 }  // namespace isoatlas

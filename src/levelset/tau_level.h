@@ -12,7 +12,7 @@
 
 namespace isoatlas {
 
-/// A part of a volume that stands for itself.
+/// A part of a volume that is processed as a volume of its own.
 struct Window {
     Extent whole;                        ///< of the volume
     std::array<std::int64_t, 3> origin;  ///< first voxel of the part

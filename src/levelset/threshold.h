@@ -7,7 +7,7 @@
 
 namespace isoatlas {
 
-/// value >= tau for a sample of T is `!none_high && value >= least`.
+/// value >= tau for a sample of T is `!none_high && value >= min`.
 template <class T>
 struct Threshold {
     T min;           ///< smallest T that is >= tau

@@ -1,8 +1,8 @@
-// The samples of a bundle of rows and those around it, whatever the layout of the volume, and what turns their differences into slopes.
+// Gather of samples for central-difference normals, for a tile of 8 x 32 rows, from any layout of the volume.
 //
-// A bundle is 8 x 32 rows along x, along y as wide as a brick. Its local coordinates are x of the volume, and y and z from
-// its first row on. One sample before it and two behind it are known along each axis: the far end of an edge and its neighbour; beyond the
-// ends of the grid the last sample is repeated.
+// A bundle is that tile: rows along x, 8 of them along y (as wide as a brick) times 32 along z. Its local coordinates are x of the volume,
+// and y and z from its first row on. One sample before it and two behind it are known along each axis: the far end of an edge and its
+// neighbour; beyond the ends of the grid the last sample is repeated.
 #pragma once
 
 #include <algorithm>
@@ -47,8 +47,8 @@ public:
             gather_across<2>(batch, values);
     }
 
-    /// Asks for samples that are looked at for hits of row (y, z), near the first and the last of some samples of it, and for those that
-    /// later slices will look at: some slices behind the row, and where it is the last one, beside the bundle.
+    /// Prefetches samples that are read for hits of row (y, z), near the first and the last of some samples of it, and those that later
+    /// slices will read: some slices behind the row, and where it is the last one, next to the bundle.
     void prefetch_around(std::int64_t first, std::int64_t last, std::int32_t y, std::int32_t z) const {
         const T* const from = grid_.samples + *offset(0, static_cast<std::int32_t>(first));
         const T* const to = grid_.samples + *offset(0, static_cast<std::int32_t>(last));
@@ -60,7 +60,7 @@ public:
         prefetch_row(y, ahead);
         if (y == 0) prefetch_row(-1, ahead);
         if (y + kBehind >= kBundleSize[1]) prefetch_row(y + kBehind, ahead);
-        prefetch_row(y, z + 1), prefetch_row(y, z + 2);  // a surface that leans comes to lines that nobody has asked for
+        prefetch_row(y, z + 1), prefetch_row(y, z + 2);  // an inclined surface reaches cache lines that are not prefetched yet
         prefetch_row(y - 1, z), prefetch_row(y + 1, z), prefetch_row(y + 2, z);
     }
 

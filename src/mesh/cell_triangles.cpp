@@ -11,7 +11,7 @@ bool edge_in_face(int edge, int face) {
     return corners == 2;
 }
 
-/// Hit number of the loop around which a articulation has no chord within a face; -1: there is none.
+/// Hit number of the loop around which a fan has no chord within a face; -1: there is none.
 int articulation_centre(const CellLoops& loops, int loop) {
     const int n = loops.size(loop);
     const std::uint8_t* hits = loops.edge.data() + loops.begin[loop];

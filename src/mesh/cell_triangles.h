@@ -1,7 +1,7 @@
 // The triangles of one cell, for every case of field/cell_loops.h and both styles.
 //
-// full: a loop of n hits is a articulation of n triangles around its articulation point (docs/theory/5-surfaces.md#spider-web).
-// compact: where that stays embedded, a loop is a articulation of n - 2 triangles around one of its own hits. This needs
+// full: a loop of n hits is a fan of n triangles around its articulation point (docs/theory/5-surfaces.md#spider-web).
+// compact: where that stays embedded, a loop is a fan of n - 2 triangles around one of its own hits. This needs
 //   - no chord between two hits of one face of the cell: the neighbour could use the same chord, and the mesh would not be a manifold;
 //   - no other loop of more than 3 hits in the cell.
 // Why it is embedded: two triangles (v, a, b), (v, c, d) that met outside v would meet on ab or cd, say in q on ab. ab lies in a face F of

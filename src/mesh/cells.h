@@ -1,4 +1,4 @@
-// From active cells to triangles: counting first, then writing in place.
+// From active cells to triangles: PASS 1 counts, PASS 4 writes in place (mesh/layout.h).
 // In the literature: count, then write in place: Flying Edges (Schroeder, Maynard, Geveci 2015).
 #pragma once
 
@@ -14,7 +14,7 @@ namespace isoatlas {
 template <class T>
 class CellWriter {
 public:
-    /// flip: the geometry is mirrored, so triangles must compute_normals the other way round to keep their normals towards lower values.
+    /// flip: the geometry is mirrored, so triangles are oriented the other way round to keep their normals towards lower values.
     CellWriter(const SampleGrid<T>& grid, double tau, const MeshDomain& domain, const PhysicalMap& map, const ExtractOptions& options,
                bool flip)
         : joiner_{grid, tau},

@@ -1,5 +1,4 @@
-// plain_cells.h with vectors of 512 bits, where the processor has them: 64 patterns at once, and up to five triangles of a cell by two
-// permutations of the 16 numbers that its hits are among.
+// AVX-512 version of plain_cells.h: 64 patterns at once, and up to five triangles of a cell by two permutations of its 16 numbers.
 #pragma once
 
 #include "base/prefetch.h"
@@ -88,7 +87,7 @@ ISOATLAS_AVX512 void write_avx512(const CellRow<4>& rows, const CellWindow& wind
     constexpr std::ptrdiff_t kWritten = 6;  // triangles, the last one not whole: what two vectors overwrite
     constexpr int kLines = 6;               // of 64 bytes: about what a word of cells writes
     const __m512i one = _mm512_set1_epi64(1);
-    // One by one: a vector cannot be loaded while the numbers that it is made of are being stored.
+    // Element by element: a vector load would wait for the stores of its elements.
     __m512i next = _mm512_set_epi64(first[7], first[6], first[5], first[4], first[3], first[2], first[1], first[0]);
     alignas(64) std::array<std::uint8_t, 64> patterns;
     for (std::int64_t i = 0; i < rows.candidates.size; ++i) {
@@ -136,7 +135,7 @@ ISOATLAS_AVX512 void write_avx512(const CellRow<4>& rows, const CellWindow& wind
 
 namespace isoatlas {
 
-/// count_plain(), as fast as it gets here.
+/// count_plain(), by AVX-512 where the processor has it.
 template <class Rest>
 void count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowOffsets& place, Rest&& rest) {
 #if ISOATLAS_HAS_AVX512
@@ -145,7 +144,7 @@ void count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const P
     count_plain(rows, window, cells, place, rest);
 }
 
-/// write_plain(), as fast as it gets here.
+/// write_plain(), by AVX-512 where the processor has it.
 template <class Rest>
 void write_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
                        std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {

@@ -1,4 +1,4 @@
-// How many cells does a surface pass through?
+// Number of active cells of a surface.
 #pragma once
 
 #include "isoatlas/surface.h"

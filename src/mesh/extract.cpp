@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPhases = 3;
 
-/// Must triangles (segments) compute_normals the other way round than in voxel coordinates? A 2D image is seen from +z where it can be.
+/// Is the orientation of triangles (segments) opposite to that in voxel coordinates? A 2D image is seen from +z where it can be.
 bool is_mirrored(const VolumeInfo& info) {
     const Mat3& m = info.geometry.direction;
     const double in_plane = m[0][0] * m[1][1] - m[0][1] * m[1][0];
@@ -96,6 +96,7 @@ private:
         return y < domain_.y_end && (domain_.is_2d() || z < domain_.z_end);
     }
 
+    /// PASS 1 and 2.
     void count() {
         resize_for_overwrite(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
         for_groups({"count", 1, kPhases}, [&](std::int64_t group, std::int64_t z) {
@@ -107,7 +108,7 @@ private:
         layout_.back() = {};
         exclusive_scan_counts(layout_);
     }
-    /// Does the row have anything?
+    /// PASS 1 of a row. Returns whether it has hits or triangles.
     bool count_row(std::int64_t y, std::int64_t z) {
         RowOffsets& place = layout_[domain_.row_number(y, z)];
         place = {};
@@ -139,6 +140,7 @@ private:
         resize_for_overwrite(surface.contour, components_ != nullptr ? points : 0);
     }
 
+    /// PASS 3.
     void write_hits(Surface& surface) {
         const HitWriter<T> hits(grid_, tau_, map_, domain_, surface);
         const Phase phase{"points", 2, kPhases};
@@ -151,6 +153,7 @@ private:
         });
     }
 
+    /// PASS 4.
     void write_cells(Surface& surface) {
         for_used_rows({"triangles", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
             if (!has_cells(y, z)) return;

@@ -1,4 +1,4 @@
-// What extract() does once the samples are classified.
+// extract() of classified samples.
 // In the literature: isosurface extraction (Lorensen, Cline, Marching Cubes, 1987).
 #pragma once
 
@@ -7,12 +7,12 @@
 
 namespace isoatlas {
 
-/// Does a surface with these options ask for components and their names?
+/// Do these options select components?
 [[nodiscard]] bool selects_components(const ExtractOptions& options);
 [[nodiscard]] inline bool needs_names(const ExtractOptions& options) { return options.ids || selects_components(options); }
 
 [[nodiscard]] Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context);
-/// Into a surface of before, whose memory is used again. cells: receives how many cells the surface passes through, when asked for.
+/// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.
 void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface,
                    std::int64_t* cells = nullptr);
 

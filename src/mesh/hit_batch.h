@@ -1,4 +1,4 @@
-// Hits that wait to be computed, many at once.
+// Batches of hits, whose points and normals are computed by vector code.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace isoatlas {
 
-/// Hits on edges along one axis that wait.
+/// Pending hits on edges along one axis.
 struct HitBatch {
     std::size_t count = 0;
     Lanes<std::int32_t> from{};                ///< first end of the edge, in a bundle of rows (mesh/bundle_samples.h)
@@ -21,7 +21,7 @@ struct HitBatch {
     [[nodiscard]] bool is_full() const { return count > kLanes - 64 - 16; }
 };
 
-/// What is computed of them.
+/// Values computed for a batch.
 template <class Real>
 struct HitValues {
     std::array<Real, kLanes> a{}, b{};      ///< samples at the ends of the edge
@@ -38,7 +38,7 @@ struct HitRun {
     std::int64_t point;  ///< of the first hit
 };
 
-/// Adds a hit for every bit; how many?
+/// Appends a hit for every bit set. Returns how many.
 inline std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
     std::int64_t point = run.point;
     for (; bits != 0; bits &= bits - 1) {
@@ -50,7 +50,7 @@ inline std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch
 }
 
 #if ISOATLAS_HAS_AVX512
-/// The same for 16 hits at a time, without a branch that could not be foreseen.
+/// The same for 16 hits at a time, without unpredictable branches.
 ISOATLAS_AVX512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
     alignas(64) static constexpr std::array<std::uint8_t, 64> kPositions = [] {
         std::array<std::uint8_t, 64> positions{};
@@ -80,7 +80,7 @@ ISOATLAS_AVX512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t
 }
 #endif
 
-/// append_plain(), as fast as it gets here.
+/// append_plain(), by AVX-512 where the processor has it.
 inline std::int64_t append(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
 #if ISOATLAS_HAS_AVX512
     if (kHasAvx512) return append_wide(run, bits, batch);

@@ -102,7 +102,7 @@ void HitWriter<T>::write_word(std::int64_t w, Row& row, Work& work) const {
         if (batch.is_full()) flush(axis, work);
         batch.is_at_end = batch.is_at_end || is_at_end;
         row.next[axis] += append({static_cast<std::int32_t>(64 * w - 1), row.y, row.z, row.next[axis]}, inner[axis], batch);
-        // Where the row's next hits go: what is written is not waited for either.
+        // Where the row's next hits are written, so that stores do not miss the cache either.
         prefetch_to_write(surface_.points.data() + row.next[axis]);
         if (normals_) prefetch_to_write(surface_.normals.data() + row.next[axis]);
     }
@@ -120,7 +120,7 @@ std::uint64_t HitWriter<T>::end_positions(std::int64_t w) const {
 }
 
 template <class T>
-void HitWriter<T>::compute_normals(std::size_t axis, Work& work) const {
+void HitWriter<T>::normals_of(std::size_t axis, Work& work) const {
     const BundleSamples<T, Real>& samples = work.samples;
     const HitBatch& batch = work.batch[axis];
     if (!batch.is_at_end && samples.has_same_scales()) return compute_normals(batch, map_, samples.same_scales(), work.values);
@@ -140,7 +140,7 @@ void HitWriter<T>::flush(std::size_t axis, Work& work) const {
     HitValues<Real>& values = work.values;
     work.samples.gather(batch, axis, normals_, values);
     place_hits(batch, axis, tau_, map_, work.first, values);
-    if (normals_) compute_normals(axis, work);
+    if (normals_) normals_of(axis, work);
     for (std::size_t i = 0; i < batch.count; ++i)
         surface_.points[batch.point[i]] = {values.place[0][i], values.place[1][i], values.place[2][i]};
     const auto& [x, y, z] = values.slope;

@@ -1,4 +1,4 @@
-// The hits: points of the surface on the edges of the grid, with normals.
+// The hits: points of the surface on the edges of the grid, with normals. PASS 3 of mesh/layout.h.
 // In the literature: edge intersections with normals from central differences (Lorensen, Cline, Marching Cubes, 1987).
 #pragma once
 
@@ -37,7 +37,7 @@ private:
         std::int32_t y, z;
         bool is_last_y, is_last_z;  ///< of the grid: what follows is padding
 
-        /// Made in place: copied, vectors would be loaded while their parts are being stored.
+        /// Made in place: in a copy, vector loads would wait for the stores of their elements.
         Row(const RowHits& of, const RowOffsets& place, std::int64_t row_y, std::int64_t row_z, bool last_y, bool last_z)
             : hits(of),
               next{place.point, place.first_y(), place.first_z()},
@@ -54,10 +54,10 @@ private:
     };
     void write_slice(std::vector<Row>& rows, Work& work) const;
     void write_word(std::int64_t w, Row& row, Work& work) const;
-    /// Computes and writes the hits that wait along an axis.
+    /// Computes and writes the pending hits along an axis.
     void flush(std::size_t axis, Work& work) const;
     /// From differences of samples to normals.
-    void compute_normals(std::size_t axis, Work& work) const;
+    void normals_of(std::size_t axis, Work& work) const;
     /// The hits between voxels of a row, at positions of word w, and the padding behind them along an axis.
     void write_ends(std::int64_t w, std::uint64_t bits, std::size_t axis, Row& row, const Work& work) const;
     /// The hit between the voxel at `position` and the padding, on the side `sign` of an axis.
@@ -74,7 +74,7 @@ private:
     const PhysicalMap& map_;
     const MeshDomain& domain_;
     Surface& surface_;
-    bool normals_;                                                        ///< are they wanted?
+    bool normals_;                                                        ///< are they written?
     std::array<std::array<std::array<float, 3>, 2>, 3> border_normal_{};  ///< by axis and side: before or behind the grid
 };
 

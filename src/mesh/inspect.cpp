@@ -50,7 +50,7 @@ struct Spoke {
     std::int64_t corner;  ///< which corner of the point (0, 1, ...)
 };
 
-/// Looks at the triangles around one point.
+/// The triangles around one point.
 class PointFan {
 public:
     void load(std::int64_t point, std::span<const std::int64_t> corners, Triangles triangles) {
@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// Do the triangles form one articulation: no edge has more than two of them, and edges connect them all?
+    /// Do the triangles form one fan: no edge has more than two of them, and edges connect them all?
     [[nodiscard]] bool is_one_fan(std::size_t corners) {
         bool at_most_two = true;
         for_edges([&](std::int64_t, std::int64_t count, std::int64_t) { at_most_two = at_most_two && count <= 2; });

@@ -1,10 +1,24 @@
-// Where every point and triangle of a surface goes, before any is made: the surface is written in place, in parallel, and its order does
-// not depend on threads or slabs.
+// Layout of a surface: where every point and triangle goes, before any is made. The surface is written in place, in parallel, and its order
+// does not depend on threads or slabs. extract.cpp runs four passes:
+//   PASS 1  count the hits of every row along x, y, z, and the triangles and articulation points of its cells
+//   PASS 2  exclusive scan over the rows: counts become offsets; the arrays of the surface get their sizes
+//   PASS 3  write the points and normals of the hits (mesh/hits.h)
+//   PASS 4  write the triangles, and the articulation points, which are means of hits (mesh/cells.h; 2D: segments, mesh/squares.h)
 //
-// Points and triangles are ordered by lattice row (y, z), y and z from -1. A row owns the hits on its own edges along x, on the edges to
-// row (y + 1, z), on those to (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
+// The notation of this folder:
+//   hit      edge crossing: the point of the surface on an edge of the grid between a High and a Low; edges to the padding included
+//   row      all samples, edges and cells of one (y, z); y and z from -1 (padding). Position p of a row is voxel x = p - 1
+//   cell     cell p of row (y, z): the positions p and p + 1 of the rows (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
+//   pattern  the classes of the 8 corners of a cell, High = 1 (field/cell.h); a plain cell needs nothing else (mesh/plain_cells.h)
+//   word     64 positions of a row, as bits
+//   group    the rows of one slice within a brick along y: 8 rows (RowGroups); passes 1 and 4 run group by group
+//   bundle   8 x 32 rows along y and z (mesh/bundle_samples.h), the unit of PASS 3
+//   brick    16 x 8 x 8 samples (field/brick_grid.h)
 //
-// In the literature: places by prefix sums over rows: Flying Edges (Schroeder, Maynard, Geveci 2015).
+// Points and triangles are ordered by row (y, z). A row owns the hits on its own edges along x, on the edges to row (y + 1, z), on those to
+// (y, z + 1), in this order, each by ascending position, then the articulation points of its cells.
+//
+// In the literature: offsets by prefix sums over rows: Flying Edges (Schroeder, Maynard, Geveci 2015).
 #pragma once
 
 #include <algorithm>
@@ -19,7 +33,7 @@
 
 namespace isoatlas {
 
-/// What is meshed: bits, and which cells and rows count.
+/// The domain of a mesh: bits, and the cells and rows that belong to the surface.
 struct MeshDomain {
     const HighBits& high;
     CellWindow cells;             ///< of every row
@@ -37,7 +51,7 @@ struct MeshDomain {
     [[nodiscard]] bool has_next_z(std::int64_t z) const { return z < z_end; }
 };
 
-/// RowOffsets{} is zeros; a fresh array of them holds anything.
+/// Counts after PASS 1, offsets after PASS 2. RowOffsets{} is zeros; a new array of them is uninitialised.
 struct RowOffsets {
     std::int64_t point;     ///< first point of the row
     std::int64_t triangle;  ///< first triangle (2D: segment)
@@ -49,11 +63,11 @@ struct RowOffsets {
     [[nodiscard]] std::int64_t first_articulation_point() const { return first_z() + z_hits; }
 };
 
-/// The words of a row that need be looked at once they have been counted.
+/// The words of a counted row that need be read.
 [[nodiscard]] inline WordSet words_of(const HighBits& high, const std::uint64_t& counted, const WordSet& candidates) {
     return high.words() <= 64 ? WordSet{&counted, 1} : candidates;
 }
-/// For counting.
+/// Marks a counted word.
 inline void mark_word(std::uint64_t& words, std::int64_t w) { words |= std::uint64_t{1} << w % 64; }
 
 /// The edges of a row that are hit, 64 positions at a time.
@@ -81,7 +95,7 @@ struct RowHits {
     [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
 };
 
-/// Rows in groups that lie beside each other: those of a brick. Which groups have hits or active cells?
+/// Groups of adjacent rows, those of a brick, and which of them have hits or active cells.
 class RowGroups {
 public:
     static constexpr std::int64_t kSide = kBrickSize[1];
@@ -91,7 +105,7 @@ public:
           count_(group_of(domain.y_end) - first_ + 1),
           z_begin_(domain.z_begin),
           used_(static_cast<std::size_t>(count_ * domain.rows_z())) {}
-    /// Of y from -1 on: row -1 is one of its own.
+    /// Of y from -1 on: row -1 is a group of its own.
     [[nodiscard]] static std::int64_t group_of(std::int64_t y) { return (y + kSide) / kSide; }
     [[nodiscard]] std::int64_t begin() const { return first_; }
     [[nodiscard]] std::int64_t end() const { return first_ + count_; }
@@ -111,13 +125,12 @@ private:
     std::vector<std::uint8_t> used_;
 };
 
-/// Places of all rows; the last entry holds the totals.
+/// Offsets of all rows; the last entry holds the totals.
 using Layout = BigVector<RowOffsets>;
 
-/// How many slices ahead of those that are walked over rows are asked for: one more than is looked at.
+/// How many slices ahead rows are prefetched: one more than is read.
 inline constexpr std::int64_t kSlicesAhead = 3;
-/// Asks for the bits and the places of rows [y, end) of a slice, inside the grid: slices lie too far from each other for a processor to
-/// guess.
+/// Prefetches the bits and the offsets of rows [y, end) of a slice, inside the grid: slices lie too far apart for a processor to predict.
 void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t y, std::int64_t end, std::int64_t z);
 
 /// Adds the hits of word w of a row to its counts, along each axis, and marks the word.
@@ -128,9 +141,9 @@ void prefetch_rows(const MeshDomain& domain, const Layout& layout, std::int64_t 
     place.z_hits += static_cast<std::uint32_t>(std::popcount(z));
     mark_word(place.hit_words, w);
 }
-/// The same for a whole row; triangles and articulation points are added by the caller, then turned into places.
+/// PASS 1: the same for a whole row; triangles and articulation points are added by the caller.
 void count_hits(const MeshDomain& domain, std::int64_t y, std::int64_t z, RowOffsets& place);
-/// RowOffsets::triangle holds counts before, first numbers after.
+/// PASS 2. RowOffsets::triangle holds counts before, first numbers after.
 void exclusive_scan_counts(Layout& layout);
 
 }  // namespace isoatlas

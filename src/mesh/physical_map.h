@@ -14,7 +14,7 @@ namespace isoatlas {
 inline constexpr std::size_t kLanes = 256;
 template <class Real>
 using Lanes = std::array<std::array<Real, kLanes>, 3>;
-/// Loops over lanes run to a whole number of these: what lies behind the last one is computed for nothing.
+/// Loops over lanes run to a whole number of these: lanes behind the last one are computed and ignored.
 [[nodiscard]] constexpr std::size_t whole_lanes(std::size_t count) { return (count + 15) / 16 * 16; }
 
 class PhysicalMap {
@@ -79,7 +79,7 @@ public:
             for (std::size_t row = 0; row < 3; ++row) slope[row][i] = leave ? slope[row][i] : g[row] * scale;
         }
     }
-    /// For those.
+    /// The normal of a degenerate slope.
     [[nodiscard]] std::array<float, 3> degenerate_normal(Vec3 slope, int axis, double sign) const;
 
 private:

@@ -19,8 +19,8 @@ template <class Real>
 }
 
 template <class Real>
-[[gnu::always_inline]] inline void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<Real, 3>& scales,
-                                                   HitValues<Real>& values) {
+[[gnu::always_inline]] inline void write_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<Real, 3>& scales,
+                                                 HitValues<Real>& values) {
     for (std::size_t k = 0; k < 3; ++k) {
         const Real scale = scales[k];
         for (std::size_t i = 0; i < whole_lanes(batch.count); ++i) {
@@ -44,11 +44,11 @@ ISOATLAS_TARGET_CLONES void place_hits(const HitBatch& batch, std::size_t axis, 
 
 ISOATLAS_TARGET_CLONES void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<float, 3>& scales,
                                             HitValues<float>& values) {
-    compute_normals(batch, map, scales, values);
+    write_normals(batch, map, scales, values);
 }
 ISOATLAS_TARGET_CLONES void compute_normals(const HitBatch& batch, const PhysicalMap& map, const std::array<double, 3>& scales,
                                             HitValues<double>& values) {
-    compute_normals(batch, map, scales, values);
+    write_normals(batch, map, scales, values);
 }
 
 }  // namespace isoatlas

@@ -1,9 +1,20 @@
-// Cells whose triangles follow from which of their corners are High: no face is split, and they have no points of their own. Nearly all
-// are.
+// Plain cells: cells whose triangles follow from which of their corners are High: no face is split, and they have no points of their own.
+// Nearly all are.
 //
-// The hits of a cell have consecutive numbers in the rows around it: eight counters, the next hit of edges 0, 1, 2, 3 (along x), 4, 6
-// (along y), 8, 10 (along z), say where the hits of a cell are written. The far edges 5, 7, 9, 11 belong to the next cell: they are where
-// the near ones are after it. So the hits of a cell are among 16 numbers, eight counters before and after it.
+// The hits on each kind of edge have consecutive numbers along a row, so eight counters, the next hit of edges 0, 1, 2, 3 (along x), 4, 6
+// (along y), 8, 10 (along z), say where the hits of a cell are written. Seen along x, the four rows around a row of cells:
+//
+//     z + 1   2 --- 6 --- 3      0, 1, 2, 3: the edges along x of the cell, one in each of its four rows
+//             |           |      4, 6, 8, 10: its edges at position p, the near side
+//             8           10     5, 7, 9, 11: the same at position p + 1, the far side: they belong to the next cell
+//             |           |
+//       z     0 --- 4 --- 1
+//             y         y + 1
+//
+// The far edges are where the near ones are after the cell. So its hits are among 16 numbers, the counters before and after it:
+//
+//   number    0  1  2  3  4  5  6  7   |   8  9 10 11 12 13 14 15
+//   edge      0  1  2  3  4  6  8 10   |   -  -  -  -  5  7  9 11
 //
 // In the literature: the unambiguous cases of Marching Cubes (Lorensen, Cline 1987).
 #pragma once
@@ -19,13 +30,13 @@ namespace isoatlas {
 
 inline constexpr std::array<int, 8> kCounterEdges{0, 1, 2, 3, 4, 6, 8, 10};
 
-/// Entries of all patterns.
+/// Tables by pattern.
 struct PlainCells {
-    std::array<std::uint8_t, 256> triangles{};               ///< 0: no plain cell
-    std::array<std::uint8_t, 256> moves{};                   ///< bit i: counter i moves on
+    std::array<std::uint8_t, 256> triangles{};               ///< 0: not a plain cell
+    std::array<std::uint8_t, 256> moves{};                   ///< bit i: counter i is incremented
     std::array<std::array<std::uint8_t, 16>, 256> corner{};  ///< 3 per triangle, among the 16 numbers
 
-    /// tunnels: may cells have any? flip: triangles compute_normals the other way round.
+    /// tunnels: may cells have any? flip: triangles are oriented the other way round.
     PlainCells(SurfaceStyle style, bool tunnels, bool flip);
 };
 

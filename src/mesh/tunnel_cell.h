@@ -23,7 +23,7 @@ namespace isoatlas {
 struct TunnelCell {
     std::uint8_t triangles = 0, ring_points = 0, articulation_points = 0;
     std::array<std::uint8_t, 6> ring_corner{};        ///< of points 0 .. ring_points - 1: the corner of the cell that is pulled in
-    std::array<std::uint8_t, 2> articulation_loop{};  ///< of the points behind: articulation points of loops beside the tunnel
+    std::array<std::uint8_t, 2> articulation_loop{};  ///< of the points behind: articulation points of loops that do not bound the tunnel
     std::uint8_t hit = 0;                             ///< a hit of the annulus
     std::array<std::uint8_t, 3 * 24> corner{};        ///< 3 per triangle, counter-clockwise seen from the Lows
 

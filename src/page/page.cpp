@@ -1,4 +1,4 @@
-// The page: what it shows, put into what web/ was bundled to.
+// The page: inserts its data into the bundle of web/.
 #include "isoatlas/page.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-/// JSON inside a script element: nothing in it may look like the end of that element.
+/// JSON inside a script element: escapes everything that could end the element.
 std::string escaped(const std::string& json) {
     std::string text;
     text.reserve(json.size());

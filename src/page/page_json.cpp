@@ -10,8 +10,6 @@
 namespace isoatlas {
 namespace {
 
-using JsonStream;
-
 void put_text(JsonStream& json, const std::string& text) {
     if (text.empty()) {
         json.null();
@@ -27,7 +25,7 @@ std::string title_of(const std::string& path) {
     return name;
 }
 
-/// Empty: a voxel is a unit.
+/// Empty: lengths are in voxels.
 std::string unit_of(const Geometry& geometry) {
     if (!geometry.unit.empty()) return geometry.unit;
     const bool voxels = geometry.coordinates[0].empty() && geometry.spacing == Vec3{1, 1, 1};
@@ -88,7 +86,7 @@ private:
         json_.key("noise").value(scale_.reported_difference(contents_.noise)).end_object().line();
     }
 
-    /// Where the samples of every axis lie along it, from the first one on.
+    /// Positions of the samples along each axis, relative to the first one.
     void write_coordinates(const Geometry& geometry) {
         json_.key("coordinates").begin_array();
         for (const std::vector<double>& axis : geometry.coordinates) {
@@ -211,7 +209,7 @@ private:
         json_.end_array();
     }
 
-    /// The dark entry whose wall it is; -1: that is not on the page.
+    /// The cavity entry with this wall; -1: not on the page.
     std::int64_t cavity_entry(const RecommendedIsovalue& isovalue) const {
         const auto entry = std::ranges::find_if(contents_.entries, [&](const PageEntry& e) {
             return contents_.branches[e.branch].is_cavity && e.id == isovalue.cavity && e.tau == isovalue.tau;

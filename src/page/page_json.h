@@ -8,7 +8,7 @@
 
 namespace isoatlas {
 
-/// source: what commands name.
+/// source: file named in commands.
 void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source);
 
 }  // namespace isoatlas

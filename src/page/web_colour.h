@@ -1,4 +1,4 @@
-// A colour as web pages write it.
+// A colour in CSS notation.
 #pragma once
 
 #include <cmath>

@@ -1,16 +1,15 @@
-// The disk that fills a hole, followed upwards to the elements that opened it.
+// Descending disk of an element that fills a hole, followed upwards to the elements that opened it.
 //
 // A (1,2) element that fills a hole adds a disk to the Highs; its rim is a loop of edges of the graph G
 // (docs/theory/1-elements-and-order.md#objects-low-components-contours) just above the element.
-// An edge is worth what it is homologous to, by its lower end:
-//   vertex       one of its upward edges is worth nothing (the vertex can be pushed along it). Another one runs beside the first across a
-//                face and is worth the way around that face: over the opposite corner, or the face point. At a (2,1) vertex the second
-//                upward edge is what the vertex opens.
-//   face point   of its two edges to Highs one is worth nothing, the other the path that joins them above it in a cell where it is of type
-//                H; in no such cell: what the face point opens.
+// An edge is homologous, by its lower end, to:
+//   vertex       0 for one of its upward edges (the vertex can be pushed along it). Another one spans a face with the first: the path
+//                around that face, over the opposite corner or the face point. At a (2,1) vertex the second upward edge is what it opens.
+//   face point   0 for one of its two edges to Highs; the other: the path that joins them above it in a cell where it is of type H; in no
+//                such cell: what the face point opens.
 //   body point   B1 is what it opens.
-// All that an edge is worth lies above its lower end, so the lowest edge can always be replaced, mod 2, until only what was opened is left:
-// the boundary of the disk in the Morse complex. Source: Forman 1998, for the gradient; docs/decisions/0018.
+// All of these chains lie above the lower end of the edge, so the lowest edge can always be replaced, mod 2, until only what was opened is
+// left: the boundary of the disk in the Morse complex. Source: Forman 1998, for the gradient; docs/decisions/0018.
 //
 // In the literature: the descending manifold of a critical 2-cell and the boundary operator of the Morse complex mod 2 (Forman, Morse
 // theory for cell complexes, 1998; Robins, Wood, Sheppard 2011).

@@ -1,4 +1,4 @@
-// Exact handles: which tunnel does an element close? Reduction of a boundary matrix mod 2 (Edelsbrunner, Letscher, Zomorodian 2002).
+// Exact persistence pairs of tunnels: reduction of a boundary matrix mod 2 (Edelsbrunner, Letscher, Zomorodian 2002).
 //
 // Rows are the elements that open a tunnel, columns those that close one. Elements that merge objects or part low components are paired by
 // the trees: a merge is never the lowest of a reduced column, so its row is left out; a parting element has the column 0.
@@ -103,7 +103,7 @@ private:
         reduced_.emplace(row, std::move(rows));
     }
 
-    /// Tunnels that the object takes along when it merges.
+    /// Tunnels that are still open when the object merges.
     void add_open() {
         const bool is_root = event_ < 0 || arrays_.tree.is_root(static_cast<std::size_t>(event_));
         ISOATLAS_CHECK(!is_root || pairs_.size() == elements_.opening.size());

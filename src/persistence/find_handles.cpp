@@ -5,7 +5,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kBytes = std::int64_t{1} << 26;   // of samples
-constexpr std::int64_t kEvents = std::int64_t{1} << 20;  // more are not looked at twice
+constexpr std::int64_t kEvents = std::int64_t{1} << 20;  // beyond, only approximate pairs
 constexpr std::size_t kTunnels = std::size_t{1} << 17;
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-/// cos and sin of the phase a wave has gained along one axis, per sample.
+/// cos and sin of the phase of a wave along one axis, per sample.
 struct Turn {
     double cosine, sine;
 };

@@ -21,7 +21,7 @@ Volume torus_chain(const PhantomOptions& options);
 /// and 2 * shells contours, all spheres. float32.
 Volume nested_shells(const PhantomOptions& options);
 
-/// What `make demo` shows. A ball (180) with a hollow crust hidden inside (250, cavity 60), a second ball (220) joined to it by a neck
+/// The scene of `make demo`. A ball (180) with a hollow crust hidden inside (250, cavity 60), a second ball (220) joined to it by a neck
 /// (160), and a ring with one tunnel (200) that hangs on the second by a thin bridge (90); soft flanks, background 0. float32, 0.5 mm.
 /// Answer: 7 events. Maxima 250 (hollow: one cavity), 220, 200 (a ring); merges at 160 and 90; the cavity fills at 60; the ring's tunnel
 /// and everything else at 0.

@@ -1,4 +1,4 @@
-// The catalogue of phantoms, the checks of their options, and what is done to all of them: noise, then grey levels.
+// The catalogue of phantoms, checks of their options, and post-processing: noise, then quantisation.
 #include "isoatlas/phantom.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 const Entry& find_entry(const std::string& name) {
     std::string all;
     const Entry* nearest = nullptr;
-    std::size_t best = 5;  // further away is no typing error
+    std::size_t best = 5;  // larger distances are not typing errors
     for (const Entry& entry : kCatalogue) {
         if (name == entry.name) return entry;
         all += (all.empty() ? "" : ", ") + std::string(entry.name);
@@ -75,7 +75,7 @@ void check_size(const Entry& entry, const PhantomOptions& options) {
     constexpr std::int64_t kLargest = 4096;
     const std::string name = "phantom '" + std::string(entry.name) + "'";
     if (entry.fixed_size && options.size != entry.default_size) {
-        refuse(name + " has a fixed size, not " + std::to_string(options.size), std::to_string(entry.default_size), "leave the size out");
+        refuse(name + " has a fixed size, not " + std::to_string(options.size), std::to_string(entry.default_size), "omit the size");
     }
     if (options.size < entry.min_size || options.size > kLargest) {
         refuse(name + " cannot have size " + std::to_string(options.size),
@@ -126,7 +126,7 @@ Volume converted(const Volume& volume, Convert&& convert) {
 Volume with_noise(const Volume& volume, double fraction, std::uint64_t seed) {
     const Range range = value_range(volume);
     const double amplitude = fraction * (range.high - range.low);
-    Random random(seed ^ 0x6e6f697365u);  // another sequence than the one that made the volume
+    Random random(seed ^ 0x6e6f697365u);  // a different sequence than that of the volume
     return converted<float>(volume, [&](double value) { return value + random.between(-amplitude, amplitude); });
 }
 

@@ -1,6 +1,6 @@
-// The view that shows most: viewpoint entropy (Vazquez, Feixas, Sbert, Heidrich: Viewpoint selection using viewpoint entropy, 2001).
+// Best view by viewpoint entropy (Vazquez, Feixas, Sbert, Heidrich: Viewpoint selection using viewpoint entropy, 2001).
 //
-// Surfaces are divided into pieces by place and by the way they face. In a view, p(i) is the part of the picture that piece i takes (the
+// Surfaces are divided into pieces by position and normal direction. In a view, p(i) is the part of the picture that piece i takes (the
 // background is a piece too); the entropy -sum p log p is large when many pieces are seen, each of a decent size.
 #include <algorithm>
 #include <cmath>
@@ -15,16 +15,16 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kSide = 72;             // pixels of a picture that is tried
+constexpr std::int64_t kSide = 72;             // pixels of a candidate picture
 constexpr int kAround = 12;                    // directions around the axis
-constexpr double kElevations[] = {8, 24, 40};  // degrees; never from below, seldom from far above: as one looks at a thing on a table
-constexpr double kNearlyAsGood = 0.985;        // the first direction that is so good: noise must not turn the picture around
+constexpr double kElevations[] = {8, 24, 40};  // degrees; never from below, and not steeply from above
+constexpr double kNearlyAsGood = 0.985;        // the first direction within this tolerance of the best, for stability against noise
 
 std::vector<View> candidates(const Vec3& up) {
     std::vector<View> views;
     for (const double elevation : kElevations) {
         for (int i = 0; i < kAround; ++i) {
-            // From the front first, then to both sides.
+            // Starts at the front, then alternates sides.
             const int step = i % 2 == 1 ? (i + 1) / 2 : -(i / 2);
             views.push_back(view_from(360 * (step + 0.5) / kAround, elevation, up));
         }
@@ -81,7 +81,7 @@ View best_view(const Scene& scene, const Vec3& up, const Context& context) {
     const SceneBox box = box_of(scene);
     const Frame frame{box.centre(), box.radius()};
     const std::vector<HalfSpace> none;
-    // What is hidden behind glass counts for less than the glass itself: where nothing is opaque, the glass is looked at.
+    // Surfaces behind transparent ones count less; where nothing is opaque, the transparent surface counts.
     const auto which = std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& o) { return o.opacity >= 1; })
                            ? RaySurfaces::Which::opaque
                            : RaySurfaces::Which::transparent;

@@ -62,7 +62,7 @@ Camera fit_camera(const Scene& scene, const View& view, const RenderOptions& opt
         for (const Vec3& corner : shown) take(corner);
         return rays;
     };
-    // Centred on what is seen; a perspective picture shifts a little when its target moves, so twice.
+    // Centres the visible part; perspective shifts slightly when the target moves, hence two iterations.
     for (int round = 0; round < 2; ++round) {
         const CameraRays rays = measure();
         const double x = (across.low + across.high) / 2 - static_cast<double>(options.width) / 2;
@@ -83,7 +83,7 @@ Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const
     const auto take = [&](const Vec3& point) {
         const Vec3 from = subtract(point, box.centre());
         const double height = dot(from, axis);
-        around = std::max(around, length(along(from, -height, axis)));
+        around = std::max(around, length(isoatlas::along(from, -height, axis)));
         along = std::max(along, std::abs(height));
     };
     for_each_outline_point(scene, take);

@@ -1,4 +1,4 @@
-// Colours: light is added and mixed in linear light, files hold sRGB (IEC 61966-2-1).
+// Colours: computed in linear light, stored as sRGB (IEC 61966-2-1).
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@ inline double to_linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((
 inline double to_srgb(double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
 inline Vec3 linear(const Colour& c) { return {to_linear(c.red), to_linear(c.green), to_linear(c.blue)}; }
 inline std::uint8_t byte_of(double s) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0))); }
-/// One channel of linear light as it stands in a file.
+/// One channel of linear light, encoded as sRGB.
 inline std::uint8_t srgb_byte(double l) { return byte_of(to_srgb(std::clamp(l, 0.0, 1.0))); }
 
 /// The background behind a picture, in linear light, `down` from 0 (top) to 1 (bottom).
 Vec3 background_light(Background background, double down);
-/// Of text and bars on it.
+/// Colour of text and bars on it.
 Colour ink_of(Background background);
 
 }  // namespace isoatlas

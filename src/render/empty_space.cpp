@@ -40,7 +40,7 @@ void find_row(std::span<const T> samples, const Extent& extent, std::int64_t row
 
 constexpr int kFurthest = 255;
 
-/// One sweep of a distance transform: every block is at most one further away than those of its 26 neighbours that come before it.
+/// One sweep of a distance transform: the distance of a block is at most one more than those of its preceding 26-neighbours.
 /// step: 1 from the first block to the last, -1 back.
 void sweep(std::vector<std::uint8_t>& distance, const std::array<std::int64_t, 3>& count, std::int64_t step) {
     const auto [nx, ny, nz] = count;

@@ -1,4 +1,4 @@
-// Space leaping: the volume in blocks of cells, and which of them a ray must look at.
+// Empty-space skipping: min-max blocks of cells, and traversal of the visible ones by a ray.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct BlockRanges {
 
     [[nodiscard]] std::array<double, 2> whole() const;
 };
-/// Cost: every sample is read once or twice.
+/// Cost: reads every sample once or twice.
 [[nodiscard]] BlockRanges block_ranges(const Volume& volume, int threads);
 
 class EmptySpaceGrid {
@@ -28,7 +28,7 @@ public:
     EmptySpaceGrid(const BlockRanges& blocks, const Transfer& transfer, int threads);
 
     /// Calls visit(from, to) for each stretch of a ray (origin and way in samples, begin <= t <= end inside of the volume) in blocks where
-    /// something is visible, in order, until it returns false. A stretch shorter than `least` may be left out.
+    /// something is visible, in order, until it returns false. A stretch shorter than `min` may be skipped.
     template <class Visit>
     void walk(const Vec3& origin, const Vec3& way, double begin, double end, double min, const Visit& visit) const {
         const Leaps leaps(*this, origin, way);
@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    /// Where one ray leaves blocks, or cubes of blocks without anything visible (Zuiderveld, Koning, Viergever: Acceleration of ray casting
+    /// Exit points of a ray from blocks, or from cubes of empty blocks (Zuiderveld, Koning, Viergever: Acceleration of ray casting
     /// using 3D distance transforms, 1992).
     struct Leaps {
         Leaps(const EmptySpaceGrid& blocks, const Vec3& o, const Vec3& w) : all(blocks), origin(o), way(w) {
@@ -56,7 +56,7 @@ private:
         }
         struct Leap {
             bool visible;
-            double leave;  ///< until there it stays so
+            double leave;  ///< end of this state along the ray
         };
         [[nodiscard]] Leap from(double t) const {
             std::int64_t at[3], block = 0;
@@ -80,7 +80,7 @@ private:
     };
 
     std::array<std::int64_t, 3> count_;
-    std::vector<std::uint8_t> distance_;  ///< blocks to the nearest one with something visible, diagonals count as one; 0: it is one
+    std::vector<std::uint8_t> distance_;  ///< Chebyshev distance in blocks to the nearest visible one; 0: visible
 };
 
 }  // namespace isoatlas

@@ -13,7 +13,7 @@ constexpr int kSmooth = 3;  // pixels to each side
 std::array<float, 3> floats(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}; }
 Vec3 doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// How much of b's light is a's: near one in the picture, on the same sheet, facing the same way. depth_scale: 1 / allowed difference.
+/// Weight of pixel b for pixel a: close in the picture, on the same surface, with similar normals. depth_scale: 1 / allowed difference.
 double likeness(const FilmPixel& a, const FilmPixel& b, double squared_distance, double depth_scale) {
     if (b.surface == 0) return 0;
     const double facing = std::max(0.0, dot(doubles(a.normal), doubles(b.normal)));
@@ -57,11 +57,12 @@ void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent,
 
 void FilmSum::add(const Seen& seen) {
     ++samples_;
-    glow_ = add(glow_, seen.glow), ambient_ = add(ambient_, seen.shade.ambient), key_ = add(key_, seen.shade.key);
+    glow_ = isoatlas::add(glow_, seen.glow), ambient_ = isoatlas::add(ambient_, seen.shade.ambient),
+    key_ = isoatlas::add(key_, seen.shade.key);
     opacity_ += seen.opacity;
     if (seen.object < 0) return;
     ++hits_;
-    normal_ = add(normal_, seen.normal);
+    normal_ = isoatlas::add(normal_, seen.normal);
     sky_ += seen.open_sky, key_light_ += seen.open_key, depth_ += seen.depth;
 }
 

@@ -1,4 +1,4 @@
-// The picture while it is being made: means over the samples of every pixel, before shadows are put into the light.
+// Accumulation buffers of a picture: means over the samples of every pixel, before shadows are applied.
 #pragma once
 
 #include <vector>
@@ -34,10 +34,10 @@ struct Film {
     Film(std::int64_t columns, std::int64_t rows) : width(columns), height(rows), pixels(columns * rows) {}
 };
 
-/// Smooths what reaches surfaces of sky and key light over neighbouring pixels of the same surface: it was measured with few rays.
+/// Denoises sky and key light visibility over neighbouring pixels of the same surface, as it is sampled with few rays.
 void smooth_light(Film& film, double pixel, int threads);
 
-/// Adds up light and background, in sRGB.
+/// Composes light and background, in sRGB.
 [[nodiscard]] Image developed(const Film& film, Background background, int threads);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// What a ray meets on its way to the opaque surface: thin sheets and slices, front to back.
+// Transparent layers in front of the opaque surface along a ray: thin sheets and slices, front to back.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct Layer {
 class RaySlices {
 public:
     RaySlices(const Scene& scene, const Frame& frame);
-    /// Adds a layer for every picture that the ray crosses before `most`, or at it.
+    /// Adds a layer for every picture that the ray crosses at t <= `max`.
     void add(const Ray& ray, double max, std::vector<Layer>& layers) const;
 
 private:

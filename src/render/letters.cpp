@@ -1,4 +1,4 @@
-// Letters as strokes on a grid, drawn for isoatlas: baseline at 2, small letters up to 7, capitals up to 9, descenders down to 0.
+// A stroke font on a grid, drawn for isoatlas: baseline at 2, small letters up to 7, capitals up to 9, descenders down to 0.
 //
 // A stroke is a list of points, two digits each (x, y); strokes are separated by blanks. Between its ends a stroke is a smooth curve that
 // its inner points pull (a quadratic B-spline); two points make a straight line, one repeated point a dot.
@@ -117,7 +117,7 @@ struct Letter {
     bool blank;
 };
 
-/// The letter at text[i]; moves i behind it.
+/// The glyph at text[i]; advances i past it.
 Letter next_letter(const std::string& text, std::size_t& i) {
     const auto first = static_cast<unsigned char>(text[i++]);
     if (first == ' ') return {"", true};

@@ -1,5 +1,5 @@
-// How a surface looks: one key light with a soft shadow from above left, light from all around with ambient occlusion, a little light from
-// the eye. Diffuse surfaces with a faint highlight. All in linear light.
+// Shading: one key light with a soft shadow from above left, ambient light with ambient occlusion, a weak headlight. Diffuse surfaces with
+// a faint highlight. All in linear light.
 #pragma once
 
 #include "render/camera_rays.h"
@@ -8,15 +8,15 @@
 
 namespace isoatlas {
 
-/// What a point sends to the eye, in parts, so that what is in the way of light can be known later and be smoothed first.
+/// Light of a point towards the camera, in parts, so that visibility of lights can be denoised before it is applied.
 struct Shade {
-    Vec3 ambient{};  ///< times the open part of the sky
-    Vec3 key{};      ///< times the visible part of the key light
+    Vec3 ambient{};  ///< to be multiplied by the visible part of the sky
+    Vec3 key{};      ///< to be multiplied by the visible part of the key light
 };
 
 class Lights {
 public:
-    /// They stand around the camera.
+    /// The lights are fixed to the camera.
     explicit Lights(const CameraRays& camera);
 
     /// normal: towards the eye.
@@ -33,7 +33,7 @@ private:
 /// A direction around the normal, cosine-weighted.
 [[nodiscard]] Vec3 to_sky(const Vec3& normal, Sample2 sample);
 
-/// Opacity of a sheet seen under an angle whose cosine is given: the way through it is longer, so its rim is denser.
+/// Opacity of a sheet at a given cosine of the viewing angle: the path through it is longer at its rim.
 [[nodiscard]] double sheet_opacity(double opacity, double cosine);
 
 }  // namespace isoatlas

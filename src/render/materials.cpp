@@ -1,4 +1,4 @@
-// Materials by what values they have: percentages, and the matter that they make.
+// Materials by their distribution of values: percentages, and their transfer function.
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +8,12 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kPoints = 1024;  // of a curve
-constexpr double kThinnest = 1e-3;      // of the densest material: thinner matter is left out, so that rays leap over it
+constexpr double kThinnest = 1e-3;      // of the densest material: lower density is transparent, so that rays skip it
 
 void check(std::span<const Material> materials) {
     for (const Material& material : materials) {
         if (std::isfinite(material.mean) && std::isfinite(material.sigma) && material.sigma > 0 && material.density >= 0) continue;
-        throw Error(ErrorKind::usage, {.what = "the distribution of the material \"" + material.name + "\" is none",
+        throw Error(ErrorKind::usage, {.what = "the distribution of the material \"" + material.name + "\" is not valid",
                                        .expected = "a finite mean, a standard deviation above 0, a density of at least 0"});
     }
 }
@@ -22,7 +22,7 @@ void check(std::span<const Material> materials) {
 
 std::vector<double> material_percentages(std::span<const Material> materials, double value) {
     check(materials);
-    std::vector<double> percentages;  // logarithms of probabilities first: far from every mean these are all 0
+    std::vector<double> percentages;  // log probabilities first: far from every mean the probabilities underflow to 0
     for (const Material& material : materials) {
         const double distance = (value - material.mean) / material.sigma;
         percentages.push_back(-0.5 * distance * distance - std::log(material.sigma));

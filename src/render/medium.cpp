@@ -6,8 +6,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr double kEnough = 0.996;  // opacity behind which nothing is seen
-constexpr double kMin = 5e-4;      // opacity of a piece that is worth a gradient
+constexpr double kEnough = 0.996;  // opacity for early ray termination
+constexpr double kMin = 5e-4;      // min opacity of a segment for computing a gradient
 
 /// t at which a ray in sample coordinates is inside the box from low to high.
 Gap inside_box(const Vec3& origin, const Vec3& way, const Vec3& low, const Vec3& high) {
@@ -36,14 +36,14 @@ Mat3 physical_to_voxel(const Geometry& geometry) {
 BlockRanges ranges_of_regular(const Volume& volume, int threads) {
     if (volume.info.geometry.coordinates[0].empty()) return block_ranges(volume, threads);
     throw Error(ErrorKind::unsupported, {.file = volume.info.path,
-                                         .what = "a rectilinear grid cannot be drawn as matter",
-                                         .next = "draw its surfaces, or give it even spacing"});
+                                         .what = "volume rendering does not support rectilinear grids",
+                                         .next = "draw its surfaces, or resample it to even spacing"});
 }
 
-/// A ray in pieces that end at whole numbers of steps plus a shift, the first and the last one shorter. A piece is looked at as a whole or
-/// not at all, so that what is leapt over changes nothing, nor does cutting a ray in two where there is nothing.
+/// A ray in segments that end at multiples of the step plus a shift; the first and the last one are shorter. A segment is evaluated
+/// entirely or not at all, so that empty-space skipping, or splitting a ray in empty space, does not change the result.
 struct Pieces {
-    double step, first;  ///< where the first one would begin, in steps
+    double step, first;  ///< start of the first one, in steps
     double begin, end;
     [[nodiscard]] double end_of(std::int64_t piece) const {
         return std::clamp((first + static_cast<double>(piece + 1)) * step, begin, end);
@@ -117,7 +117,7 @@ void Medium::go_through(const Ray& ray, double begin, double end, double shift, 
     const Pieces pieces{step_, std::floor(begin / step_ - shift) + shift, begin, end};
     const auto place_at = [&](double t) { return transfer_.place(values.value(along(origin, t, way))); };
     std::int64_t piece = -1;
-    double t = begin, place = place_at(t);  // behind the pieces looked at so far
+    double t = begin, place = place_at(t);  // end of the evaluated segments
     blocks_.walk(origin, way, begin, end, 1e-7 * step_, [&](double from, double to) {
         if (const std::int64_t next = pieces.number_at(from); next > piece + 1) {
             piece = next - 1;
@@ -146,7 +146,7 @@ ShadowGrid Medium::shadows(const RaySurfaces& solid, int threads) const {
                 const Ray ray{point, lights_->to_key({0, 0})};
                 if (solid.blocked(ray, 2 * step_, INFINITY)) return 0.0;
                 Gathered gathered;
-                go(ray, 0, INFINITY, 0, nullptr, gathered);  // only what is swallowed counts
+                go(ray, 0, INFINITY, 0, nullptr, gathered);  // only absorption counts
                 return 1 - gathered.opacity;
             },
             threads};

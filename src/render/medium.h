@@ -1,4 +1,4 @@
-// A volume as glowing matter that rays go through: emission and absorption, composited front to back (Max, 1995).
+// Volume rendering of a participating medium: emission and absorption, composited front to back (Max, 1995).
 #pragma once
 
 #include "isoatlas/render.h"
@@ -12,7 +12,7 @@
 
 namespace isoatlas {
 
-/// Light that has come together so far along a ray.
+/// Accumulated light along a ray.
 struct Gathered {
     Vec3 light{};
     double opacity = 0;
@@ -20,19 +20,19 @@ struct Gathered {
 
 class Medium {
 public:
-    /// The scene must live as long as this. lights: null, then matter has its own colour. solid: what throws shadows on matter.
+    /// The scene must live as long as this. lights: null: the medium is unlit. solid: surfaces that cast shadows on the medium.
     /// Throws Error{unsupported} for a rectilinear grid.
     Medium(const Scene& scene, const Frame& frame, const Lights* lights, const RaySurfaces& solid, int threads);
 
-    /// Adds the matter between t = begin and end of a ray of the frame, `shift` in [0, 1): where in a step the first one ends.
+    /// Adds the medium between t = begin and end of a ray of the frame, `shift` in [0, 1): offset of the segments within a step.
     void march(const Ray& ray, double begin, double end, double shift, Gathered& gathered) const;
-    /// How much of the key light reaches a point of the frame; 1 without shadows.
+    /// Visibility of the key light from a point of the frame; 1 without shadows.
     [[nodiscard]] double lit(const Vec3& point) const { return shadow_.light(voxel_of(point)); }
 
 private:
     Medium(const Scene& scene, const Frame& frame, const Lights* lights, const BlockRanges& blocks, const RaySurfaces& solid, int threads);
     [[nodiscard]] Vec3 voxel_of(const Vec3& point) const;       ///< sample position of a point of the frame
-    [[nodiscard]] Vec3 voxel_direction(const Vec3& way) const;  ///< the same of a difference
+    [[nodiscard]] Vec3 voxel_direction(const Vec3& way) const;  ///< the same for a difference
     void go(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
     template <class T>
     void go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;

@@ -1,4 +1,4 @@
-// What is written over a picture: the scale bar and the legend.
+// Overlays of a picture: the scale bar and the legend.
 #pragma once
 
 #include "isoatlas/render.h"

@@ -24,7 +24,7 @@ void blend(std::uint8_t* pixel, const Colour& colour, double cover) {
 }
 
 struct Window {
-    std::int64_t x0, y0, x1, y1;  ///< behind the last pixel
+    std::int64_t x0, y0, x1, y1;  ///< one past the last pixel
 };
 
 Window window_of(const Image& image, Point2 low, Point2 high, double rim) {
@@ -46,7 +46,7 @@ void draw_lines(Image& image, const std::vector<Line>& lines, double width, cons
     if (low.x > high.x) return;
     const Window all = window_of(image, low, high, width);
     const std::int64_t across = all.x1 - all.x0;
-    // The nearest line decides, so that lines that cross are painted once.
+    // By the nearest line, so that crossings are painted once.
     std::vector<float> cover(across * std::max<std::int64_t>(0, all.y1 - all.y0));
     const auto paint = [&](Point2 a, Point2 b) {
         const Window near = window_of(image, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}, width);

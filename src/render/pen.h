@@ -13,7 +13,7 @@ struct Point2 {
 };
 using Line = std::vector<Point2>;
 
-/// The lines of a text; a capital letter is `size` high, the baseline begins at `at`. UTF-8; characters we have no letter for are boxes.
+/// The lines of a text; a capital letter is `size` high, the baseline begins at `at`. UTF-8; characters without a glyph are boxes.
 [[nodiscard]] std::vector<Line> letters(const std::string& text, Point2 at, double size);
 [[nodiscard]] double text_width(const std::string& text, double size);
 
@@ -21,7 +21,7 @@ using Line = std::vector<Point2>;
 void draw_lines(Image& image, const std::vector<Line>& lines, double width, const Colour& colour, double opacity = 1);
 /// A filled box with round corners.
 void fill_box(Image& image, Point2 low, Point2 high, double rounding, const Colour& colour, double opacity = 1);
-/// Text with a rim of another colour, so that it is read on anything.
+/// Text with an outline of another colour, readable on any background.
 void draw_text(Image& image, const std::string& text, Point2 at, double size, const Colour& ink, const Colour& rim);
 
 }  // namespace isoatlas

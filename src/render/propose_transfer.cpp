@@ -1,4 +1,4 @@
-// The transfer function that a tree proposes: which values belong to which object.
+// Transfer function derived from the table of objects.
 #include <algorithm>
 #include <cmath>
 
@@ -8,20 +8,20 @@ namespace isoatlas {
 
 namespace {
 
-constexpr double kWidth = 0.10;                     // of a skin, in parts of the range
+constexpr double kWidth = 0.10;                     // width of a tent, in parts of the range
 constexpr double kBefore = 0.15;                    // of it lies below the isovalue: an object is what is at or above its isovalue
 constexpr double kRamp = 0.3;                       // of it rises, and as much falls
-constexpr double kThinnest = 0.05, kDensest = 1.0;  // extinction per voxel of the skins of the lowest and the highest isovalue
+constexpr double kThinnest = 0.05, kDensest = 1.0;  // extinction per voxel of the tents of the lowest and the highest isovalue
 constexpr double kBodyDepth = 0.5;                  // optical depth of a cube of a body as large as the object
 
 /// An object of the table at its best isovalue.
 struct Best {
-    double tau, next;  ///< its own values are those between
+    double tau, next;  ///< range of its own values
     double size;       ///< edge of a cube as large as the object, physical
     std::int64_t rank;
 };
 
-/// The lowest value above tau that shows something else of the table: another object, or the same one otherwise; its top, if there is none.
+/// The lowest isovalue above tau of another entry of the table; the maximum of the object, if there is none.
 double next_above(const ObjectTable& table, const ObjectEntry& entry) {
     double next = entry.appears;
     const auto consider = [&](double tau) {
@@ -70,7 +70,7 @@ std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const Volume
         const bool last = i + 1 == best.size();
         const double part = best.size() > 1 ? static_cast<double>(i) / static_cast<double>(best.size() - 1) : 0.5;
         const double low = best[i].tau - kBefore * width, skin = low + width;
-        // Nothing lies inside of the last one: it is solid.
+        // The last one has no inner entry: it is solid.
         const double high = last ? std::max(skin, range[1] + ramp) : std::min(skin, best[i + 1].tau);
         const double density = kThinnest * std::pow(kDensest / kThinnest, part) / voxel;
         bumps.push_back(bump_between(low, high, ramp, density, best[i], first_colour));

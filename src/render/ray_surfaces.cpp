@@ -12,11 +12,11 @@ namespace isoatlas {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
-constexpr const char* kDevice = "threads=1";  // the sanitizer does not see how Embree's threads wait for each other
+constexpr const char* kDevice = "threads=1";  // the sanitizer does not see the synchronisation of Embree's threads
 #else
 constexpr const char* kDevice = "";
 #endif
-constexpr double kTouching = 1e-5;  // of the scene's radius: crossings so close are at one place
+constexpr double kTouching = 1e-5;  // of the scene's radius: closer crossings are merged
 
 [[noreturn]] void fail(RTCError code) {
     if (code == RTC_ERROR_OUT_OF_MEMORY) {
@@ -43,7 +43,7 @@ RTCRayHit ray_hit_of(const Ray& ray, double min, double max) {
     return hit;
 }
 
-/// What a filter is told about one query.
+/// Filter context of one query.
 struct Query {
     RTCIntersectContext context{};
     const void* surfaces = nullptr;
@@ -119,7 +119,7 @@ struct RaySurfaces::Data {
 
     [[nodiscard]] double tau(const Crossing& crossing) const { return drawn->objects[crossing.object].surface.tau; }
 
-    /// Filter: notes a crossing and goes on.
+    /// Filter: records a crossing and continues.
     static void note(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[0] == 0) return;
         arguments->valid[0] = 0;
@@ -128,7 +128,7 @@ struct RaySurfaces::Data {
         query->crossings->push_back(data->crossing(distance(arguments), *reinterpret_cast<const RTCHit*>(arguments->hit)));
     }
 
-    /// Filter: ignores what is cut away.
+    /// Filter: ignores crossings in the clipped part.
     static void pass_gap(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[0] == 0) return;
         const auto* query = reinterpret_cast<const Query*>(arguments->context);
@@ -193,7 +193,7 @@ void RaySurfaces::all(const Ray& ray, double max, std::vector<Crossing>& crossin
         if (a.object != b.object) return a.object < b.object;
         return a.face_normal < b.face_normal;
     });
-    // A ray through an edge meets both of its triangles: one sheet.
+    // A ray through an edge hits both of its triangles: counted once.
     const auto same = [&](const Crossing& a, const Crossing& b) {
         return a.object == b.object && b.t - a.t < kTouching / 10 && a.enters(ray) == b.enters(ray);
     };

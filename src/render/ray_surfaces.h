@@ -1,4 +1,4 @@
-// Surfaces that rays can be shot at: the only door to Embree. Coordinates are those of the frame: the scene in the unit ball.
+// Ray tracing of surfaces: the only code that uses Embree. Coordinates are those of the frame: the scene in the unit ball.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// From physical coordinates to ones in which the scene fills the unit ball: floats are exact enough there, wherever a volume lies.
+/// Maps physical coordinates to a frame in which the scene fills the unit ball, where floats are accurate enough for any volume.
 struct Frame {
     Vec3 centre{};
     double radius = 1;
@@ -20,7 +20,7 @@ struct Frame {
     [[nodiscard]] Vec3 outside(const Vec3& p) const { return along(centre, radius, p); }
 };
 
-/// Where a ray crosses a surface.
+/// A crossing of a ray and a surface.
 struct Crossing {
     double t;
     std::int64_t object;  ///< position in Scene::objects
@@ -29,14 +29,14 @@ struct Crossing {
     [[nodiscard]] bool enters(const Ray& ray) const { return dot(face_normal, ray.direction) < 0; }
 };
 
-/// Where something is not there: t in (begin, end) of a ray.
+/// Clipped interval of a ray: t in (begin, end).
 struct Gap {
     double begin = 0, end = -1;
     [[nodiscard]] bool holds(double t) const { return begin < t && t < end; }
     [[nodiscard]] bool empty() const { return !(begin < end); }
 };
 
-/// Part of a ray in all of the half-spaces (given in the frame); none: nothing.
+/// Part of a ray in all of the half-spaces (given in the frame); nullopt: none.
 Gap gap_of(const std::vector<HalfSpace>& removed, const Ray& ray);
 
 class RaySurfaces {
@@ -52,9 +52,9 @@ public:
     [[nodiscard]] bool empty() const;
     /// The first crossing; where objects touch (the caps at the border of a volume), that of the one with the highest isovalue.
     [[nodiscard]] std::optional<Crossing> first(const Ray& ray) const;
-    /// All crossings up to `most`, by t; at the same t lower isovalues first. Replaces what is in `crossings`.
+    /// All crossings up to `max`, by t; at the same t lower isovalues first. Replaces the contents of `crossings`.
     void all(const Ray& ray, double max, std::vector<Crossing>& crossings) const;
-    /// Is something in the way, outside of what is cut away, between t = least and most?
+    /// Is the ray occluded between t = min and max, outside the clipped part?
     [[nodiscard]] bool blocked(const Ray& ray, double min, double max) const;
 
 private:

@@ -1,4 +1,4 @@
-// From a scene to a picture: tiles of pixels in parallel, then light is smoothed, added up and written over.
+// Renders a scene: tiles of pixels in parallel, then denoising, composition and overlays.
 #include <algorithm>
 #include <cmath>
 
@@ -23,11 +23,11 @@ void check_options(const Scene& scene, const RenderOptions& options) {
     if (options.samples < 1 || options.samples > 256) refuse("the number of samples per pixel is out of range", "1 to 256");
     for (const SceneObject& object : scene.objects) {
         if (!(object.opacity > 0 && object.opacity <= 1)) refuse("the opacity of an object is out of range", "above 0, at most 1");
-        if (!object.surface.segments.empty()) refuse("a curve of a 2D volume is no surface to draw in space", "surfaces of 3D volumes");
+        if (!object.surface.segments.empty()) refuse("a curve of a 2D volume is not a surface", "surfaces of 3D volumes");
     }
 }
 
-/// Point s of n in a pixel: rows and columns filled evenly, shifted by a number that belongs to the pixel.
+/// Point s of n in a pixel: stratified, shifted by a number of the pixel.
 Sample2 point_in_pixel(std::uint32_t seed, int s, int n) {
     if (n == 1) return {0.5, 0.5};
     return sample_2d(seed ^ 0x2545f491U, static_cast<std::uint32_t>(s));
@@ -94,7 +94,7 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
     const Painter painter(tracer, camera, rays, frame, options);
     const auto tiles_of = [](std::int64_t pixels) { return (pixels + kTile - 1) / kTile; };
     const std::int64_t across = tiles_of(film.width), rows = tiles_of(film.height);
-    constexpr std::int64_t kRowsAtOnce = 4;  // between two looks at the caller
+    constexpr std::int64_t kRowsAtOnce = 4;  // interval of polling the caller for cancellation
     for (std::int64_t row = 0; row < rows; row += kRowsAtOnce) {
         stop_if_cancelled(context);
         context.report("draw", 1, 2, static_cast<double>(row) / static_cast<double>(rows));

@@ -1,4 +1,4 @@
-// Numbers in [0, 1) that look random and depend on nothing but pixel, sample and purpose: the same picture from any thread.
+// Pseudo-random numbers in [0, 1) that depend only on pixel, sample and purpose, so that pictures do not depend on threads.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct Sample2 {
     double u, v;
 };
 
-/// Point i of a sequence that fills the square evenly (Roberts' R2), shifted by what `seed` says.
+/// Point i of a low-discrepancy sequence in the square (Roberts' R2), shifted by `seed`.
 inline Sample2 sample_2d(std::uint32_t seed, std::uint32_t i) {
     constexpr std::uint32_t kFirst = 3242174889U, kSecond = 2447445414U;  // 2^32 / g, 2^32 / g^2 with g^3 = g + 1: wrap like fractions
     return {fraction_of(hash(seed) + i * kFirst), fraction_of(hash(seed ^ 0x68bc21ebU) + i * kSecond)};

@@ -6,7 +6,7 @@ namespace isoatlas {
 
 namespace {
 
-/// Sample positions of what is shown.
+/// Range of visible sample positions.
 template <class T>
 SceneBox shown_samples(std::span<const T> samples, const Extent& extent, const std::vector<std::array<double, 2>>& values) {
     SceneBox box;
@@ -28,7 +28,7 @@ SceneBox shown_samples(std::span<const T> samples, const Extent& extent, const s
     return box;
 }
 
-/// What is drawn as a volume reaches beyond the last sample that is shown, at most to the next one.
+/// The rendered volume extends beyond the last visible sample, at most to the next one.
 std::vector<Vec3> physical_corners(const SceneBox& box, const VolumeInfo& info) {
     std::vector<Vec3> corners;
     for (int i = 0; i < 8; ++i) {
@@ -66,7 +66,7 @@ SceneBox box_of(const Scene& scene) {
     for_each_outline_point(scene, [&](const Vec3& point) { box.take(point); });
     for (const Vec3& corner : corners_of(scene.volume)) box.take(corner);
     if (box.empty()) {
-        throw Error(ErrorKind::not_found, {.what = "there is nothing to draw: no object has a surface here",
+        throw Error(ErrorKind::not_found, {.what = "nothing to draw: no object has a surface at its isovalue",
                                            .next = "choose an isovalue between the lowest and the highest sample"});
     }
     return box;

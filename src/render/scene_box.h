@@ -1,4 +1,4 @@
-// Where a scene lies: the box around everything in it.
+// Bounding box of a scene.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct SceneBox {
     }
     [[nodiscard]] bool empty() const { return low[0] > high[0]; }
     [[nodiscard]] Vec3 centre() const { return scale(add(low, high), 0.5); }
-    /// Of a ball around the centre that contains the box; above 0.
+    /// Radius of a ball around the centre that contains the box; above 0.
     [[nodiscard]] double radius() const { return std::max(length(subtract(high, low)) / 2, 1e-30); }
 
 private:

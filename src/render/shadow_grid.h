@@ -1,4 +1,4 @@
-// How much of the key light reaches matter: measured on a coarse grid, interpolated between.
+// Visibility of the key light in the medium: sampled on a coarse grid, interpolated.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@ namespace isoatlas {
 
 class ShadowGrid {
 public:
-    /// Light everywhere.
+    /// Full visibility everywhere.
     ShadowGrid() = default;
-    /// light_at: of a position in samples, 0 to 1; called from many threads.
+    /// light_at: visibility at a position in samples, 0 to 1; called from many threads.
     ShadowGrid(const Extent& extent, const std::function<double(const Vec3&)>& light_at, int threads);
 
     [[nodiscard]] bool empty() const { return light_.empty(); }

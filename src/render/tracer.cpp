@@ -8,7 +8,7 @@ namespace isoatlas {
 namespace {
 
 constexpr int kSkyRays = 2;     // per sample
-constexpr double kReach = 0.5;  // of the sky's light: what is further away than this takes none
+constexpr double kReach = 0.5;  // range of ambient occlusion
 constexpr double kMaxLift = 0.01;
 
 std::vector<HalfSpace> in_frame(const std::vector<HalfSpace>& removed, const Frame& frame) {
@@ -21,7 +21,7 @@ std::vector<HalfSpace> in_frame(const std::vector<HalfSpace>& removed, const Fra
     return inside;
 }
 
-/// Some part of a triangle's edge: a ray that begins so far above a facet does not meet its neighbours.
+/// Ray offset as a fraction of a triangle's edge, to avoid hits of neighbouring triangles.
 double lift_of(const Scene& scene, const Frame& frame) {
     double sum = 0, count = 0;
     for (const SceneObject& object : scene.objects) {
@@ -36,7 +36,7 @@ double lift_of(const Scene& scene, const Frame& frame) {
     return count > 0 ? std::clamp(0.3 * sum / count, 1e-5, kMaxLift) : kMaxLift;
 }
 
-/// Towards the eye: a smooth normal may lean away from it at the rim of a thing.
+/// Flips towards the camera: an interpolated normal may point away from it at a silhouette.
 Vec3 facing(const Vec3& normal, const Ray& ray) {
     const double lean = dot(normal, ray.direction);
     return lean <= 0 ? normal : unit(along(normal, -1.001 * lean, ray.direction));
@@ -74,7 +74,7 @@ Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Wor
     return seen;
 }
 
-/// Everything in front of the opaque surface, front to back: layers, and the matter between them.
+/// Composites everything in front of the opaque surface, front to back: layers, and the medium between them.
 void Tracer::gather(const Ray& ray, double max, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const {
     Gathered gathered;
     double begin = 0;
@@ -112,13 +112,13 @@ std::optional<Crossing> Tracer::first_opaque(const Ray& ray, const Gap& gap, std
         if (face && (!hit || face->t <= hit->t)) hit = face;
     }
     if (!hit) return hit;
-    // Seen from behind (through an open border, or inside a cut): the other side of the sheet.
+    // Back side, seen through an open border or inside a cut.
     if (!hit->enters(ray)) hit->normal = scale(hit->normal, -1), hit->face_normal = scale(hit->face_normal, -1);
     hit->normal = facing(hit->normal, ray);
     return hit;
 }
 
-/// Where the ray comes out of what is cut away, if that is inside of an object: its last crossing before went in.
+/// Exit of the ray from the clipped part, if inside an object: its last crossing entered it.
 std::optional<Crossing> Tracer::cut_face(const Ray& ray, const Gap& gap, const std::vector<Crossing>& crossings) const {
     if (!(gap.end > 0) || !std::isfinite(gap.end)) return std::nullopt;
     std::vector<std::int8_t> inside(scene_.objects.size(), 0);

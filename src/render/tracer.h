@@ -1,4 +1,4 @@
-// What one ray sees: everything along it, front to back.
+// Traces one camera ray through everything along it, front to back.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace isoatlas {
 
-/// Light along a ray, in parts (see Shade), and what was hit. Colours are premultiplied.
+/// Light along a ray, in parts (see Shade), and the hit surface. Colours are premultiplied.
 struct Seen {
-    Vec3 glow{};               ///< what no shadow changes
+    Vec3 glow{};               ///< light without shadows
     Shade shade{};             ///< of the opaque surface
     double opacity = 0;        ///< of everything together
     std::int64_t object = -1;  ///< of the opaque surface; -1: none
     double depth = 0;          ///< t of the opaque surface
     Vec3 normal{};
-    double open_sky = 1, open_key = 1;  ///< how much of their light reaches it
+    double open_sky = 1, open_key = 1;  ///< visibility of the lights
 };
 
-/// Memory to work in.
+/// Scratch memory.
 struct Workspace {
     std::vector<Crossing> crossings;
     std::vector<Layer> layers;
@@ -54,7 +54,7 @@ private:
     Lights lights_;
     std::optional<Medium> medium_;
     std::vector<Vec3> albedo_;  ///< of every object
-    double lift_;               ///< rays to lights begin so far above a surface
+    double lift_;               ///< offset of rays to lights above a surface
 };
 
 }  // namespace isoatlas

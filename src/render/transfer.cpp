@@ -18,7 +18,7 @@ TransferCurve curve_of(const OpacityTent& bump) {
             .name = bump.name};
 }
 
-/// Integrals of a curve over the values from its first point on, asked for with rising values.
+/// Integrals of a curve over the values from its first point on, evaluated at ascending values.
 class Integral {
 public:
     explicit Integral(const TransferCurve& curve) : points_(curve.points) {}
@@ -62,7 +62,7 @@ void Transfer::add(const TransferCurve& curve, double length_unit) {
 }
 
 OpticalProperties Transfer::mean_between(double low, double high) const {
-    // Closer together than a place, the sums would be lost in rounding: then over some to both sides.
+    // Closer than one table entry, differences of the sums would be lost in rounding: then averages over neighbouring entries.
     if (high - low < 1e-3) {
         low = std::max(0.0, low - kWidening);
         high = std::min(high + kWidening, static_cast<double>(kPlaces));
@@ -77,7 +77,7 @@ OpticalProperties Transfer::mean_between(double low, double high) const {
 
 std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
     std::vector<std::array<double, 2>> values;
-    // What stands in one place of a table with something visible is visible.
+    // Values that share a table entry with visible ones count as visible.
     const double place = volume.range ? ((*volume.range)[1] - (*volume.range)[0]) / Transfer::kPlaces : 0;
     for (const OpacityTent& bump : volume.bumps) values.push_back({bump.low, bump.high});
     for (const TransferCurve& curve : volume.curves) {

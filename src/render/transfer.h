@@ -1,4 +1,4 @@
-// A transfer function with its integrals: what a piece of a ray between two values sends out and swallows on average.
+// A pre-integrated transfer function: mean emission and extinction of a ray segment between two values.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// Extinction per unit of length, and the colour of what it swallows, weighted with it.
+/// Extinction per unit of length, and its colour, weighted by extinction.
 struct OpticalProperties {
     double extinction = 0;
     Vec3 glow{};  ///< extinction times colour
@@ -19,35 +19,35 @@ struct OpticalProperties {
 
 class Transfer {
 public:
-    /// length_unit: what the densities of bumps and curves are multiplied with. range: of the samples.
+    /// length_unit: factor of the densities of tents and curves. range: of the samples.
     Transfer(const SceneVolume& volume, double length_unit, std::array<double, 2> range);
 
-    /// Where a value stands in the table: values outside of the range at its ends.
+    /// Table position of a value; values outside of the range are clamped.
     [[nodiscard]] double place(double value) const {
         return std::clamp((value - low_) * places_per_value_, 0.0, static_cast<double>(kPlaces));
     }
-    /// Mean between the places of two values, as where a value changes linearly from one to the other (Engel, Kraus, Ertl, 2001, without
-    /// the attenuation inside of the piece). Exact to 1/4096 of the range.
+    /// Mean between two table positions, for a value that changes linearly between them (Engel, Kraus, Ertl, 2001, without attenuation
+    /// within the segment). Exact to 1/4096 of the range.
     [[nodiscard]] OpticalProperties mean(double a, double b) const {
         const double low = std::min(a, b), high = std::max(a, b);
         if (high < next_visible_[static_cast<std::int64_t>(low)]) return {};
         return mean_between(low, high);
     }
-    /// Is any mean between values from low to high more than nothing?
+    /// Is any mean between values from low to high above 0?
     [[nodiscard]] bool visible(double low, double high) const {
         return next_visible_[static_cast<std::int64_t>(std::max(0.0, place(low) - kWidening))] <= place(high) + kWidening;
     }
     static constexpr std::int64_t kPlaces = 4096;
 
 private:
-    static constexpr double kWidening = 0.5;  ///< places, of means between values too close to each other
+    static constexpr double kWidening = 0.5;  ///< table positions averaged for values too close to each other
     using Sums = std::array<double, 4>;       ///< extinction, glow
     void add(const TransferCurve& curve, double length_unit);
     [[nodiscard]] OpticalProperties mean_between(double low, double high) const;
 
     double low_, places_per_value_;
-    std::vector<double> next_visible_;  ///< of every place: the first one at or after it that something lies between it and the next
-    std::vector<Sums> sums_;            ///< integrals over the values from the lowest one to each of evenly spaced ones
+    std::vector<double> next_visible_;  ///< per position: the first one at or after it with visible values before the next one
+    std::vector<Sums> sums_;            ///< integrals from the lowest value to each of evenly spaced ones
 };
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Values between samples, and how they change: trilinear interpolation, and that of the samples' central differences.
+// Trilinear interpolation of samples and of their central differences.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ public:
         return interpolated(at, [&](const T* p) { return static_cast<double>(*p); });
     }
 
-    /// Half of how much the value falls from one sample before to one sample behind, along each axis.
+    /// Negative central difference along each axis.
     [[nodiscard]] Vec3 fall(const Vec3& voxel) const {
         const Place at = place(voxel);
         Vec3 differences{};
@@ -50,7 +50,7 @@ private:
     struct Place {
         const T* corner;
         std::int64_t cell[3];
-        double part[3];  ///< of the way through the cell
+        double part[3];  ///< position within the cell, 0 to 1
     };
 
     [[nodiscard]] Place place(const Vec3& voxel) const {
@@ -63,7 +63,7 @@ private:
         return at;
     }
 
-    /// Of what `of` says about the corners of a cell.
+    /// Interpolates the values `of` the corners of a cell.
     template <class Of>
     [[nodiscard]] double interpolated(const Place& at, const Of& of) const {
         const auto row = [&](const T* p) {
@@ -81,7 +81,7 @@ private:
     const T* samples_;
     double last_[3];
     std::int64_t last_cell_[3];
-    std::int64_t stride_[3];  ///< samples from one to the next
+    std::int64_t stride_[3];  ///< stride to the next sample
     std::int64_t step_[3];    ///< the same, 0 along an axis of one sample
 };
 

@@ -18,7 +18,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-/// The zero vector stays what it is.
+/// The zero vector is unchanged.
 inline Vec3 unit(const Vec3& a) {
     const double size = length(a);
     return size > 0 ? scale(a, 1 / size) : a;

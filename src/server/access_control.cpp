@@ -22,7 +22,8 @@ std::string html(std::string_view content) {
     return std::string("<!doctype html><html lang=en><meta charset=utf-8><title>isoatlas</title>").append(content).append("</html>\n");
 }
 
-/// The part behind '#' is never sent; it stays. From a page of ours, so that a browser sends a cookie that is ours alone.
+/// Redirects and keeps the fragment, which browsers never send. The request then comes from our own page, so that the browser sends its
+/// SameSite cookie.
 std::string html_that_goes_on(const std::string& first) {
     return html("<script>" + first + "location.replace(\"/\"+location.hash)</script><noscript>The viewer needs JavaScript.</noscript>");
 }
@@ -30,7 +31,7 @@ std::string html_that_goes_on(const std::string& first) {
 std::string refused_page() {
     return last_answer(
         {.status = 403, .type = kHtml},
-        html("<p role=alert>This address needs the token of its viewer: each address that isoatlas view prints opens once, within ten "
+        html("<p role=alert>This address needs the token of its viewer: each address that isoatlas view prints works once, within ten "
              "minutes, in one browser. Press Enter where isoatlas view runs, and open the address that it prints.</p>"));
 }
 
@@ -39,15 +40,15 @@ ErrorKind kind_of(int status) { return status == 503 ? ErrorKind::resource : Err
 ErrorText details_of(int status) {
     switch (status) {
         case 403: return {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"};
-        case 405: return {.what = "this server is only asked", .expected = "GET or HEAD"};
-        case 413: return {.what = "a question has no body", .expected = "a request without one"};
-        case 421: return {.what = "this server has another name", .expected = "127.0.0.1 or localhost, with the port"};
+        case 405: return {.what = "method not allowed", .expected = "GET or HEAD"};
+        case 413: return {.what = "a request must not have a body", .expected = "a request without one"};
+        case 421: return {.what = "wrong Host header", .expected = "127.0.0.1 or localhost, with the port"};
         case 431:
             return {.what = "the request is too long",
                     .expected = "at most " + std::to_string(kLongestHead) + " bytes and " + std::to_string(kMaxFields) + " header fields"};
-        case 503: return {.what = "too many questions at a time", .next = "ask again later"};
-        case 505: return {.what = "this version of HTTP is not spoken", .expected = "HTTP/1.1 or HTTP/1.0"};
-        default: return {.what = "this is no request of HTTP"};
+        case 503: return {.what = "too many requests at a time", .next = "retry later"};
+        case 505: return {.what = "this version of HTTP is not supported", .expected = "HTTP/1.1 or HTTP/1.0"};
+        default: return {.what = "not an HTTP request"};
     }
 }
 
@@ -95,7 +96,7 @@ bool AccessControl::may_ask(const RequestHead& head, bool is_page) const {
     const std::string_view bearer = bearer_of(head);
     if (is_secret(bearer, token_)) return true;
     if (!has_cookie(head.cookie)) return false;
-    if (is_page) return true;  // a browser that goes to an address carries no more than the cookie
+    if (is_page) return true;  // navigation sends the cookie only
     const bool from_ours = head.fetch_site.empty() || head.fetch_site == "same-origin" || head.fetch_site == "none";
     return from_ours && is_secret(bearer, key_);
 }
@@ -114,7 +115,7 @@ std::optional<std::string> AccessControl::answer(const RequestHead& head) {
 }
 
 std::optional<std::string> AccessControl::whole_answer(const RequestHead& head) {
-    if (!is_ours(head)) return refusal(421);  // a page of another site that was led here by a changed name (DNS rebinding)
+    if (!is_ours(head)) return refusal(421);  // DNS rebinding
     if (head.method != "GET" && head.method != "HEAD") return refusal(405);
     if (head.has_body) return refusal(413);
     if (!head.origin.empty() && head.origin != "http://" + head.host) return refusal(403);
@@ -123,7 +124,7 @@ std::optional<std::string> AccessControl::whole_answer(const RequestHead& head) 
     if (path == kEnter) return last_answer({.type = kHtml}, html_that_goes_on({}));
     if (may_ask(head, path == "/")) return std::nullopt;
     if (path != "/") return refusal(403);
-    // A link on another site: the browser keeps the cookie back, but not from the next step, which is ours.
+    // A link on another site: the browser withholds the cookie, but sends it with the redirect from our own page.
     const bool led_here = head.fetch_site == "cross-site" || head.fetch_site == "same-site";
     if (led_here) return last_answer({.status = 303, .fields = {{"Location", std::string(kEnter)}}}, {});
     return refused_page();

@@ -1,5 +1,6 @@
-// Who may ask. A program carries the token. A browser opens an address that is good for one use, /open?once=CODE; it gets a cookie and a
-// key, and its pages carry both: a cookie alone is sent to every port of this machine, a key alone could be read by a script.
+// Authentication and authorisation of requests. A program sends the token. A browser opens a single-use address, /open?once=CODE; it
+// receives a cookie and a key, and its pages send both: a cookie alone is sent to every port of this machine, a key alone could be read by
+// a script.
 #pragma once
 
 #include <chrono>
@@ -18,19 +19,20 @@ class AccessControl {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// token: what a program carries. now: the time, for tests.
+    /// token: sent by programs. now: the clock, for tests.
     AccessControl(int port, std::string token, std::function<Clock::time_point()> now = Clock::now);
 
     /// http://127.0.0.1:PORT, without anything secret.
     [[nodiscard]] std::string address() const;
-    /// An address that opens the page once, within kCodeTime. From any thread. At most kMaxCodes are good at a time: the oldest ends.
+    /// An address that opens the page once, within kCodeTime. From any thread. At most kMaxCodes are valid at a time: the oldest expires.
     [[nodiscard]] std::string address_for_one_use();
     static constexpr std::chrono::minutes kCodeTime{10};
     static constexpr std::size_t kMaxCodes = 16;
 
-    /// The whole answer for who may not ask, and for a browser that opens an address; nothing: he may. From any thread, in little time.
+    /// The whole response to an unauthorised request, and to a browser that opens an address; nullopt: the request is authorised. From any
+    /// thread; fast.
     [[nodiscard]] std::optional<std::string> answer(const RequestHead& head);
-    /// The whole answer to what cannot be answered: 400, 403, 405, 413, 421, 431, 503, 505.
+    /// The whole response of a refused request: 400, 403, 405, 413, 421, 431, 503, 505.
     [[nodiscard]] static std::string refusal(int status);
 
 private:
@@ -46,7 +48,7 @@ private:
     [[nodiscard]] bool use(std::string_view code);
 
     const std::string port_, token_;
-    const std::string key_, session_;  ///< what pages carry, and their cookie
+    const std::string key_, session_;  ///< key of pages, and their cookie
     const std::function<Clock::time_point()> now_;
     std::mutex mutex_;
     std::deque<Code> codes_;

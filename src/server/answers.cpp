@@ -12,8 +12,6 @@
 namespace isoatlas {
 namespace {
 
-using JsonStream;
-
 void put_bounds(JsonStream& json, const char* name, const Bounds& bounds) {
     json.key(name).begin_array().value(bounds.min).value(bounds.max).end_array();
 }

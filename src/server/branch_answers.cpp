@@ -12,13 +12,11 @@
 namespace isoatlas {
 namespace {
 
-using JsonStream;
-
 constexpr std::int64_t kDefaultListed = 1000, kMaxListed = 20'000;
-/// An isovalue so little above that of the merge that the branch has nearly all its voxels, and so far that no rounding reaches it.
+/// An isovalue slightly above that of the merge: the branch has nearly all its voxels, and rounding cannot reach the merge.
 constexpr double kShareAboveMerge = 1.0 / 64;
 
-/// The words of `isoatlas objects`, in units of the file.
+/// The selection options of `isoatlas objects` as query parameters, in units of the file.
 Selection selection_of(QueryParameters& words, const Calibration& scale) {
     const double slope = std::abs(scale.slope);
     Selection selection;
@@ -33,7 +31,7 @@ Selection selection_of(QueryParameters& words, const Calibration& scale) {
 PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
     const Analysis& analysis = AtlasAccess::analysis(atlas);
     Event event = analysis.event(branch.top);
-    const std::array<double, 3> top = event.position;  // in it wherever it is on its own
+    const std::array<double, 3> top = event.position;  // contained wherever the branch is separate
     PageEntry entry;
     entry.id = atlas.info().extent.index(std::llround(top[0]), std::llround(top[1]), std::llround(top[2]));
     entry.tau = branch.parent < 0 ? std::midpoint(atlas.range()[0], branch.appears)
@@ -58,7 +56,7 @@ PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std
     const std::span<const BranchInfo> all = hierarchy.branches();
     if (rank < 0 || rank >= std::ssize(all)) {
         throw Error(ErrorKind::not_found, {.where = "branch " + std::to_string(rank),
-                                           .what = "there is no such object",
+                                           .what = "no such object",
                                            .expected = "a rank from 0 to " + std::to_string(std::ssize(all) - 1)});
     }
     return entry_of(atlas, all[static_cast<std::size_t>(rank)]);

@@ -1,4 +1,4 @@
-// All bright objects of a store, for a reader who chooses among them: /api/branches.
+// All objects of a store, for selection by a client: /api/branches.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace isoatlas {
 
-/// What a request for branches asks for.
+/// A request for branches.
 struct BranchesWanted {
     Selection selection{};  ///< stored values
-    std::int64_t top = 0;   ///< at most so many are listed
+    std::int64_t top = 0;   ///< max number of listed branches
 };
-/// Throws Error{usage} for words it does not know.
+/// Throws Error{usage} for unknown parameters.
 [[nodiscard]] BranchesWanted branches_wanted(QueryParameters& words, const Calibration& calibration);
 
 /// docs/schema/server-branches. Throws Error{cancelled}. Cost: O(branches), and the events of those that are listed.
 [[nodiscard]] std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, const BranchesWanted& wanted,
                                         const Context& context);
 
-/// A branch as large as it gets on its own: just above the value at which it merges; the main branch in the middle of its isovalues.
+/// A branch at its largest extent: just above the value at which it merges; the main branch in the middle of its isovalues.
 /// Throws Error{not_found}. Cost: O(events of the branch).
 [[nodiscard]] PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std::int64_t rank);
 

@@ -28,9 +28,9 @@ std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int
     const std::string name = subject.name + ", frames " + std::to_string(frames);
     if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);
     const std::unique_ptr<JobQueue::Job> job = queue.acquire(request.client, request.is_disconnected);
-    if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);  // another client has asked for it meanwhile
+    if (std::optional<std::string> before = answers_.find(name)) return std::move(*before);  // rendered for another client meanwhile
     Context own = context;
-    own.threads = 1;  // surfaces that somebody waits for go first
+    own.threads = 1;  // surface requests have priority
     own.cancelled = [&job] { return job->is_cancelled(); };
     const PageOptions options{.picture_size = kPixels, .frames = frames};
     Surface surface = coarse_surface(surface_of(atlas, subject.is_cavity, subject.entry, own), kMaxTriangles);

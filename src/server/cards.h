@@ -1,4 +1,4 @@
-// Pictures of objects, drawn when they are asked for, one at a time, and kept: /api/card.
+// Pictures of objects, rendered on demand, one at a time, and cached: /api/card.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace isoatlas {
 
-/// What is drawn, and its name among all that may be: "entry 3".
+/// The rendered object, and its cache key: "entry 3".
 struct CardSubject {
     std::string name;
     bool is_cavity = false;
@@ -21,8 +21,8 @@ struct CardSubject {
 
 class Cards {
 public:
-    /// docs/schema/server-card. frames: of the turntable, 1 to 64. turns: of those who draw, one at a time. Throws Error: cancelled,
-    /// resource (too many wait). Cost: the first time Atlas::extract() and `frames` pictures; one thread.
+    /// docs/schema/server-card. frames: of the turntable, 1 to 64. queue: of rendering jobs, one at a time. Throws Error: cancelled,
+    /// resource (queue full). Cost: the first time Atlas::extract() and `frames` pictures; one thread.
     [[nodiscard]] std::string json(const Atlas& atlas, const CardSubject& subject, std::int64_t frames, const Request& request,
                                    JobQueue& queue, const Context& context);
 

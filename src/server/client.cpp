@@ -24,7 +24,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kLongestAnswer = 3'600'000;  ///< milliseconds without a byte: a large surface waits for its turn
+constexpr int kLongestAnswer = 3'600'000;  ///< milliseconds without a byte: the job of a large surface may wait
 constexpr std::size_t kPiece = 1 << 16;
 
 struct Place {
@@ -48,7 +48,7 @@ std::optional<Place> place_of(std::string_view address) {
     return place;
 }
 
-/// Printable, without a space: it can be part of a request.
+/// Printable, without a space: valid in a request.
 bool is_plain(std::string_view text) {
     return std::ranges::all_of(text, [](char letter) { return letter > ' ' && letter < 127; });
 }
@@ -59,17 +59,16 @@ std::string token_of(const Place& place) {
     std::string kept = private_text(token_file(place.port));
     while (!kept.empty() && kept.back() == '\n') kept.pop_back();
     if (!kept.empty()) return kept;
-    throw Error(ErrorKind::input,
-                {.where = "127.0.0.1:" + std::to_string(place.port),
-                 .what = "nobody answers that this user has started: its token is not known",
-                 .next = "is `isoatlas view` still running? Start it again, and give its new address; the token of another "
-                         "user's viewer can be set as ISOATLAS_TOKEN"});
+    throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(place.port),
+                                   .what = "no viewer of this user is known on this port: no token found",
+                                   .next = "is `isoatlas view` still running? Start it again and use its new address; the token of another "
+                                           "user's viewer can be set as ISOATLAS_TOKEN"});
 }
 
 [[noreturn]] void refuse_silence(int port, const std::string& why) {
     throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(port),
-                                   .what = "nobody answers: " + why,
-                                   .next = "is `isoatlas view` still running? Start it again, and give its new address"});
+                                   .what = "no response: " + why,
+                                   .next = "is `isoatlas view` still running? Start it again and use its new address"});
 }
 
 /// Connected to a port of this machine.
@@ -97,28 +96,27 @@ private:
 
 void get(const Place& place, const std::string& request, ResponseReader& answer) {
     const std::string token = token_of(place);
-    if (!is_plain(token)) throw Error(ErrorKind::usage, {.where = "the token", .what = "has a space or a letter that no token has"});
+    if (!is_plain(token))
+        throw Error(ErrorKind::usage, {.where = "the token", .what = "contains a character that is not valid in a token"});
     const Socket socket(place.port);
-    const std::string request = "GET " + request + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(place.port) +
+    const std::string head = "GET " + request + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(place.port) +
                                 "\r\nAuthorization: Bearer " + token + "\r\nConnection: close\r\n\r\n";
-    const bool sent = socket.peer().send(request);
+    const bool sent = socket.peer().send(head);
     std::string bytes(kPiece, '\0');
     while (!answer.is_whole()) {
         const std::ptrdiff_t count = socket.peer().receive(bytes.data(), bytes.size(), sent ? kLongestAnswer : 0);
-        if (count <= 0) refuse_silence(place.port, "the answer ends before its end");
-        if (!answer.read(std::string_view(bytes).substr(0, static_cast<std::size_t>(count))))
-            refuse_silence(place.port, "what answers there is no viewer");
+        if (count <= 0) refuse_silence(place.port, "the response is incomplete");
+        if (!answer.read(std::string_view(bytes).substr(0, static_cast<std::size_t>(count)))) refuse_silence(place.port, "not a viewer");
     }
 }
 
-/// What the server said, as if it had happened here.
+/// Rethrows the error of the response.
 [[noreturn]] void refuse(int status, const std::string& body) {
     const nlohmann::json told = nlohmann::json::parse(body, nullptr, false);
     const nlohmann::json error = told.is_object() ? told.value("error", nlohmann::json::object()) : nlohmann::json::object();
     const int code = error.value("code", 0);
     if (code < 2 || code > 6) {
-        throw Error(ErrorKind::input,
-                    {.what = "the viewer answered " + std::to_string(status), .next = "docs/server.md says what may be asked"});
+        throw Error(ErrorKind::input, {.what = "the viewer responded with status " + std::to_string(status), .next = "see docs/server.md"});
     }
     throw Error(static_cast<ErrorKind>(code), {.where = error.value("where", ""),
                                                .what = error.value("what", ""),
@@ -132,15 +130,15 @@ ServerResponse ask_server(const std::string& address, const std::string& request
     const std::optional<Place> place = place_of(address);
     if (!place) {
         throw Error(ErrorKind::usage, {.where = address.substr(0, 100),
-                                       .what = "is no address of a viewer",
+                                       .what = "not an address of a viewer",
                                        .expected = "http://127.0.0.1:PORT",
-                                       .next = "give the address that `isoatlas view` printed, up to its port"});
+                                       .next = "use the address that `isoatlas view` printed, up to its port"});
     }
     if (!request.starts_with('/') || request.starts_with("/api/events") || !is_plain(request)) {
         throw Error(ErrorKind::usage, {.where = request.substr(0, 100),
-                                       .what = "is no question with an answer that ends",
+                                       .what = "not a request with a finite response",
                                        .expected = "a path such as '/api/objects?tau=100'",
-                                       .next = "docs/server.md lists the questions"});
+                                       .next = "docs/server.md lists the requests"});
     }
     ResponseReader answer;
     get(*place, request, answer);

@@ -1,4 +1,4 @@
-// Surfaces with fewer triangles, for small pictures and first looks: points that are close become one.
+// Simplified surfaces for small pictures and previews, by vertex clustering.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace isoatlas {
 
-/// Corners of at most so many triangles of those given, three each. positions: three numbers a point. Parts that are smaller than a
-/// cluster vanish. Cost: O(points + triangles).
+/// Corners of at most `max` of the given triangles, three each. positions: three numbers a point. Components smaller than a cluster
+/// vanish. Cost: O(points + triangles).
 [[nodiscard]] std::vector<unsigned> fewer_triangles(std::span<const unsigned> corners, std::span<const float> positions, std::size_t max);
 
-/// A surface of a 3D volume with at most so many triangles; as it is, where it has no more. Fewer than 2^32 points.
+/// Reduces a surface of a 3D volume to at most `max` triangles; unchanged if it has no more. Fewer than 2^32 points.
 [[nodiscard]] Surface coarse_surface(Surface surface, std::size_t max);
 
 }  // namespace isoatlas

@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kQuick = 1;  ///< level of both; the next ones save a hundredth of a mesh for twice the time
+constexpr int kQuick = 1;  ///< level of both; the next one saves 1 % of a mesh for twice the time
 
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);

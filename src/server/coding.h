@@ -1,4 +1,4 @@
-// Content codings of HTTP: fewer bytes on the wire for clients that can undo them.
+// Content codings of HTTP.
 #pragma once
 
 #include <string>

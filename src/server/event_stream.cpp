@@ -10,9 +10,9 @@ using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxStreams = 64;
-constexpr milliseconds kLook{250};        ///< how often one that waits asks whether somebody is still there
+constexpr milliseconds kLook{250};        ///< polling interval of a waiting stream for a disconnected client
 constexpr milliseconds kApart{100};       ///< between two messages
-constexpr milliseconds kHeartbeat{5000};  ///< a comment at least so often: nobody in between gives the connection up
+constexpr milliseconds kHeartbeat{5000};  ///< max interval between messages (comments): keeps proxies from closing the connection
 
 }  // namespace
 
@@ -65,7 +65,7 @@ std::shared_ptr<EventStream> EventStreams::listen(const std::string& client, IsD
     const std::lock_guard lock(mutex_);
     if (clients_.size() >= kMaxStreams)
         throw Error(ErrorKind::resource,
-                    {.what = "too many listen", .next = "close a page that shows this volume, then load this one again"});
+                    {.what = "too many event streams", .next = "close a page that shows this volume, then load this one again"});
     clients_.insert(client);
     return std::shared_ptr<EventStream>(new EventStream(*this, client, std::move(is_disconnected)));  // the constructor is private
 }

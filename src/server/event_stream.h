@@ -1,4 +1,4 @@
-// What a client hears while it listens: where the server is, and where its own requests are (text/event-stream).
+// Server-sent events of a client: state of the server, progress of its own requests (text/event-stream).
 #pragma once
 
 #include <atomic>
@@ -16,15 +16,14 @@ namespace isoatlas {
 
 class EventStreams;
 
-/// One client that listens. When the last stream of a client ends, so do its requests.
+/// The stream of one client. When the last stream of a client ends, its requests are cancelled.
 class EventStream {
 public:
     EventStream(const EventStream&) = delete;
     EventStream& operator=(const EventStream&) = delete;
     ~EventStream();
 
-    /// The next message; it may take long: until the state has changed, or a comment is due that tells that somebody is still there.
-    /// Empty: nothing more will come. From one thread.
+    /// The next message; blocks until the state has changed or a keep-alive comment is due. Empty: end of the stream. From one thread.
     [[nodiscard]] std::string next();
 
 private:
@@ -40,15 +39,15 @@ private:
     std::chrono::steady_clock::time_point last_{};
 };
 
-/// All of a server.
+/// All streams of a server.
 class EventStreams {
 public:
     EventStreams(const StoreState& store_state, JobQueues& lines, VersionCounter& changes)
         : store_state_(store_state), queues_(lines), changes_(changes) {}
 
-    /// Throws Error{resource} when too many listen. client: without a lane; empty: it has no requests.
+    /// Throws Error{resource} when there are too many streams. client: without a lane; empty: it has no requests.
     [[nodiscard]] std::shared_ptr<EventStream> listen(const std::string& client, IsDisconnected is_disconnected);
-    /// Ends all streams, and those to come.
+    /// Ends all streams, also future ones.
     void end();
 
 private:

@@ -47,7 +47,7 @@ private:
     std::int64_t size_;
 };
 
-/// As much of a file system as an AtomicFile needs.
+/// The part of a file system that an AtomicFile needs, in memory.
 class MemoryFiles final : public FileSystem {
 public:
     explicit MemoryFiles(const Context& context) : context_(context) {}

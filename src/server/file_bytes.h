@@ -1,4 +1,4 @@
-// What a writer of files would write, for a client to keep. No disk is touched.
+// Output of a file writer in memory, for downloads. No disk is touched.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// HTTP around the service: one door for every request, so that nothing is matched, mounted or redirected by a library.
+// HTTP around the service: one entry point for all requests; no library routes, mounts or redirects them.
 #include <algorithm>
 #include <atomic>
 #include <cctype>
@@ -27,11 +27,11 @@ std::string checked_token(const std::string& token) {
     const bool good = token.size() >= kShortToken && token.size() <= kLongToken &&
                       std::ranges::all_of(token, [](unsigned char letter) { return std::isalnum(letter) != 0; });
     if (token.empty()) return random_secret();
-    if (!good) throw Error(ErrorKind::usage, {.where = "the token", .what = "cannot be used", .expected = "16 to 256 letters and digits"});
+    if (!good) throw Error(ErrorKind::usage, {.where = "the token", .what = "invalid", .expected = "16 to 256 letters and digits"});
     return token;
 }
 
-/// Bytes of an answer that a client may be slow to take.
+/// Bytes of a response that a slow client has not received yet.
 class OnItsWay {
 public:
     OnItsWay(std::atomic<std::int64_t>& sum, std::size_t size) : sum_(sum), size_(static_cast<std::int64_t>(size)) { sum_ += size_; }
@@ -64,7 +64,7 @@ struct Server::Data {
                                  .answer = [this](const RequestHead& head, const Peer& peer) { return answer(head, peer); }}),
           access(network.port(), token) {}
 
-    /// Of somebody who may ask. True: another request may follow.
+    /// An authorised request. True: another request may follow.
     bool answer(const RequestHead& head, const Peer& peer) {
         Target target = target_of(head.target);
         if (target.path == "/") target.words.clear();
@@ -83,7 +83,7 @@ struct Server::Data {
 
     static Response refused(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
     static Response too_much() {
-        return refused(503, Error(ErrorKind::resource, {.what = "too much is on its way to clients", .next = "ask again later"}));
+        return refused(503, Error(ErrorKind::resource, {.what = "too many bytes are being sent to clients", .next = "retry later"}));
     }
 
     Response new_address(const Request& request) {
@@ -140,7 +140,7 @@ void Server::open(const Atlas& atlas) { data_->service.store_state().open(atlas)
 void Server::prepare(const Context& context) {
     try {
         data_->service.prepare(context);
-    } catch (const Error&) {  // who asks is told
+    } catch (const Error&) {  // the client receives the error
     }
 }
 void Server::report_progress(const BuildState& state) { data_->service.store_state().report_progress(state); }

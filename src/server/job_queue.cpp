@@ -10,8 +10,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  ///< how often one that waits asks whether somebody is still there
-constexpr double kTold = 0.01;                   ///< less progress is not worth telling
+constexpr std::chrono::milliseconds kLook{100};  ///< polling interval of a waiting job for a disconnected client
+constexpr double kTold = 0.01;                   ///< smaller progress is not reported
 
 bool is_of(std::string_view client, std::string_view name) {
     return client.starts_with(name) && (client.size() == name.size() || client[name.size()] == '/');
@@ -63,7 +63,7 @@ std::unique_ptr<JobQueue::Job> JobQueue::acquire(const std::string& client, IsDi
         activate(*other);
     }
     if (static_cast<int>(waiting_.size()) >= max_waiting_) {
-        throw Error(ErrorKind::resource, {.what = "too many questions wait for an answer", .next = "ask again later"});
+        throw Error(ErrorKind::resource, {.what = "too many requests are waiting", .next = "retry later"});
     }
     std::unique_ptr<Job> job(new Job(*this, client, std::move(is_disconnected)));  // the constructor is private
     job->place_ = place > 0 ? place : ++next_place_;
@@ -76,12 +76,12 @@ std::unique_ptr<JobQueue::Job> JobQueue::acquire(const std::string& client, IsDi
     }
     activate(*job);
     if (job->ended_ || ended_) {
-        lock.unlock();  // the turn ends
-        throw Error(ErrorKind::cancelled, {.what = "a newer question came, or who asked has left"});
+        lock.unlock();  // before the job is destroyed
+        throw Error(ErrorKind::cancelled, {.what = "superseded by a newer request, or client disconnected"});
     }
     ++running_;
     job->running_ = true;
-    notify_waiting();  // the next one
+    notify_waiting();  // the next job
     return job;
 }
 

@@ -1,5 +1,5 @@
-// Whose turn it is: a few surfaces are made at a time, others wait in the order in which they came; a newer request of the same client
-// ends an older one, and takes its place where that still waits. A request ends too when who asked has left.
+// Bounded FIFO of jobs: a few run at a time, the others wait in order of arrival. A newer request of a client supersedes its older one and
+// takes its place in the queue. A job is cancelled too when its client has disconnected.
 #pragma once
 
 #include <condition_variable>
@@ -15,24 +15,24 @@
 
 namespace isoatlas {
 
-/// Is nobody there any more to hear the answer? Asked now and then, from the thread that waits or works. Empty: somebody is.
+/// Has the client disconnected? Polled from the thread that waits or works. Empty: connected.
 using IsDisconnected = std::function<bool()>;
 
 class JobQueue {
 public:
-    /// at_once: so many hold a turn; waiting: so many more may wait for one. changes: is told of every change; it must live as long.
+    /// waiting: max waiting jobs. changes: notified of every change; it must live as long.
     JobQueue(int max_running, int waiting, VersionCounter* changes = nullptr)
         : max_running_(max_running), max_waiting_(waiting), changes_(changes) {}
 
-    /// Held while a surface is made.
+    /// A running job; its place is free when it is destroyed.
     class Job {
     public:
         Job(const Job&) = delete;
         Job& operator=(const Job&) = delete;
         ~Job();
-        /// Has a newer request of the same client come, has who asked left, or does the server end?
+        /// Superseded by a newer request of the same client, client disconnected, or server ended?
         [[nodiscard]] bool is_cancelled();
-        /// How much of the work is done, 0 to 1.
+        /// fraction: completed part of the work, 0 to 1.
         void report_progress(double fraction);
 
     private:
@@ -44,35 +44,35 @@ public:
         const std::string client_;
         const IsDisconnected is_disconnected_;
         // under the mutex of jobs_:
-        std::uint64_t place_ = 0;  ///< in the order of waiting; 0: it does not wait
+        std::uint64_t place_ = 0;  ///< position in the queue; 0: not waiting
         double fraction_ = 0;
         bool running_ = false, ended_ = false;
     };
 
-    /// Waits until it is this client's turn. Throws Error: cancelled (a newer request came, who asked has left, or the server ends),
-    /// resource (too many wait). An empty client is one of its own each time.
+    /// Blocks until the job of this client may run. Throws Error: cancelled (superseded, client disconnected, or server ended), resource
+    /// (queue full). An empty client is a different one each time.
     [[nodiscard]] std::unique_ptr<Job> acquire(const std::string& client, IsDisconnected is_disconnected = {});
-    /// Ends what a client has asked: the requests of NAME and of NAME/ANYTHING.
+    /// Cancels the jobs of a client: of NAME and of NAME/ANYTHING.
     void leave(const std::string& name);
-    /// Ends all turns; take() refuses from now on.
+    /// Cancels all jobs; acquire() throws from now on.
     void end();
 
-    /// How many wait.
+    /// Number of waiting jobs.
     [[nodiscard]] int waiting() const;
     [[nodiscard]] int running() const;
 
-    /// A request that is not yet answered.
+    /// A job that is not finished.
     struct Pending {
         std::string client;
-        int place = 0;        ///< in the queue, from 1; 0: its answer is being made
+        int place = 0;        ///< place in the queue, from 1; 0: running
         double fraction = 0;  ///< of that
     };
-    /// Those of NAME and of NAME/ANYTHING, by client.
+    /// Jobs of NAME and of NAME/ANYTHING, by client.
     [[nodiscard]] std::vector<Pending> pending(const std::string& name) const;
 
 private:
     [[nodiscard]] bool may_run(const Job& job) const;
-    /// The turn no longer waits.
+    /// Removes the job from the waiting ones.
     void activate(Job& job);
     void notify_waiting();
 

@@ -1,4 +1,4 @@
-// The lines in which requests wait, by what their answers are made of.
+// The job queues of the server, by the data that responses need.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@ namespace isoatlas {
 
 enum class QueueClass : std::uint8_t {
     surfaces,  ///< surfaces, labels, measures
-    samples,   ///< of bricks that are read
-    trees,     ///< what the trees tell
-    cards,     ///< pictures; they have time
-    atlas,     ///< no line: all wait for the same
+    samples,   ///< samples of bricks
+    trees,     ///< queries on the trees
+    cards,     ///< pictures; low priority
+    atlas,     ///< no queue: all wait for the same result
 };
 
 class JobQueues {
 public:
-    /// changes: is told of every change; it must live as long.
+    /// changes: notified of every change; it must live as long.
     explicit JobQueues(VersionCounter& changes);
 
     [[nodiscard]] JobQueue& of(QueueClass line) { return queues_[static_cast<std::size_t>(line)]; }
@@ -32,7 +32,7 @@ public:
         const char* line;  ///< "surfaces", ...
         JobQueue::Pending request;
     };
-    /// JobQueue::pending() of all, one line after the other.
+    /// JobQueue::pending() of all queues, one after the other.
     [[nodiscard]] std::vector<Pending> pending(const std::string& name) const;
 
 private:

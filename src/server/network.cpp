@@ -23,8 +23,8 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{200};  ///< how often deadlines are looked at
-constexpr std::size_t kMaxDrained = 1 << 16;     ///< bytes of a request that nobody reads
+constexpr std::chrono::milliseconds kTick{200};  ///< interval of checking deadlines
+constexpr std::size_t kMaxDrained = 1 << 16;     ///< max bytes of a request that are discarded
 
 struct Connection;
 using Connected = std::list<std::shared_ptr<Connection>>;
@@ -33,17 +33,17 @@ struct Connection {
     explicit Connection(tcp::socket accepted) : socket(std::move(accepted)) {}
 
     tcp::socket socket;
-    Connected* list = nullptr;  ///< it is in; none: it has ended
+    Connected* list = nullptr;  ///< in the list of connections; none: closed
     Connected::iterator place{};
     Clock::time_point until{};
-    std::string bytes{};  ///< have come and are not yet understood, at most kLongestHead
+    std::string bytes{};  ///< received and not yet parsed, at most kLongestHead
     std::optional<HeadReader> reader{};
-    bool leaves = false;      ///< what comes is thrown away
-    std::size_t drained = 0;  ///< so much
+    bool leaves = false;      ///< received bytes are discarded
+    std::size_t drained = 0;  ///< bytes discarded
 };
 using ConnectionPointer = std::shared_ptr<Connection>;
 
-/// Of a connection that ends: it may have ended already.
+/// Closes a connection, which may be closed already.
 void ignore(const error_code&) {}
 
 }  // namespace
@@ -54,14 +54,14 @@ public:
         try {
             const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
             acceptor_.open(here.protocol());
-            acceptor_.set_option(asio::socket_base::reuse_address(true));  // Linux: two never listen at once
+            acceptor_.set_option(asio::socket_base::reuse_address(true));  // Linux: two sockets never listen at once
             acceptor_.bind(here);
             acceptor_.listen();
             acceptor_.non_blocking(true);
         } catch (const boost::system::system_error&) {
             throw Error(ErrorKind::resource, {.where = "port " + std::to_string(port),
-                                              .what = "it cannot be listened on",
-                                              .next = "choose another one with --port, or leave it away"});
+                                              .what = "cannot listen on this port",
+                                              .next = "choose another one with --port, or omit --port"});
         }
     }
 
@@ -73,11 +73,11 @@ public:
                 if (!accepting_) accept();
                 if (!ticking_) tick();
                 io_.run();
-            } catch (const std::exception&) {  // std::bad_alloc: one connection less; its deadline ends it
+            } catch (const std::exception&) {  // std::bad_alloc: its deadline closes the connection
                 (void)::sched_yield();
             }
         }
-        // What is being answered: nothing more is sent, and it ends.
+        // Connections with a response: nothing more is sent, and they are closed.
         for (const ConnectionPointer& connection : busy_) (void)::shutdown(connection->socket.native_handle(), SHUT_RDWR);
         workers_.wait();
     }
@@ -108,7 +108,7 @@ private:
     void accept() {
         acceptor_.async_accept([this](error_code error, tcp::socket socket) {
             accepting_ = false;
-            if (error) {  // no file is left for it, or it has gone again: the next tick tries again
+            if (error) {  // no file descriptor left, or closed by the client: the next tick retries
                 cut_off_oldest(strangers_.empty() ? idle_ : strangers_);
                 return;
             }
@@ -131,7 +131,7 @@ private:
         if (connection.list != nullptr) connection.list->erase(connection.place);  // the caller still holds it
         connection.list = nullptr;
     }
-    /// A stranger who was told nothing leaves no trace in the system; others may still take what was sent.
+    /// A connection without a response is reset (no TIME_WAIT); others may still receive what was sent.
     void cut_off(Connection& connection) {
         error_code error;
         const bool was_told = connection.list != &strangers_ || connection.leaves;
@@ -143,7 +143,7 @@ private:
         const ConnectionPointer oldest = std::move(list.front());
         cut_off(*oldest);
     }
-    /// It stands last there.
+    /// Moves it to the end of the list.
     static void move(Connection& connection, Connected& list) {
         list.splice(list.end(), *connection.list, connection.place);
         connection.list = &list;
@@ -157,7 +157,7 @@ private:
         });
     }
 
-    /// What there is, without waiting.
+    /// Reads the available bytes without blocking.
     void read(const ConnectionPointer& connection) {
         error_code error;
         const std::size_t room = connection->leaves ? scratch_.size() : kLongestHead - connection->bytes.size();
@@ -190,15 +190,14 @@ private:
         }
     }
 
-    /// A whole answer, and the end: it fits into what the system keeps for a connection.
+    /// Sends a whole response and closes: it fits into the send buffer of the socket.
     void refuse(const ConnectionPointer& connection, const std::string& answer) {
         error_code error;
         if (connection->socket.write_some(asio::buffer(answer), error) < answer.size()) return drop(*connection);
         leave(connection);
     }
 
-    /// The client hears that nothing more will come, and has time to read what did: a connection that is closed while its client still
-    /// sends loses what it was told.
+    /// Shuts down sending and lets the client read the response: closing while the client still sends would discard the response.
     void leave(const ConnectionPointer& connection) {
         error_code error;
         ignore(connection->socket.shutdown(tcp::socket::shutdown_send, error));
@@ -210,12 +209,12 @@ private:
         wait(connection);
     }
 
-    /// On a worker.
+    /// Runs on a worker thread.
     void answer(const ConnectionPointer& connection, const RequestHead& head) {
         bool goes_on = false;
         try {
             goes_on = answers_.answer(head, Peer(connection->socket.native_handle()));
-        } catch (const std::exception&) {  // of this connection alone
+        } catch (const std::exception&) {  // to this connection only
         }
         while (!ended_) {
             try {
@@ -242,7 +241,7 @@ private:
     asio::steady_timer timer_{io_};
     bool accepting_ = false, ticking_ = false;
     std::atomic<bool> ended_ = false;
-    Connected strangers_, idle_, busy_;  ///< in the order in which they came there
+    Connected strangers_, idle_, busy_;  ///< in order of arrival
     std::array<char, kLongestHead> scratch_{};
     Workers workers_{kMaxAtOnce};  ///< the last member: its threads end before the others
 };

@@ -1,10 +1,9 @@
-// Connections: strangers wait at the door, whoever may ask is answered by a thread.
+// Connections: a bounded number of unauthorised ones; authorised requests are answered by threads.
 //
-// One thread accepts, reads heads of requests and watches deadlines; it never waits for a client. A connection whose request has not yet
-// been let in belongs to a stranger: there are at most kMaxStrangers, each with a head of kLongestHead bytes and kHeadTime for all of it;
-// when another one comes, the oldest is cut off. So whoever holds all of them does not keep others out. What is let in is answered by a
-// thread of its own, at most kMaxAtOnce at a time. Between two requests a connection keeps its place for a while, apart from the
-// strangers.
+// One thread accepts, reads request heads and checks deadlines; it never blocks on a client. There are at most kMaxStrangers connections
+// whose request is not yet authorised, each with a head of at most kLongestHead bytes and kHeadTime for all of it; when another one
+// arrives, the oldest is closed, so they cannot keep others out. Each authorised request is answered by a thread of its own, at most
+// kMaxAtOnce at a time. Idle connections between two authorised requests are kept for a while and counted separately.
 #pragma once
 
 #include <chrono>
@@ -24,11 +23,11 @@ constexpr std::chrono::seconds kHeadTime{5}, kIdleTime{30}, kLeavingTime{1};
 class Network {
 public:
     struct Answers {
-        /// A whole answer for whoever is not let in; nothing: he is. Must be quick: it is asked on the thread of all connections.
+        /// The whole response to an unauthorised request; nullopt: it is authorised. Must be fast: called on the thread of all connections.
         std::function<std::optional<std::string>(const RequestHead&)> at_the_door;
-        /// The same for what is no request, or one too many.
+        /// The whole response to an invalid request, or to one too many.
         std::function<std::string(int status)> refusal;
-        /// Answers a request, on a thread of its own. True: the connection may go on.
+        /// Answers a request, on a thread of its own. True: the connection may be reused.
         std::function<bool(const RequestHead&, const Peer&)> answer;
     };
 
@@ -39,7 +38,7 @@ public:
     ~Network();
 
     [[nodiscard]] int port() const;
-    /// Until stop() is called; all answers have ended when it returns.
+    /// Runs until stop() is called; all responses have ended when it returns.
     void run();
     /// From any thread, before or after run() has begun.
     void stop();

@@ -6,16 +6,16 @@
 
 namespace isoatlas {
 
-/// Of a socket that another object owns, and that nobody else reads or writes meanwhile.
+/// Uses a socket owned by another object; no other thread may read or write it.
 class Peer {
 public:
     explicit Peer(int socket) : socket_(socket) {}
 
-    /// All bytes. False: the client has gone, or has taken nothing for ten seconds. more: others follow at once.
+    /// Sends all bytes. False: the client has disconnected, or has received nothing for ten seconds. more: further bytes follow at once.
     [[nodiscard]] bool send(std::string_view bytes, bool more = false) const;
-    /// At most so many bytes of what has come; 0: the other end is closed, negative: nothing came in time, or an error.
+    /// Receives at most that many bytes; 0: closed by the other end, negative: timeout or error.
     [[nodiscard]] std::ptrdiff_t receive(char* bytes, std::size_t max, int milliseconds) const;
-    /// Has it closed the connection, or its own half of it?
+    /// Has the client closed the connection, or its own half of it?
     [[nodiscard]] bool is_gone() const;
 
 private:

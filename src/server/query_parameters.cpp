@@ -15,7 +15,7 @@ constexpr std::size_t kLongestShown = 60;
 [[noreturn]] void refuse(std::string_view name, std::string_view text, const std::string& expected) {
     throw Error(
         ErrorKind::usage,
-        {.where = std::string(name), .what = "'" + std::string(text.substr(0, kLongestShown)) + "' cannot be used", .expected = expected});
+        {.where = std::string(name), .what = "'" + std::string(text.substr(0, kLongestShown)) + "' is not valid", .expected = expected});
 }
 
 /// The whole text is a number.
@@ -40,7 +40,7 @@ std::optional<std::string_view> QueryParameters::take(std::string_view name) {
     known_.push_back(name);
     const auto [begin, end] = words_.equal_range(std::string(name));
     if (begin == end) return std::nullopt;
-    if (std::next(begin) != end) refuse(name, begin->second, "to be said once");
+    if (std::next(begin) != end) refuse(name, begin->second, "one value");
     return begin->second;
 }
 
@@ -110,9 +110,9 @@ void QueryParameters::reject_unknown() const {
         if (std::ranges::find(known_, name) != known_.end()) continue;
         std::string expected;
         for (const std::string_view word : known_) expected += (expected.empty() ? "" : ", ") + std::string(word);
-        throw Error(ErrorKind::usage, {.where = name.substr(0, kLongestShown),
-                                       .what = "this question has no such word",
-                                       .expected = expected.empty() ? "none" : expected});
+        throw Error(
+            ErrorKind::usage,
+            {.where = name.substr(0, kLongestShown), .what = "unknown query parameter", .expected = expected.empty() ? "none" : expected});
     }
 }
 

@@ -1,4 +1,4 @@
-// The words of a request, read strictly: what is not known, comes twice or is out of range is refused with the range.
+// The query parameters of a request, parsed strictly: unknown, repeated and out-of-range parameters are rejected, with the valid range.
 #pragma once
 
 #include <cstdint>
@@ -27,14 +27,14 @@ public:
     [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
     /// Numbers between commas, at most `count`.
     [[nodiscard]] std::vector<std::int64_t> list(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count);
-    /// The same of "NUMBER@VALUE"; values are finite.
+    /// The same for "NUMBER@VALUE"; values are finite.
     [[nodiscard]] std::vector<NumberAt> list_at(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count);
-    /// Throws Error{usage} for a word that nobody asked for.
+    /// Throws Error{usage} for a parameter that was not read.
     void reject_unknown() const;
 
 private:
     [[nodiscard]] std::optional<std::string_view> take(std::string_view name);
-    /// What stands between the commas of a word, at most `count`; nothing when it is not said.
+    /// The items between the commas of a parameter, at most `count`; empty when it is missing.
     [[nodiscard]] std::vector<std::string_view> items(std::string_view name, std::size_t count);
 
     const std::multimap<std::string, std::string>& words_;

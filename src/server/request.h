@@ -1,4 +1,4 @@
-// What a viewer asks and what it is answered, without the network: server/http.cpp carries these, tests and fuzzers make them.
+// Requests and responses, independent of the network: server/http.cpp transports them, tests and fuzzers construct them.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 namespace isoatlas {
 
 struct Request {
-    std::string path;                               ///< as sent, without what follows '?'
-    std::multimap<std::string, std::string> words;  ///< what follows '?'
-    std::string token;                              ///< who may ask; empty: none was sent
-    std::string client;                             ///< who asks; of one client a newer request ends an older one for a surface
-    IsDisconnected is_disconnected{};               ///< is nobody there any more to hear the answer?
+    std::string path;                               ///< as sent, up to '?'
+    std::multimap<std::string, std::string> words;  ///< query parameters
+    std::string token;                              ///< empty: none was sent
+    std::string client;                             ///< a newer surface request of a client supersedes its older one
+    IsDisconnected is_disconnected{};               ///< has the client disconnected?
 };
 
 struct Response {
@@ -24,7 +24,7 @@ struct Response {
     std::string type = "application/json";
     std::string bytes{};
     std::map<std::string, std::string> headers{};
-    std::shared_ptr<EventStream> events{};  ///< instead of bytes: what is still to come
+    std::shared_ptr<EventStream> events{};  ///< instead of bytes: a stream
 };
 
 }  // namespace isoatlas

@@ -11,17 +11,17 @@ namespace http = boost::beast::http;
 using boost::beast::string_view;
 using boost::system::error_code;
 
-/// The grammar is Boost.Beast's; nothing is stored but what is looked at.
+/// The grammar is Boost.Beast's; only the fields in use are stored.
 class HeadReader::Parser final : public http::basic_parser<true> {
 public:
     Parser() {
         header_limit(kLongestHead);
-        body_limit(std::numeric_limits<std::uint64_t>::max());  // of no concern: none is read
+        body_limit(std::numeric_limits<std::uint64_t>::max());  // no body is read
     }
     RequestHead head;
 
 private:
-    /// Fields that must not come twice: which one counts would be a matter of taste.
+    /// Fields that must not be repeated: which one is valid would be ambiguous.
     static void take_once(std::string& value, string_view text, error_code& error) {
         if (!value.empty()) error = http::error::bad_field;
         value.assign(text.data(), text.size());
@@ -47,7 +47,7 @@ private:
     }
     void on_header_impl(error_code&) override {}
 
-    // Of answers and bodies: never called.
+    // For responses and bodies: never called.
     void on_response_impl(int, string_view, int, error_code&) override {}
     void on_body_init_impl(boost::optional<std::uint64_t> const&, error_code&) override {}
     std::size_t on_body_impl(string_view, error_code&) override { return 0; }
@@ -70,7 +70,7 @@ HeadReader::State HeadReader::read(std::string& bytes) {
         if (error || count == 0) break;
     }
     bytes.erase(0, used);
-    taken_ += used;  // the limit of the parser is one of what it is given at a time
+    taken_ += used;  // the limit of the parser applies to each call only
     if (error && error != http::error::need_more) {
         status_ = error == http::error::header_limit ? 431 : error == http::error::bad_version ? 505 : 400;
         return State::refused;

@@ -1,5 +1,4 @@
-// A request as HTTP carries it, without its body: read byte for byte from anybody, in bounded memory. Only what the server looks at is
-// kept.
+// The head of an HTTP request: parsed incrementally from untrusted bytes in bounded memory. Only fields that the server uses are kept.
 #pragma once
 
 #include <memory>
@@ -15,9 +14,9 @@ struct RequestHead {
     std::string method, target;
     // header fields; empty: not sent
     std::string host, authorization, cookie, client, accept_encoding, origin, fetch_site;
-    bool keep_alive = false;  ///< may the connection go on?
-    bool is_old = false;      ///< HTTP/1.0: no answer in chunks
-    bool has_body = false;    ///< it follows, and is not read
+    bool keep_alive = false;  ///< may the connection be reused?
+    bool is_old = false;      ///< HTTP/1.0: no chunked response
+    bool has_body = false;    ///< a body follows, which is not read
 };
 
 /// Reads one head.
@@ -27,11 +26,11 @@ public:
     ~HeadReader();
 
     enum class State : std::uint8_t { more, whole, refused };
-    /// Takes what it can use from the front of `bytes`, of all that have come. Bounded time: O(bytes).
+    /// Consumes what it can parse from the front of `bytes`, all bytes received so far. O(bytes).
     [[nodiscard]] State read(std::string& bytes);
-    /// When it is whole.
+    /// When the head is complete.
     [[nodiscard]] const RequestHead& head() const;
-    /// When it is refused: 400, 431 (too long, too many fields) or 505.
+    /// When the head is rejected: 400, 431 (too long, too many fields) or 505.
     [[nodiscard]] int status() const;
 
 private:

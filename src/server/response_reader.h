@@ -1,4 +1,4 @@
-// What a server of ours answers, read from the bytes of a connection.
+// Parses HTTP responses of an isoatlas server from the bytes of a connection.
 #pragma once
 
 #include <memory>
@@ -12,9 +12,9 @@ public:
     ResponseReader();
     ~ResponseReader();
 
-    /// The next bytes that have come. False: this is no answer of HTTP. Throws std::bad_alloc.
+    /// Parses the next received bytes. False: not an HTTP response. Throws std::bad_alloc.
     [[nodiscard]] bool read(std::string_view bytes);
-    /// All of it has come.
+    /// The response is complete.
     [[nodiscard]] bool is_whole() const;
     [[nodiscard]] int status() const;
     [[nodiscard]] std::string type() const;
@@ -23,7 +23,7 @@ public:
 private:
     struct Parser;
     std::unique_ptr<Parser> parser_;
-    std::string rest_;  ///< not yet understood
+    std::string rest_;  ///< not yet parsed
 };
 
 }  // namespace isoatlas

@@ -24,10 +24,10 @@ const char* const kBytes = "application/octet-stream";
 
 void require_volume(const Atlas& atlas) {
     if (atlas.info().extent.rank == 3) return;
-    throw Error(ErrorKind::unsupported, {.what = "an image has no slices", .next = "open the image itself"});
+    throw Error(ErrorKind::unsupported, {.what = "a 2D image has no slices", .next = "open the image file"});
 }
 
-/// Does an object of one voxel hold another one at an isovalue?
+/// Does the object of one voxel contain another voxel at an isovalue?
 bool holds(const Atlas& atlas, const Locator& sample, const NumberAt& object, const Context& context) {
     const double tau = stored_isovalue(atlas.info(), object.at);
     const std::optional<std::int64_t> own = sample.object(tau);

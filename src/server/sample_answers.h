@@ -1,4 +1,4 @@
-// Answers about samples: a slice, the volume in fewer values, what holds a voxel.
+// Responses about samples: a slice, the downsampled volume, the objects that contain a voxel.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace isoatlas {
 
-/// An entry of the atlas, as it stands in /api/atlas.
+/// An entry of the atlas, as in /api/atlas.
 struct NamedEntry {
-    std::int64_t id;  ///< of the object, or of the contour around the dark object
+    std::int64_t id;  ///< of the object, or of the contour around the cavity
     double tau;       ///< stored
     std::int64_t voxels;
     bool is_cavity;
 };
 
-/// Questions with the words of server/service.h. All throw Error: usage (words), input (damaged store), cancelled. entries: in the order of
+/// Requests of server/service.h. All throw Error: usage (query parameters), input (damaged store), cancelled. entries: in the order of
 /// /api/atlas.
 [[nodiscard]] Response slice_answer(const Atlas& atlas, const Request& request, const Context& context);
 [[nodiscard]] Response volume_answer(const Atlas& atlas, const Request& request, const Context& context);

@@ -15,7 +15,7 @@ namespace isoatlas {
 [[nodiscard]] inline std::string random_secret() {
     std::array<unsigned char, 16> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-        throw Error(ErrorKind::resource, {.what = "the system gives no random numbers"});
+        throw Error(ErrorKind::resource, {.what = "the system provides no random numbers"});
     std::string text;
     for (const unsigned char byte : bytes) {
         for (const int digit : {byte / 16, byte % 16}) text += "0123456789abcdef"[digit];
@@ -23,7 +23,7 @@ namespace isoatlas {
     return text;
 }
 
-/// The same steps for every pair of texts of one length: how long it takes says nothing about the secret. Nothing is no secret.
+/// Constant time for texts of one length: the time reveals nothing about the secret. An empty text never matches.
 [[nodiscard]] inline bool is_secret(std::string_view given, std::string_view secret) {
     if (given.size() != secret.size() || secret.empty()) return false;
     unsigned different = 0;

@@ -22,13 +22,13 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
-constexpr int kAtOnce = 2;                                      ///< answers of size
-constexpr std::int64_t kFirstTriangles = 20'000;                ///< what pages ask for first (web/src/viewer/ask/surfaces.ts)
-constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< while an answer is made: a triangle, a voxel
+constexpr int kAtOnce = 2;                                      ///< responses at a time
+constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/ask/surfaces.ts)
+constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< bytes while a response is made: per triangle, per voxel
 constexpr std::size_t kMaxObjects = 256;
-constexpr double kStepsOfVoxel = 64;  ///< positions are this fine: a millimetre of a metre of voxels on a screen
+constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
 
-/// What every page shows first; null: nothing, or a dark object.
+/// The entry that every page shows first; null: none, or a cavity.
 const NamedEntry* first_of(const StoreCatalogue& known) {
     return known.entries.empty() || known.entries.front().is_cavity ? nullptr : &known.entries.front();
 }
@@ -49,7 +49,7 @@ Response file_answer(std::string bytes) { return {200, "application/octet-stream
 
 double required_tau(QueryParameters& words) {
     const std::optional<double> tau = words.number("tau");
-    if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "the isovalue is missing", .next = "add tau=NUMBER"});
+    if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "missing isovalue", .next = "add tau=NUMBER"});
     return *tau;
 }
 
@@ -80,7 +80,7 @@ Response Service::answer(const Request& request) {
     } catch (const Error& error) {
         return refusal(status_of(error.kind()), error);
     } catch (const std::bad_alloc&) {
-        return refusal(503, Error(ErrorKind::resource, {.what = "not enough memory", .next = "ask for less, or again later"}));
+        return refusal(503, Error(ErrorKind::resource, {.what = "not enough memory", .next = "request less, or retry later"}));
     } catch (const std::exception& exception) {
         return refusal(500, Error(ErrorKind::internal, {.what = exception.what()}));
     }
@@ -89,7 +89,7 @@ Response Service::answer(const Request& request) {
 Response Service::answer_known(const Request& request) {
     if (request.path == "/") {
         if (viewer_template().empty())
-            throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "ask /api/atlas"});
+            throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "request /api/atlas"});
         return {200, "text/html; charset=utf-8", std::string(viewer_template())};
     }
     if (!is_secret(request.token, token_)) {
@@ -116,10 +116,10 @@ Response Service::answer_known(const Request& request) {
     if (request.path == "/api/slice") return samples_answer(request, slice_answer);
     if (request.path == "/api/volume") return samples_answer(request, volume_answer);
     throw Error(ErrorKind::not_found, {.where = request.path.substr(0, 100),
-                                       .what = "there is nothing here",
+                                       .what = "no such path",
                                        .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
                                                    "label, slice, volume, at, transfer, address",
-                                       .next = "docs/server.md lists the questions"});
+                                       .next = "docs/server.md lists the requests"});
 }
 
 Response Service::samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&)) {
@@ -130,7 +130,7 @@ Response Service::samples_answer(const Request& request, Response (*make)(const 
 Response Service::at_answer(const Request& request) {
     const StoreCatalogue& known = this->known(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
-    return at_answer(atlas(), known.entries, request, context_of(*job));
+    return isoatlas::at_answer(atlas(), known.entries, request, context_of(*job));
 }
 
 std::unique_ptr<JobQueue::Job> Service::acquire_job(QueueClass line, const Request& request) {
@@ -139,7 +139,7 @@ std::unique_ptr<JobQueue::Job> Service::acquire_job(QueueClass line, const Reque
 
 const StoreCatalogue& Service::known(const Request& request) {
     if (const StoreCatalogue* there = known_.there()) return *there;
-    (void)atlas();  // refuses before there is one
+    (void)atlas();  // throws while there is no store
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::atlas, request);
     return known(context_of(*job));
 }
@@ -207,7 +207,7 @@ Response Service::measures_answer(const Request& request) {
     const std::vector<std::int64_t> objects = voxels(words, "object");
     words.reject_unknown();
     if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
-    (void)known(request);  // the trees
+    (void)known(request);  // loads the trees
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     ExtractOptions options;
     options.objects = objects;
@@ -227,8 +227,7 @@ Response Service::branches_answer(const Request& request) {
 CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& known) const {
     const std::optional<std::int64_t> entry = words.whole("entry", 0, kMaxListed), branch = words.whole("branch", 0, kMaxBranches);
     if (entry.has_value() == branch.has_value())
-        throw Error(ErrorKind::usage,
-                    {.where = "entry", .what = "which object is meant is not said once", .next = "add entry=N or branch=RANK"});
+        throw Error(ErrorKind::usage, {.where = "entry", .what = "requires exactly one object", .next = "add entry=N or branch=RANK"});
     if (branch) {
         PageEntry drawn = branch_entry(atlas(), known.hierarchy, *branch);
         drawn.colour = palette(*branch);
@@ -290,7 +289,7 @@ Response Service::label_answer(const Request& request) {
     const std::string format = words.choice("format", {"nrrd", "nii", "nii.gz", "tif"}).value_or("nrrd");
     words.reject_unknown();
     if (atlas.info().extent.voxels() > memory_ / kLabelBytes) {
-        throw Error(ErrorKind::resource, {.what = "the labels of so many voxels are more than this server may hold",
+        throw Error(ErrorKind::resource, {.what = "the label volume exceeds the memory budget of this server",
                                           .next = "isoatlas label writes them; or start the viewer with more --memory"});
     }
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
@@ -307,7 +306,7 @@ Response Service::label_answer(const Request& request) {
 const Atlas& Service::atlas_of_volume() const {
     const Atlas& found = atlas();
     if (found.info().extent.rank == 3) return found;
-    throw Error(ErrorKind::unsupported, {.what = "the contours of an image are no surface", .next = "isoatlas extract writes them"});
+    throw Error(ErrorKind::unsupported, {.what = "the contours of a 2D image are not a surface", .next = "isoatlas extract writes them"});
 }
 
 std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name) const {

@@ -1,4 +1,4 @@
-// A value that is made once, for all who ask for it, and for as long as one of them wants it.
+// A value computed once for all concurrent callers; cancelled when no caller waits for it any more.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@ namespace isoatlas {
 template <class T>
 class SharedOnce {
 public:
-    /// Null: it is not made yet.
+    /// Null: not computed yet.
     [[nodiscard]] const T* there() const { return there_.load(); }
 
-    /// make(context): of the first one who asks, on his thread; it is cancelled when nobody who waits wants the value any more. Others wait
-    /// until it is made. Throws Error{cancelled} when the caller does not want it any more; what make throws, and the next one makes it.
+    /// The first caller runs make(context) on its thread; it is cancelled when no waiting caller needs the value any more. Other callers
+    /// block. Throws Error{cancelled} when this caller is cancelled; rethrows what make throws, and the next caller runs it again.
     template <class Make>
     [[nodiscard]] const T& get(const Context& context, const Make& make) {
         if (const T* made = there()) return *made;
@@ -36,9 +36,9 @@ public:
     }
 
 private:
-    static constexpr std::chrono::milliseconds kLook{50};  ///< how often one who waits asks whether he still wants it
+    static constexpr std::chrono::milliseconds kLook{50};  ///< polling interval of a waiting caller for its cancellation
 
-    /// Under the mutex.
+    /// Requires the mutex.
     class Waiter {
     public:
         Waiter(SharedOnce& shared, const Context& context) : waiters_(shared.waiters_), context_(&context) { waiters_.push_back(context_); }

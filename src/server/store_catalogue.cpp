@@ -23,7 +23,7 @@ std::vector<NamedEntry> named_entries(const PageContents& contents) {
 StoreCatalogue load_catalogue(const Atlas& atlas, const Context& context) {
     Overview found = overview_of(atlas, context);
     PageContents contents = page_contents(atlas, found, {}, context);
-    (void)atlas.active_index();  // what asks for objects at an isovalue should not wait for it
+    (void)atlas.active_index();  // loaded here, so that requests for objects at an isovalue do not wait for it
     const std::vector<OpacityTent> bumps =
         propose_transfer(first_entries(std::move(found.objects), kTransferObjects), atlas.info(), atlas.range());
     std::vector<NamedEntry> entries = named_entries(contents);

@@ -1,4 +1,4 @@
-// What most answers are made of and every page asks for first: found once, when the first one asks or before.
+// Data that most responses need and every page requests first: computed once, on the first request or before.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct StoreCatalogue {
     PageContents contents;
     BranchHierarchy hierarchy;
     std::vector<NamedEntry> entries;
-    std::string atlas, transfer;  ///< the answers to these requests
+    std::string atlas, transfer;  ///< the responses to these requests
 };
 
 /// Throws Error: input (damaged store), cancelled. Cost: overview_of() (atlas/overview.h) and page_contents(); of noise some seconds for

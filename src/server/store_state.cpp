@@ -27,7 +27,7 @@ const Atlas& StoreState::atlas() const {
     const std::lock_guard lock(mutex_);
     if (atlas_ != nullptr) return *atlas_;
     if (failure_) throw *failure_;
-    throw Error(ErrorKind::resource, {.what = "the store is being built", .next = "ask /api/events how far it is"});
+    throw Error(ErrorKind::resource, {.what = "the store is being built", .next = "/api/events reports the progress"});
 }
 
 StoreState::State StoreState::state() const {

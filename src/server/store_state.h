@@ -1,4 +1,4 @@
-// What there is to answer from: a store; or none yet, while somebody builds it; or none, and why.
+// State of the store: open; being built; or failed, with the reason.
 #pragma once
 
 #include <mutex>
@@ -13,21 +13,21 @@ namespace isoatlas {
 
 class StoreState {
 public:
-    /// changes: is told of every change; it must live as long.
+    /// changes: notified of every change; it must live as long.
     explicit StoreState(VersionCounter& changes) : changes_(changes) {}
 
-    /// The last word. The atlas must live as long as this.
+    /// Final state. The atlas must live as long as this.
     void open(const Atlas& atlas);
     void report_progress(const BuildState& state);
     void fail(const Error& error);
 
-    /// Throws Error: resource while there is none yet, or why there will be none.
+    /// Throws Error: resource while the store is being built, or the error of its build.
     [[nodiscard]] const Atlas& atlas() const;
 
     struct State {
         bool is_open = false;
-        BuildState build{};              ///< while it is not
-        std::optional<Error> failure{};  ///< why it will not be
+        BuildState build{};              ///< progress of the build
+        std::optional<Error> failure{};  ///< error of the build
     };
     [[nodiscard]] State state() const;
 

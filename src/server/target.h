@@ -1,4 +1,4 @@
-// The target of a request, taken apart: "/path?name=text&...".
+// Parses the target of a request: "/path?name=text&...".
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ struct Target {
     std::multimap<std::string, std::string> words;
 };
 
-/// "%41" is 'A' everywhere, '+' a space behind the '?'; what is no such code stays as it is. O(length).
+/// "%41" is 'A' everywhere, '+' a space after the '?'; invalid codes stay as they are. O(length).
 [[nodiscard]] Target target_of(std::string_view text);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Where a server keeps its token for other programs of its user: base/private_file.h.
+// Path of the file with the token of a server, for other programs of its user: base/private_file.h.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How often something has changed, so that others can wait for the next time.
+// A counter of changes that other threads can wait on.
 #pragma once
 
 #include <chrono>
@@ -20,12 +20,12 @@ public:
         const std::lock_guard lock(mutex_);
         return count_;
     }
-    /// Returns once there have been more than `seen`, at the latest after `most`.
+    /// Returns when the count differs from `seen`, at the latest after `max`.
     void wait(std::uint64_t seen, std::chrono::milliseconds max) const {
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, max, [&] { return count_ != seen; });
     }
-    /// Returns after that time, whatever changes.
+    /// Sleeps for that time, regardless of changes.
     void pause(std::chrono::milliseconds time) const {
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, time, [] { return false; });

@@ -82,7 +82,7 @@ std::vector<unsigned> corners_of(const Surface& surface, int threads) {
     return corners;
 }
 
-/// At most so many triangles, where clusters of points become one.
+/// Simplifies to a max number of triangles by vertex clustering.
 std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vector<WirePoint>& points, std::size_t max) {
     std::vector<float> positions;
     positions.reserve(3 * points.size());
@@ -90,7 +90,7 @@ std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vec
     return fewer_triangles(corners, positions, max);
 }
 
-/// A part of the triangles in strips. Their points have near numbers: memory is for those alone.
+/// A part of the triangles in strips. Their points have close indices: memory is allocated for those only.
 void put_in_strips(std::span<unsigned> corners) {
     const auto [min, max] = std::ranges::minmax(corners);
     std::vector<unsigned> near(corners.size());
@@ -100,7 +100,7 @@ void put_in_strips(std::span<unsigned> corners) {
     std::ranges::transform(strips, corners.begin(), [first = min](unsigned corner) { return corner + first; });
 }
 
-/// Triangles in strips, points in the order in which they come first: neighbours have near numbers, so both pack well.
+/// Triangles in strips, points in order of first use: neighbours have close indices, so both compress well.
 void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points, const Context& context) {
     const std::size_t parts = (corners.size() + kPart - 1) / kPart;
     const CallerLooks look(context);
@@ -130,7 +130,7 @@ Bytes packed(const std::vector<unsigned>& corners, std::size_t points) {
     return bytes;
 }
 
-/// The library keeps them in variables of its own: they are set once, before any thread packs.
+/// The library stores them in globals: set once, before any thread encodes.
 void choose_versions() {
     static const bool chosen = [] {
         meshopt_encodeVertexVersion(0);
@@ -144,7 +144,7 @@ void check(const Surface& surface) {
     if (surface.points.size() < (std::size_t{1} << 31) && surface.triangles.size() < (std::size_t{1} << 30)) return;
     throw Error(ErrorKind::resource, {.what = "the surface has too many triangles for a viewer",
                                       .expected = "fewer than 2^30",
-                                      .next = "ask for one object, or for another isovalue"});
+                                      .next = "request one object, or another isovalue"});
 }
 
 }  // namespace

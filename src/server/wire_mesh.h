@@ -1,12 +1,12 @@
-// A surface in few bytes, for a viewer: positions in steps of a part of a voxel, normals as two bytes, triangles in an order that packs
-// well.
+// Compact encoding of a surface for a viewer: positions quantised to a fraction of a voxel, normals in two bytes, triangles in an order
+// that compresses well.
 //
 //   0   "iam1"
 //   4   points, triangles, bytes of the packed points, bytes of the packed triangles: uint32 each
 //   20  zero: uint32
 //   24  origin x, y, z, step: float64 each; a point is origin + step * its three numbers, in physical coordinates
-//   56  the points, packed by meshoptimizer's vertex codec (version 0): 8 bytes each: x, y, z as uint16, normal as two int8
-//       then the triangles, packed by its index codec (version 1): three uint32 each
+//   56  the points, encoded by meshoptimizer's vertex codec (version 0): 8 bytes each: x, y, z as uint16, normal as two int8
+//       then the triangles, encoded by its index codec (version 1): three uint32 each
 //
 // Everything is little endian. Two bytes of a normal are an octahedral map of the unit sphere, 127 = 1.
 #pragma once
@@ -21,7 +21,7 @@ namespace isoatlas {
 
 struct WireOptions {
     double step = 0;                 ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
-    std::int64_t max_triangles = 0;  ///< fewer by clustering points where there are more; 0: as many as there are
+    std::int64_t max_triangles = 0;  ///< reduced by vertex clustering above this; 0: no limit
 };
 
 struct WireMesh {

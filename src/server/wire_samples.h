@@ -1,4 +1,4 @@
-// Samples for a viewer: a slice as it is stored, a volume in one byte a value. Everything is little endian.
+// Encoding of samples for a viewer: a slice as stored, a volume in one byte a value. Everything is little endian.
 //
 // A slice:                                                    A volume:
 //   0   "ias1"                                                  0   "iav1"
@@ -20,7 +20,7 @@ namespace isoatlas {
 
 /// slice: a volume one sample thick along an axis, of every step-th sample. Columns run along the lower one of the other axes.
 [[nodiscard]] std::string wire_slice(const Volume& slice, int axis, std::int64_t step);
-/// range: the stored values of bytes 0 and 255; values beyond are at the ends.
+/// range: the stored values of bytes 0 and 255; other values are clamped.
 [[nodiscard]] std::string wire_volume(const CoarseVolume& volume, std::array<double, 2> range, const Calibration& calibration);
 
 }  // namespace isoatlas

@@ -17,13 +17,13 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kGap = 1 << 10;        ///< bytes between two bricks that are cheaper to read than to skip
-constexpr std::int64_t kLongest = 256 << 10;  ///< bytes of one read
+constexpr std::int64_t kGap = 1 << 10;        ///< max gap between two bricks that is cheaper to read than to skip
+constexpr std::int64_t kLongest = 256 << 10;  ///< max bytes of one read
 
-// What a disk is asked for at a time: enough that it never waits for us.
+// Prefetched ahead of reading: enough to keep the disk busy.
 constexpr std::size_t kExpectedReads = 512;
 constexpr std::int64_t kExpectedBytes = 16 << 20;
-constexpr std::int64_t kExpectedGap = 16 << 10;  ///< bytes between two reads that cost the disk less than another question
+constexpr std::int64_t kExpectedGap = 16 << 10;  ///< max gap between two reads that are merged into one request
 
 [[noreturn]] void damaged(const Container& store, std::int64_t brick, const char* what) {
     throw Error(ErrorKind::input, {.file = store.path(),
@@ -32,7 +32,7 @@ constexpr std::int64_t kExpectedGap = 16 << 10;  ///< bytes between two reads th
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
-constexpr const char* kWrongExtremes = "its extremes are not where they should be";
+constexpr const char* kWrongExtremes = "its extremes are not at the stored positions";
 
 }  // namespace
 
@@ -103,7 +103,7 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
     std::array<T, kBrickSamples> samples;
     const BoxSize size = grid_.box(brick).size();
     const std::span<T> box(samples.data(), static_cast<std::size_t>(size[0] * size[1] * size[2]));
-    if (!decode_brick<T>(packed, size, low_[i], box)) damaged(store_, brick, "it is not coded as it should be");
+    if (!decode_brick<T>(packed, size, low_[i], box)) damaged(store_, brick, "it cannot be decoded");
     if (box[lowest_[i]] != low_[i] || box[highest_[i]] != high_[i]) damaged(store_, brick, kWrongExtremes);
     sink(brick, box);
 }
@@ -131,7 +131,7 @@ IoCounters BrickReader<T>::cost_of(std::vector<std::int64_t> bricks) const {
     return count(bricks, extents_of(bricks, kLongest));
 }
 
-// A part may need more reads than the whole, at most one for each brick; and no byte that lies in no gap of the whole.
+// A part may need more reads than the whole, at most one for each brick, and no bytes outside the gaps of the whole.
 template <class T>
 IoCounters BrickReader<T>::max_of_part(std::vector<std::int64_t> bricks) const {
     sort_by_offset(bricks);
@@ -140,13 +140,13 @@ IoCounters BrickReader<T>::max_of_part(std::vector<std::int64_t> bricks) const {
     return max;
 }
 
-// A disk that is asked for many things at a time is several times faster than one that is asked for one after the other, and brings
-// nothing that lies between them. Nothing is said while everything is in memory.
+// Prefetching many extents at a time is several times faster than sequential requests, and reads nothing between them. No prefetch while
+// all bytes are in memory.
 template <class T>
 void BrickReader<T>::prefetch(std::span<const Extent> extents, std::size_t first, Prefetched& prefetched) const {
     const std::size_t end = std::min(first + kExpectedReads, extents.size());
     const std::int64_t end_byte = extents[first].begin + kExpectedBytes;
-    std::int64_t begin = 0, reached = 0;  // of what is asked for next, nothing as yet
+    std::int64_t begin = 0, reached = 0;  // nothing prefetched yet
     const auto ask = [&] {
         if (reached > begin) store_.prefetch(data_, begin, reached - begin);
         begin = reached = 0;

@@ -1,4 +1,4 @@
-// Reading bricks of a store: few, long reads; every brick checked before it is used.
+// Reads bricks of a store with few, long reads; every brick is checked before use.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// What reading has cost.
+/// Read statistics.
 struct IoCounters {
     std::int64_t bytes = 0, extents = 0, bricks = 0;
     std::int64_t samples = 0;  ///< of the bricks
@@ -24,16 +24,16 @@ struct IoCounters {
 template <class T>
 class BrickReader {
 public:
-    /// Reads what there is about every brick: 22 bytes and two samples each. Throws Error{input} when it contradicts itself.
+    /// Reads the index of bricks: 22 bytes and two samples each. Throws Error{input} when it is inconsistent.
     explicit BrickReader(const Container& store);
 
     [[nodiscard]] const BrickGrid& grid() const { return grid_; }
     [[nodiscard]] T low(std::int64_t brick) const { return low_[static_cast<std::size_t>(brick)]; }
     [[nodiscard]] T high(std::int64_t brick) const { return high_[static_cast<std::size_t>(brick)]; }
 
-    /// What read() of a list costs.
+    /// Cost of read() of a list.
     [[nodiscard]] IoCounters cost_of(std::vector<std::int64_t> bricks) const;
-    /// The most that read() of a part of the list costs.
+    /// Upper bound of the cost of read() of a part of the list.
     [[nodiscard]] IoCounters max_of_part(std::vector<std::int64_t> bricks) const;
     /// Voxels of the highest and the lowest sample of a brick; ties as in the total order (field/order.h).
     [[nodiscard]] std::int64_t highest_voxel(std::int64_t brick) const {
@@ -41,16 +41,16 @@ public:
     }
     [[nodiscard]] std::int64_t lowest_voxel(std::int64_t brick) const { return voxel_at(brick, lowest_[static_cast<std::size_t>(brick)]); }
 
-    /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that lie
-    /// close to each other in the file come with one read. Throws Error: input (a damaged one, or one whose extremes are not where they
-    /// are said to be), cancelled.
+    /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that are
+    /// close to each other in the file share one read. Throws Error: input (a damaged brick, or extremes not at their stored positions),
+    /// cancelled.
     IoCounters read(std::vector<std::int64_t> bricks, const Context& context,
                     const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
-    /// The same into the whole volume, x fastest: every sample where it belongs.
+    /// The same into the whole volume, x fastest, at the positions of the samples.
     IoCounters read_into(T* whole, std::vector<std::int64_t> bricks, const Context& context) const;
     /// All samples. whole.size(): the voxels of the volume.
     IoCounters read_all(std::span<T> whole, const Context& context) const;
-    /// Reads all bricks; throws Error{input} where the places of the extremes are not those of the samples.
+    /// Reads all bricks; throws Error{input} where the positions of the extremes are wrong.
     void check(const Context& context) const;
 
 private:
@@ -58,9 +58,9 @@ private:
         std::size_t first, last;  ///< of the list
         std::int64_t begin, end;  ///< bytes in volume/data
     };
-    /// Which extents has the disk been asked for?
+    /// Extents that have been prefetched.
     using Prefetched = std::vector<std::atomic<bool>>;
-    /// A read has to wait: asks for its bytes and those of the next ones.
+    /// On a blocking read: prefetches its bytes and those of the next ones.
     void prefetch(std::span<const Extent> extents, std::size_t first, Prefetched& prefetched) const;
     [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
     void check_places() const;

@@ -28,7 +28,7 @@ void copy_box(std::span<const T> samples, const Extent& extent, const Box& box, 
     }
 }
 
-constexpr std::int64_t kTogether = 512;  // bricks: a piece of work, and what is kept of them at once
+constexpr std::int64_t kTogether = 512;  // bricks of one task, and of one buffer
 
 template <class T>
 struct Bricks {

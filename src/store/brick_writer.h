@@ -1,10 +1,10 @@
-// The samples of a volume as arrays of a store: volume/data and what is needed to read a brick of it.
+// The samples of a volume as arrays of a store: volume/data and the index of its bricks.
 //
-//   volume/data      the bricks one behind the other, in file order (brick_grid.h), coded one by one (brick_codec.h)
+//   volume/data      the consecutive bricks, in file order (brick_grid.h), each encoded by brick_codec.h
 //   volume/offset    per brick: its first byte in volume/data
-//   volume/bytes     per brick: how many; none: constant
+//   volume/bytes     per brick: size; 0: constant
 //   volume/low,high  per brick: its extremes, in the type of the samples
-//   volume/lowest,highest   per brick: where they lie (brick_extremes.h)
+//   volume/lowest,highest   per brick: their positions (brick_extremes.h)
 //   volume/checksum  per brick: of its bytes
 #pragma once
 

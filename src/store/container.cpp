@@ -55,7 +55,8 @@ bool begins_like_a_store(std::span<const std::byte> first) {
     constexpr int kEnough = 12;  // of the 16 bytes of the name
     constexpr char kHdf5[] = "\x89HDF\r\n\x1a\n";
     constexpr std::ptrdiff_t kFew = 8;
-    if (first.size() >= kBeginning && std::memcmp(first.data() + kHeaderBytes, kHdf5, 8) == 0) {  // other programs have user blocks, too
+    if (first.size() >= kBeginning &&
+        std::memcmp(first.data() + kHeaderBytes, kHdf5, 8) == 0) {  // files of other programs have user blocks too
         const std::span<const std::byte> zeros = first.first(kHeaderBytes).subspan(sizeof(RawHeader));
         if (std::ranges::count(zeros, std::byte{0}) >= std::ssize(zeros) - kFew) return true;
     }
@@ -77,8 +78,8 @@ void Container::read_header() {
     const std::span<const std::byte> bytes = std::span(beginning).first(kHeaderBytes);
     if (!begins_like_a_store(std::span(beginning).first(got))) {
         throw Error(ErrorKind::input, {.file = path_,
-                                       .what = "is no isoatlas store",
-                                       .prefetched = "a file that `isoatlas build` has finished",
+                                       .what = "is not an isoatlas store",
+                                       .expected = "a file written by `isoatlas build`",
                                        .next = "build one: isoatlas build VOLUME -o FILE.atlas"});
     }
     RawHeader raw;
@@ -133,7 +134,7 @@ void Container::check_nothing_is_left_out() const {
         for (const StoredChunk& chunk : chunks_of(array, 0, array.blocks())) covered.push_back({chunk.offset, chunk.bytes});
     }
     const std::vector<ByteRange> left = outside(std::move(covered), static_cast<std::uint64_t>(file_size_));
-    if (!left.empty()) damaged("byte " + std::to_string(left.front().offset), "it lies under no checksum");
+    if (!left.empty()) damaged("byte " + std::to_string(left.front().offset), "no checksum covers it");
 }
 
 std::vector<std::uint64_t> Container::checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
@@ -159,7 +160,7 @@ std::vector<std::uint64_t> Container::index_of(const StoredArray& array) const {
 
 void Container::read(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
     const auto size = static_cast<std::int64_t>(out.size());
-    if (first < 0 || first > array.bytes() - size || array.block == 0) damaged(array.name, "bytes outside the array are asked for");
+    if (first < 0 || first > array.bytes() - size || array.block == 0) damaged(array.name, "requested bytes are outside the array");
     if (size == 0) return;
     if (array.chunk > 0) return read_chunks(array, first, out);
     const std::int64_t begin = first / array.block, end = (first + size + array.block - 1) / array.block;
@@ -219,7 +220,7 @@ void Container::for_each_chunk(const StoredArray& array, const std::function<voi
 
 void Container::check_inside(const StoredArray& array, std::int64_t first, std::size_t bytes) const {
     const auto size = static_cast<std::int64_t>(bytes);
-    if (first < 0 || first > array.bytes() - size || array.chunk > 0) damaged(array.name, "bytes outside the array are asked for");
+    if (first < 0 || first > array.bytes() - size || array.chunk > 0) damaged(array.name, "requested bytes are outside the array");
 }
 
 void Container::read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
@@ -229,7 +230,7 @@ void Container::read_unchecked(const StoredArray& array, std::int64_t first, std
 
 bool Container::read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const {
     check_inside(array, first, out.size());
-    return read_if_present(*file_, path_, array.offset + first, out);
+    return isoatlas::read_if_present(*file_, path_, array.offset + first, out);
 }
 
 void Container::check_all() const {
@@ -240,7 +241,7 @@ void Container::check_all() const {
         for (std::int64_t first = 0; first < array.bytes(); first += array.block)
             read(array, first, std::span(block).first(static_cast<std::size_t>(std::min(array.block, array.bytes() - first))));
     }
-    if (contents_.version >= 3) check_nothing_is_left_out();  // by what is right as far as it is checked
+    if (contents_.version >= 3) check_nothing_is_left_out();  // by the parts that are correct
 }
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Reading a store: a header, the contents, and arrays by their offsets. Nothing is returned before its checksum was right.
+// Reads a store: header, contents, and arrays by their offsets. All data are verified by checksums before they are returned.
 //
 // The header is the first 512 bytes: "isoatlas store\n", a zero byte, then little endian 64-bit numbers: the size of the file, offset,
 // length and checksum of the contents, and the checksum of all these 48 bytes; zeros fill the rest.
@@ -25,39 +25,39 @@ struct Header {
     std::uint64_t contents_checksum = 0;
 };
 [[nodiscard]] std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header);
-/// What has checksums of its own: header, contents, arrays and what finds and checks their blocks; without the chunks of arrays.
+/// Ranges with checksums of their own: header, contents, arrays and their block tables; without the chunks of arrays.
 [[nodiscard]] std::vector<ByteRange> checked_ranges(const Contents& contents, const Header& header);
-/// Is a file a store, or a store that has been damaged? `first`: its first kBeginning bytes, or all of fewer. Most of the name of the
-/// format, or HDF5's name where it stands in a store, is enough: what else is wrong, the checksums find.
+/// Is a file a store, possibly damaged? `first`: its first kBeginning bytes, or all of a shorter file. Most of the magic number, or HDF5's
+/// at its position in a store, is sufficient: checksums find further damage.
 inline constexpr std::size_t kBeginning = kHeaderBytes + 8;
 [[nodiscard]] bool begins_like_a_store(std::span<const std::byte> first);
 
-/// An open store. Reading is thread safe: it changes nothing.
+/// An open store. Reading is thread safe.
 class Container {
 public:
-    /// Reads header and contents. Throws Error: input (missing, no store, half-written, damaged), unsupported (a later version).
+    /// Reads header and contents. Throws Error: input (missing, not a store, incomplete, damaged), unsupported (a later version).
     explicit Container(const std::string& path);
 
     [[nodiscard]] const Header& header() const { return header_; }
     [[nodiscard]] const Contents& contents() const { return contents_; }
-    /// Of the format. Values of elements that are not stored but made again from the samples are those of their time.
+    /// Version of the format. Values of elements that are recomputed from the samples follow the rules of this version.
     [[nodiscard]] int version() const { return contents_.version; }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::int64_t file_size() const { return file_size_; }
 
-    /// Bytes [first, first + out.size()) of an array whose blocks have checksums. Cost: the blocks that they touch are read whole.
+    /// Bytes [first, first + out.size()) of an array whose blocks have checksums. Cost: reads whole blocks.
     void read(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
-    /// Bytes of an array that checks its parts itself; the caller compares the checksum.
+    /// Bytes of an array with checksums per part; the caller verifies them.
     void read_unchecked(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
 
-    /// read_unchecked() of bytes that are in memory; false: they would have to be waited for.
+    /// Non-blocking read_unchecked(); false: the bytes are not in memory.
     [[nodiscard]] bool read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
-    /// Says that bytes of an array will be read soon.
+    /// Prefetches bytes of an array.
     void prefetch(const StoredArray& array, std::int64_t first, std::int64_t bytes) const { file_->prefetch(array.offset + first, bytes); }
 
-    /// The JSON text of the contents as it lies in the file.
+    /// The JSON text of the contents in the file.
     [[nodiscard]] std::string contents_text() const;
-    /// What is needed to check and to find the blocks of an array: a checksum each, or the three numbers of a StoredChunk; checked.
+    /// The verified block table of an array: a checksum each, or the three numbers of a StoredChunk.
     [[nodiscard]] std::vector<std::uint64_t> index_of(const StoredArray& array) const;
 
     /// All numbers of an array.
@@ -69,16 +69,16 @@ public:
         return numbers;
     }
 
-    /// The compressed chunks of an array one after the other, checked.
+    /// The verified compressed chunks of an array, in order.
     void for_each_chunk(const StoredArray& array, const std::function<void(std::span<const std::byte>)>& use) const;
 
-    /// Reads every array that has checksums, and looks whether every byte of the file lies under one (not before version 3); throws
-    /// Error{input} for the first that is damaged.
+    /// Reads every array with checksums, and checks that every byte of the file is covered by one (from version 3 on); throws Error{input}
+    /// for the first damage.
     void check_all() const;
 
 private:
     void read_header();
-    /// Before anything is parsed. Returns whether there is one.
+    /// Verifies the frame before anything is parsed. Returns whether there is one.
     bool check_frame();
     void check_nothing_is_left_out() const;
     void check_inside(const StoredArray& array, std::int64_t first, std::size_t bytes) const;

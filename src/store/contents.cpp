@@ -21,12 +21,12 @@ constexpr std::pair<std::string_view, int> kTypes[] = {{"uint8", 1}, {"int8", 1}
                 {.file = path, .where = where, .what = what, .next = "the store is damaged: build it again from the volume"});
 }
 
-/// A JSON text that is none of ours.
+/// A JSON text that is not the contents of a store.
 struct Unreadable : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The library would convert 1e300 to an integer.
+/// Unlike the library, rejects 1e300 as an integer.
 std::int64_t integer(const Json& json) {
     if (!json.is_number_integer()) throw Unreadable("an integer is expected, not " + json.dump());
     return json.get<std::int64_t>();
@@ -76,7 +76,7 @@ ValueType value_type(const std::string& name) {
     for (int i = 0; i < 8; ++i) {
         if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
     }
-    throw Unreadable("'" + name + "' is no sample type");
+    throw Unreadable("'" + name + "' is not a sample type");
 }
 
 VolumeInfo volume_of(const Json& json) {
@@ -121,7 +121,7 @@ bool lies_inside(std::int64_t offset, std::int64_t bytes, std::int64_t file_size
     return offset >= 0 && bytes >= 0 && offset <= file_size && bytes <= file_size - offset;
 }
 
-/// A product of sizes that cannot overflow silently.
+/// A product of sizes, checked for overflow.
 bool is_sound(const StoredArray& array, std::int64_t file_size) {
     constexpr std::int64_t kLargestChunk = 1 << 24, kBestCompression = 1 << 11;  // deflate: 1032 at most
     const std::int64_t size = size_of_type(array.type);
@@ -195,7 +195,7 @@ std::string to_json(const Contents& contents) {
                           {"sum", a.sum},
                           {"chunk", a.chunk}});
     }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);  // nothing is left to replace: a second net
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);  // no invalid bytes are left; a safeguard
 }
 
 Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size) try {
@@ -206,11 +206,11 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .what = "is a store of version " + std::to_string(version),
                                              .expected = "version 1 to " + std::to_string(kStoreVersion),
-                                             .next = "use the isoatlas that built it, or build it again"});
+                                             .next = "use the version of isoatlas that built it, or build it again"});
     }
     contents.version = static_cast<int>(version);
     contents.volume = volume_of(json.at("volume"));
-    if (!is_sound(contents.volume.extent)) damaged(path, "contents", "the size of the volume makes no sense");
+    if (!is_sound(contents.volume.extent)) damaged(path, "contents", "the size of the volume is not valid");
     const Json& parameters = json.at("parameters");
     const bool is_faces = parameters.at("interpolant").get<std::string>() == name_of(Interpolant::faces);
     contents.parameters.interpolant = is_faces ? Interpolant::faces : Interpolant::trilinear;

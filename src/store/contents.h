@@ -1,7 +1,7 @@
-// What is in a store: the volume it was made of, how it was made, and where its arrays are.
+// The contents of a store: its volume, build parameters, and the location of its arrays.
 //
-// A store is an HDF5 file, so that anybody can open its arrays. isoatlas itself reads it without HDF5: the first 512 bytes (the "user
-// block", which HDF5 skips) say where the contents are, and the contents say where every array is. docs/format.md describes both.
+// A store is an HDF5 file, so that other programs can open its arrays. isoatlas reads it without HDF5: the first 512 bytes (the "user
+// block", which HDF5 skips) locate the contents, and the contents locate every array. docs/format.md describes both.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace isoatlas {
 
 inline constexpr int kStoreVersion = 3;
-inline constexpr int kFirstExactVersion = 3;  // from here on values of saddles are rounded once (critical/element_values.h)
+inline constexpr int kFirstExactVersion = 3;  // since this version values of saddles are rounded once (critical/element_values.h)
 
 /// Numbers in a row of bytes, little endian, first index slowest.
 struct StoredArray {
@@ -24,8 +24,8 @@ struct StoredArray {
     std::string type;                 ///< "uint8" ... "uint64", "int8" ... "int64", "float32", "float64"
     std::vector<std::int64_t> shape;  ///< no entry is negative
     std::int64_t offset = 0;          ///< of the first byte in the file
-    std::int64_t block = 0;           ///< bytes under one checksum (the last block may be shorter); 0: the array checks its parts itself
-    std::int64_t checksums = 0;       ///< offset of its checksums, 8 bytes a block; they lie under the checksum `sum`
+    std::int64_t block = 0;           ///< bytes under one checksum (the last block may be shorter); 0: the array has checksums of its own
+    std::int64_t checksums = 0;       ///< offset of its checksums, 8 bytes a block; covered by the checksum `sum`
     std::uint64_t sum = 0;
     /// 0, or numbers in a chunk: the array is compressed chunk by chunk (codec/chunk_codec.h), a block is a chunk, and `checksums` is the
     /// offset of a StoredChunk per chunk instead.
@@ -34,16 +34,16 @@ struct StoredArray {
     [[nodiscard]] std::int64_t count() const;  ///< of numbers
     [[nodiscard]] std::int64_t bytes() const;
     [[nodiscard]] std::int64_t blocks() const { return block == 0 ? 0 : (bytes() + block - 1) / block; }
-    /// Of what is needed to check and to find its blocks.
+    /// Bytes of its block table.
     [[nodiscard]] std::int64_t index_bytes() const { return blocks() * (chunk == 0 ? 8 : 24); }
 };
 
-/// Where a compressed chunk lies.
+/// Location of a compressed chunk.
 struct StoredChunk {
     std::uint64_t offset, bytes, checksum;
 };
 
-/// How a store was made. The same volume and parameters give the same bytes.
+/// Build parameters of a store. The same volume and parameters give the same bytes.
 struct Parameters {
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;
@@ -55,14 +55,14 @@ struct Contents {
     VolumeInfo volume;  ///< extent, type, geometry, calibration, value unit; path is the name of the source
     Parameters parameters;
     Fingerprint fingerprint;      ///< empty in stores of versions 1 and 2
-    bool is_replaceable = false;  ///< made beside a page by those who may make it anew (BuildOptions::is_replaceable)
+    bool is_replaceable = false;  ///< built beside a page and replaceable (BuildOptions::is_replaceable)
     std::vector<StoredArray> arrays;
 
-    /// Throws Error{input} when there is none of that name and type.
+    /// Throws Error{input} when there is no array of that name and type.
     [[nodiscard]] const StoredArray& array(std::string_view name, std::string_view type) const;
     [[nodiscard]] bool has_array(std::string_view name) const;
-    /// Would this version find the same numbers in the same samples? In versions 1 and 2 face and body points were rounded otherwise, and
-    /// tables were made by other rules.
+    /// Would this version compute the same numbers from the same samples? In versions 1 and 2 face and body points were rounded
+    /// differently, and tables followed other rules.
     [[nodiscard]] bool has_present_values() const;
 };
 
@@ -70,8 +70,7 @@ struct Contents {
 [[nodiscard]] std::int64_t size_of_type(std::string_view type);
 
 [[nodiscard]] std::string to_json(const Contents& contents);
-/// Throws Error{input} when the text is not that of a store, unsupported when it is that of a later version. Every array is checked to lie
-/// inside the file.
+/// Throws Error{input} when the text is not that of a store, unsupported for a later version. Checks that every array lies inside the file.
 [[nodiscard]] Contents contents_of_json(std::string_view text, const std::string& path, std::int64_t file_size);
 
 }  // namespace isoatlas

@@ -16,13 +16,13 @@ std::string shortened(const std::string* text) {
     if (text == nullptr || text->empty()) return "none";
     if (text->size() <= kLongest) return *text;
     std::size_t end = kLongest;
-    while (end > 0 && (static_cast<unsigned char>((*text)[end]) & 0xc0) == 0x80) --end;  // not inside a character
+    while (end > 0 && (static_cast<unsigned char>((*text)[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 character
     return text->substr(0, end) + "...";
 }
 
 std::string difference(const std::string& name, const std::string* there, const std::string* here) {
     std::string of_there = shortened(there), of_here = shortened(here);
-    if (of_there == of_here) of_there = "another", of_here = "this";  // they differ behind the first characters
+    if (of_there == of_here) of_there = "another", of_here = "this";  // they differ after the first characters
     return name + " " + of_there + " there, " + of_here + " here";
 }
 
@@ -39,7 +39,7 @@ void Fingerprint::remove(std::string_view name) {
 
 std::uint64_t Fingerprint::hash() const {
     std::string all;
-    for (const Member& member : members) {  // lengths keep neighbours apart
+    for (const Member& member : members) {  // lengths separate neighbours
         for (const std::string* text : {&member.name, &member.text}) all += std::to_string(text->size()) + ":" + *text;
     }
     return checksum(std::as_bytes(std::span<const char>(all)));

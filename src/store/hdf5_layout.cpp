@@ -1,5 +1,5 @@
-// HDF5 writes into a file of ours that only remembers what was written: it never fails, so HDF5 never sees a full disk (after which its
-// cleanup would crash), and its structures reach the disk by the same calls as the arrays.
+// HDF5 writes into a virtual file that records the written pieces: it never fails, so HDF5 never sees a full disk (after which its cleanup
+// would crash), and its structures are written by the same calls as the arrays.
 #include "store/hdf5_layout.h"
 
 #include <hdf5.h>
@@ -21,12 +21,12 @@ namespace {
 
 using Piece = Hdf5Layout::Piece;
 
-/// What HDF5 has written.
+/// The pieces written by HDF5.
 struct Memory {
     std::vector<Piece> pieces;
-    haddr_t end_of_allocation = 0;  ///< where HDF5 would put the next thing
-    haddr_t end_of_file = 0;        ///< end of what was written
-    haddr_t last_chunk = 0;         ///< where HDF5 would have written the last bytes of an array
+    haddr_t end_of_allocation = 0;  ///< address of the next allocation of HDF5
+    haddr_t end_of_file = 0;        ///< end of the written bytes
+    haddr_t last_chunk = 0;         ///< address of the last write of array bytes
 
     void write(haddr_t offset, std::span<const std::byte> bytes) {
         pieces.push_back({static_cast<std::int64_t>(offset), {bytes.begin(), bytes.end()}});
@@ -44,7 +44,7 @@ struct Memory {
     }
 };
 
-/// HDF5's view of it. HDF5 fills the first member and knows nothing of the second.
+/// HDF5's handle of it. HDF5 uses the first member only.
 struct DriverFile {
     H5FD_t base{};
     Memory* memory = nullptr;
@@ -52,7 +52,7 @@ struct DriverFile {
 
 Memory& memory_of(const H5FD_t* file) { return *reinterpret_cast<const DriverFile*>(file)->memory; }
 
-/// The functions of a driver that keeps what is written in a Memory; the Memory is the argument of the driver.
+/// A virtual file driver that records writes in a Memory, its argument.
 struct Driver {
     static H5FD_t* open(const char*, unsigned, hid_t access, haddr_t) {
         auto* file = new (std::nothrow) DriverFile;
@@ -63,7 +63,7 @@ struct Driver {
         delete reinterpret_cast<DriverFile*>(file);
         return 0;
     }
-    static herr_t query(const H5FD_t*, unsigned long* flags) {  // those that decide where things lie are the ones of ordinary files
+    static herr_t query(const H5FD_t*, unsigned long* flags) {  // allocation callbacks are those of ordinary files
         *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA |
                  H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
         return 0;
@@ -79,7 +79,7 @@ struct Driver {
         return 0;
     }
     static herr_t write(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t offset, std::size_t size, const void* bytes) try {
-        if (kind == H5FD_MEM_DRAW) {  // of arrays only the place is wanted
+        if (kind == H5FD_MEM_DRAW) {  // only the position of arrays is recorded
             memory_of(file).last_chunk = offset;
             memory_of(file).end_of_file = std::max<haddr_t>(memory_of(file).end_of_file, offset + size);
             return 0;
@@ -119,7 +119,7 @@ struct Driver {
     }
 };
 
-/// An HDF5 identifier that is closed.
+/// RAII for an HDF5 identifier.
 class Handle {
 public:
     Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -128,7 +128,7 @@ public:
     ~Handle() {
         if (id_ >= 0) close_(id_);
     }
-    operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the number
+    operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): implicit conversion to the number
 
 private:
     hid_t id_;
@@ -154,20 +154,20 @@ hid_t create(Memory& memory) {
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_userblock(creation, static_cast<hsize_t>(kHeaderBytes));
     H5Pset_obj_track_times(creation, 0);
-    H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);  // its structures carry checksums
+    H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);  // its structures have checksums
     Memory* const argument = &memory;
     H5Pset_driver(access, Driver::id(), static_cast<const void*>(&argument));
     return H5Fcreate("store", H5F_ACC_TRUNC, creation, access);
 }
 
-/// HDF5 does not always look whether it was given memory: what it takes for an empty file must be there. Throws std::bad_alloc.
+/// HDF5 does not always check allocations: ensures the memory of an empty file. Throws std::bad_alloc.
 void require_room() {
     constexpr std::size_t kTaken = std::size_t{4} << 20;
-    std::byte* volatile room = new std::byte[kTaken];  // volatile: else the compiler leaves out both lines
+    std::byte* volatile room = new std::byte[kTaken];  // volatile: else the compiler removes both lines
     delete[] room;
 }
 
-/// HDF5 knows one thread only.
+/// HDF5 is not thread safe.
 std::mutex& hdf5_mutex() {
     static std::mutex mutex;
     return mutex;
@@ -179,9 +179,9 @@ struct Hdf5Layout::Data {
     std::string path;
     Memory memory;
     hid_t file = -1;
-    hid_t chunked = -1;  ///< the array that gets chunks
+    hid_t chunked = -1;  ///< the array of the next chunks
     hsize_t next_chunk = 0, chunk = 0;
-    std::vector<std::byte> blank;  ///< HDF5 wants to be given some bytes
+    std::vector<std::byte> blank;  ///< HDF5 requires some bytes
 
     void end_chunks() {
         if (chunked >= 0) H5Dclose(std::exchange(chunked, -1));
@@ -191,7 +191,7 @@ struct Hdf5Layout::Data {
             ErrorKind::resource,
             {.file = path, .what = "cannot be written: HDF5 has no room for " + what, .next = "free some memory, then build again"});
     }
-    /// Groups that HDF5 makes by itself carry the time.
+    /// Groups that HDF5 creates implicitly have time stamps.
     void add_groups(const std::string& name) const {
         const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
         H5Pset_obj_track_times(creation, 0);

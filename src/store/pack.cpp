@@ -1,4 +1,4 @@
-// HDF5 lays the file out and says what its own structures are; all bytes are written here, through the one door to files.
+// HDF5 provides the layout and its own structures; all bytes are written here, through base/file_system.h.
 #include "store/pack.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 namespace isoatlas {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "stores are written as the memory is");
+static_assert(std::endian::native == std::endian::little, "stores are little endian");
 
-/// Writes an array as it comes and sums up its blocks.
+/// Writes an array incrementally and computes the checksums of its blocks.
 class ArrayWriter {
 public:
     ArrayWriter(AtomicFile& file, const StoredArray& array) : file_(file), array_(array) {}
@@ -57,7 +57,7 @@ private:
     std::vector<std::uint64_t> sums_;
 };
 
-/// Compresses an array as it comes, some chunks at once, and writes them one behind the other.
+/// Compresses an array incrementally, several chunks in parallel, and writes them in order.
 class ChunkWriter {
 public:
     ChunkWriter(AtomicFile& file, Hdf5Layout& layout, const StoredArray& array) : file_(file), layout_(layout), array_(array) {}
@@ -85,7 +85,7 @@ private:
 
     void compress() {
         const auto block = static_cast<std::size_t>(array_.block), count = (raw_.size() + block - 1) / block;
-        raw_.resize(count * block);  // the last chunk is full, too
+        raw_.resize(count * block);  // the last chunk is padded
         std::vector<std::vector<std::byte>> packed(count);
         for_each_block(0, static_cast<std::int64_t>(count), [&](std::int64_t i) {
             packed[i] = encode_chunk(std::span(raw_).subspan(static_cast<std::size_t>(i) * block, block), size_of_type(array_.type));
@@ -101,7 +101,7 @@ private:
     std::vector<StoredChunk> chunks_;
 };
 
-/// Adds the places of its chunks to `places`.
+/// Appends the locations of its chunks to `places`.
 void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& source, StoredArray& array, std::vector<ByteRange>& places) {
     layout.begin_chunks("/" + source.name, source.type, array.count(), source.chunk);
     ChunkWriter writer(file, layout, array);
@@ -127,7 +127,7 @@ void write_array(AtomicFile& file, const PackedArray& source, StoredArray& array
     array.sum = checksum(sums);
 }
 
-/// The frame of what HDF5 has laid out: its pieces, and zeros where it has none.
+/// The frame of HDF5's layout: its pieces, and zeros in between.
 StoreFrame frame_of(std::vector<ByteRange> ranges, const std::vector<Hdf5Layout::Piece>& pieces) {
     StoreFrame frame{std::move(ranges), 0};
     Checksum sum;
@@ -154,7 +154,7 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
     contents.arrays.clear();
     for (const PackedArray& source : arrays) {
         StoredArray array{source.name, source.type, source.shape, 0, source.block, 0, 0, source.chunk};
-        if (source.chunk > 0) {  // laid out when it is known how large its chunks are
+        if (source.chunk > 0) {  // allocated when the size of its chunks is known
             contents.arrays.push_back(std::move(array));
             continue;
         }
@@ -163,7 +163,7 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
         contents.arrays.push_back(std::move(array));
     }
     file.reserve(layout.size());
-    std::vector<ByteRange> covered;  // the chunks of arrays, then all else that has checksums of its own
+    std::vector<ByteRange> covered;  // the chunks of arrays, then everything else with checksums of its own
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         if (arrays[i].chunk > 0) {
             write_chunks(file, layout, arrays[i], contents.arrays[i], covered);

@@ -1,4 +1,4 @@
-// Writing a store in one go: all arrays are known, nothing is left to be found out.
+// Writes a store in one pass: all arrays are known in advance.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,21 @@
 
 namespace isoatlas {
 
-/// An array to be written. feed calls put until all bytes are there; blocks as in StoredArray.
+/// An array to be written. feed calls put until all bytes are written; blocks as in StoredArray.
 struct PackedArray {
     std::string name, type;
     std::vector<std::int64_t> shape;
     std::int64_t block = 0;
     std::function<void(const ByteSink& put)> feed;
     std::int64_t chunk = 0;                                     ///< as in StoredArray
-    std::function<void(const ByteSink& put)> feed_chunks = {};  ///< instead of feed: calls put with one compressed chunk after the other
+    std::function<void(const ByteSink& put)> feed_chunks = {};  ///< instead of feed: calls put with each compressed chunk in order
 
     [[nodiscard]] std::int64_t bytes() const { return StoredArray{name, type, shape, 0, block, 0, 0, chunk}.bytes(); }
 };
 
 inline constexpr std::int64_t kBlock = std::int64_t{1} << 16;
 
-/// An array whose numbers lie in memory until the store is written.
+/// An array whose numbers stay in memory until the store is written.
 template <class T>
 [[nodiscard]] PackedArray packed(std::string name, std::string type, std::span<const T> numbers, std::int64_t block = kBlock) {
     return {std::move(name), std::move(type), {static_cast<std::int64_t>(numbers.size())}, block, [numbers](const ByteSink& put) {
@@ -35,7 +35,7 @@ template <class T>
             }};
 }
 
-/// An array of `count` numbers that is to be compressed; its feed is to be filled in. Few numbers are left as they are.
+/// An array of `count` numbers to be compressed; the caller sets its feed. Small arrays are not compressed.
 template <class T>
 [[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::size_t count) {
     constexpr std::size_t kFew = 1024;
@@ -46,7 +46,7 @@ template <class T>
     return array;
 }
 
-/// The same of numbers that lie in memory until the store is written.
+/// The same for numbers that stay in memory until the store is written.
 template <class T>
 [[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::span<const T> numbers) {
     PackedArray array = packed_chunks<T>(std::move(name), std::move(type), numbers.size());
@@ -55,8 +55,8 @@ template <class T>
 }
 
 /// Writes PATH.partial, syncs it and renames it to PATH. contents: volume and parameters; its arrays are filled in.
-/// The same bytes for the same arrays. Returns the bytes of the file. Throws Error{resource} with the reason of the system;
-/// nothing is left behind then.
+/// The same bytes for the same arrays. Returns the bytes of the file. Throws Error{resource} with the reason of the system; then no file is
+/// left.
 std::int64_t pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Whole arrays of a store as vectors, and what is said when they contradict each other.
+// Whole arrays of a store as vectors, and the error for inconsistent arrays.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ BigVector<Id> reduce_parts(PartitionedSet<Id>& set, const Context& context) {
     return arc;
 }
 
-/// The names that are in use, those of leaves that survive, and how many elements survive.
+/// The representatives in use, those of leaves that survive, and how many elements survive.
 struct NamesInUse {
     OpenExtrema names;
     std::atomic<std::size_t> survivors = 0;

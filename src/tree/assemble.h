@@ -1,4 +1,4 @@
-// The contour tree of elements that are cut into parts, without an array of all elements that is accessed at random.
+// The contour tree of partitioned elements, without random access to an array of all elements.
 // In the literature: contour trees by domain decomposition (Morozov, Weber, Distributed contour trees, 2014).
 #pragma once
 
@@ -12,7 +12,7 @@ namespace isoatlas {
 
 /// ContourTree::other of all elements and the outside, in the order of ranks. part_of: per element in the order of ranks, its part. The set
 /// is consumed. Reports progress of "trees". Memory at random: what reduce_part() needs for a part (as many at once as there are threads),
-/// the names and the runs of survivors (tree/arcs_by_runs.h). Cost: O(n alpha).
+/// the representatives and the runs of survivors (tree/arcs_by_runs.h). Cost: O(n alpha).
 template <class Id>
 [[nodiscard]] BigVector<Id> contour_arcs(PartitionedSet<Id> set, std::span<const std::uint16_t> part_of, const Context& context);
 

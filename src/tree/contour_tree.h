@@ -35,13 +35,13 @@ struct ContourTree {
 };
 
 /// join, split: parents as made by merge_tree.h, n + 1 entries; split is consumed. delta_chi(x) for x < n;
-/// empty: Euler numbers are not wanted (2D), half_chi is 0.
+/// empty: no Euler numbers (2D), half_chi is 0.
 /// A node has as many arcs above as children in the join tree, and as many below as in the split tree.
 /// Cost: O(n) time; 18 bytes a node beyond input and output for 32-bit ids.
 template <class Id>
 ContourTree<Id> contour_tree(std::span<const Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
 
-/// Fills in degree and half_chi of a tree that has `other` only. Returns false when it is no tree rooted at the last node, or a node has
+/// Fills in degree and half_chi of a tree that has `other` only. Returns false when it is not a tree rooted at the last node, or a node has
 /// more arcs than an element can have. Cost: O(n).
 template <class Id>
 [[nodiscard]] bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> delta_chi);

@@ -79,7 +79,7 @@ void link_events(std::span<const Id> join, std::span<const Id> bottom, BigVector
         if (kept[next]) {
             tree.parent[event[i]] = event[next];
         } else {
-            ISOATLAS_CHECK(event[next] == kNone<Id>);  // a dropped group has one child: it goes by the child's name
+            ISOATLAS_CHECK(event[next] == kNone<Id>);  // a dropped group has one child and takes its number
             event[next] = event[i];
         }
     }

@@ -1,7 +1,7 @@
 // The criticality tree: events and their objects (docs/theory/3-trees.md#events).
 //
 // Event = join-tree nodes of one value joined by arcs of no length, contracted: all that happens to one object at one value. Events without
-// a non-trivial level are dropped; they have exactly one child, whose zone goes on below them. Events are numbered in descending order of
+// a non-trivial level are dropped; they have exactly one child, whose zone continues below them. Events are numbered in descending order of
 // their highest element, so children have smaller numbers than their parent; the root is the last.
 //
 // In the literature: the augmented merge tree (join tree) of superlevel sets (Carr, Snoeyink, Axen, Computing contour trees in all

@@ -49,14 +49,14 @@ HeavyPathDecomposition<Id, Value>::HeavyPathDecomposition(const DescendingTree<I
     std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, 0});
     BigVector<HeavyNode<Id>> nodes = weigh(tree);
     const BigVector<Path> laid = lay_out(tree, nodes);
-    // A leaf event's highest element is a maximum: it gives the path its name.
+    // A leaf event's highest element is a maximum: its number is that of the path.
     BigVector<Id> name(laid.size()), path_of(maxima.size());
     for_each_index(threads, maxima.size(), [&](std::size_t m) {
         const Id e = tree.event_of(maxima[m]);
         path_of[m] = nodes[e].path;
         if (nodes[e].heavy == e && tree.top_of(e) == maxima[m]) name[path_of[m]] = static_cast<Id>(m);
     });
-    release(nodes);  // in whose place the next ones lie
+    release(nodes);  // the next arrays reuse their memory
     bucket_.resize(tree.size());
     paths_.resize(maxima.size());
     for_each_index(threads, maxima.size(), [&](std::size_t m) {
@@ -117,7 +117,7 @@ void HeavyPathDecomposition<Id, Value>::make_buckets(const Path& path) {
     while (next < buckets(path)) first_in[next++] = path.end - 1;
 }
 
-/// Where bucket_ tells a position not above the lowest event of the path with a value of x or more; for a short path that position itself.
+/// Where bucket_ holds a position not above the lowest event of the path with a value of x or more; for a short path that position itself.
 /// Monotone in x, rounding included: that is all the search needs.
 template <class Id, class Value>
 Id HeavyPathDecomposition<Id, Value>::bucket_of(const Path& path, Value x) const {
@@ -137,7 +137,7 @@ Id HeavyPathDecomposition<Id, Value>::end_of_bucket(const Path& path, Value x) c
 template <class Id, class Value>
 [[gnu::always_inline]] inline Id HeavyPathDecomposition<Id, Value>::event_from(Id position, Id path, Value x) const {
     const Stop* stop = stops_.data() + position;
-    // The first steps without branches: nobody can predict them. Once a stop is high enough it stays the answer.
+    // The first steps are branch-free, as branches would be unpredictable. Once a stop is high enough it stays the result.
     bool on = true;
     std::size_t steps = 0;
     for (int k = 0; k < kSteps; ++k) {

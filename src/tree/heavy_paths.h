@@ -1,16 +1,15 @@
-// Heavy paths of a tree whose values descend towards the root: where does a climb down from an event stop? The tree is the criticality
-// tree, or a join tree, where every element is an event.
+// Heavy path decomposition of a tree whose values descend towards the root, for weighted level ancestor queries: the last event on the way
+// to the root with a value of at least x. The tree is the criticality tree, or a join tree, where every element is an event.
 //
 // Every event continues the path of its heaviest child (the one with most events above it); the other children end their paths there. A
-// path is an array of events with ascending values, so a climb is a few jumps (at most log2 of the number of events) and one search in an
-// array. A long path has nearly as many buckets of equal width as events: the search looks at one bucket.
+// path is an array of events with ascending values, so a query is a few jumps (at most log2 of the number of events) and one search in an
+// array. A long path has nearly as many buckets of equal width as events: the search reads one bucket.
 //
-// Everything is made small, because a climb is a handful of cache misses and nothing else; a path goes by the number of a maximum that
-// leads to it, so that neighbours in the volume find their paths side by side. Value: the type in which samples are compared with events.
-// float serves samples that are floats or integers of 16 bits: x <= v iff x <= v rounded down to float, for every float x.
+// All arrays are compact, because the cost of a query is a handful of cache misses; a path is numbered by a maximum that leads to it, so
+// that neighbours in the volume find their paths side by side. Value: the type in which samples are compared with events. float serves
+// samples that are floats or integers of 16 bits: x <= v iff x <= v rounded down to float, for every float x.
 //
-// In the literature: heavy path decomposition (Sleator, Tarjan, A data structure for dynamic trees, 1983); the question is a weighted level
-// ancestor query.
+// In the literature: heavy path decomposition (Sleator, Tarjan, A data structure for dynamic trees, 1983); weighted level ancestor queries.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +52,7 @@ struct HeavyNode {
 template <class Id, class Value>
 class HeavyPathDecomposition {
 public:
-    /// maxima: per maximum, in raster order, its element. Cost: O(n) time; 12 bytes an event beside the result while it runs.
+    /// maxima: per maximum, in raster order, its element. Cost: O(n) time; 12 bytes an event besides the result while it runs.
     HeavyPathDecomposition(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads);
 
     /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to maximum[i]: the event e on the way down with

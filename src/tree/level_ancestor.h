@@ -1,4 +1,4 @@
-// Far ancestors in a tree in O(log n) steps, with one more pointer a node (Myers 1983, "An applicative random-access stack").
+// LevelAncestor: ancestors in a tree in O(log n) steps, with one jump pointer a node (Myers 1983, "An applicative random-access stack").
 // In the literature: level ancestor queries by jump pointers (Bender, Farach-Colton, The level ancestor problem simplified, 2004).
 #pragma once
 

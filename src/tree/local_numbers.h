@@ -1,4 +1,4 @@
-// Numbers within a part for the extrema that it names: its own range first, then those of other parts.
+// Local numbers of the extrema that a part refers to: its own range first, then those of other parts.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace isoatlas {
 template <class Id>
 class LocalNumbers {
 public:
-    /// first, end: the part's own range. foreign: the others that it names, in any order, also several times.
+    /// first, end: the part's own range. foreign: the others that it refers to, in any order, also several times.
     LocalNumbers(Id first, Id end, std::vector<Id> foreign) : first_(first), own_(end - first), foreign_(std::move(foreign)) {
         std::sort(foreign_.begin(), foreign_.end());
         foreign_.erase(std::unique(foreign_.begin(), foreign_.end()), foreign_.end());

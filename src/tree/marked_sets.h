@@ -1,4 +1,4 @@
-// The components of a sweep: disjoint sets with a mark each, side by side, because a find ends where the mark is needed.
+// The components of a sweep: disjoint sets with a mark each. Root and mark lie side by side, because a find ends where the mark is needed.
 // In the literature: disjoint sets, union-find (Tarjan, Efficiency of a good but not linear set union algorithm, 1975).
 #pragma once
 

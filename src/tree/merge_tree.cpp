@@ -12,7 +12,8 @@
 namespace isoatlas {
 namespace {
 
-/// The state of a sweep: components over extrema, and the last node each component met. Side by side: a find ends where it is needed.
+/// Merge tree of the extremum graph (Lukasczyk et al. 2023): union-find over maxima (split tree: minima), with the last node that each
+/// component met. Side by side: a find ends where it is needed.
 template <class Id>
 class Sweep {
 public:
@@ -23,7 +24,7 @@ public:
 
     void start(Id extremum, Id node) { components_[extremum] = {extremum, node, 1}; }
 
-    /// A node with so many branches: a leaf starts the component of its name.
+    /// A node with so many branches: a leaf starts the component of its representative.
     void meet(int branches, const std::array<Id, 2>& names, Id node) {
         if (branches == 0) {
             start(names[0], node);
@@ -62,7 +63,7 @@ private:
     BigVector<Id>& parent_;
 };
 
-/// count(i): branches of element i on the side that is swept first; names(i): of their components.
+/// count(i): branches of element i on the side that is swept first; names(i): representatives of their components.
 template <class Id, class Count, class Names>
 BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
     BigVector<Id> parent = filled<Id>(n + 1, static_cast<Id>(n));

@@ -1,4 +1,5 @@
-// Join and split tree by one union-find sweep over the sorted critical elements (docs/theory/3-trees.md#join-and-split-tree).
+// Join and split tree: union-find over maxima (minima) in one sweep over the sorted critical elements; merge tree of the extremum graph
+// (Lukasczyk et al. 2023; docs/theory/3-trees.md#join-and-split-tree).
 //
 // Join tree: sweep down; parent[p] = the first critical element below p that p's object meets. Split tree: sweep up, symmetric, where the
 // outside (node `size`) is the lowest leaf. In the join tree the outside is the last node: the parent of the root.
@@ -20,7 +21,7 @@ BigVector<Id> join_tree(const CriticalSet<Id>& critical);
 template <class Id>
 BigVector<Id> split_tree(const CriticalSet<Id>& critical);
 
-/// The same of elements that are not extrema of a field, but have names for what meets at them.
+/// The same of the survivors of a reduction (tree/reduce.h), whose leaves need not be extrema of the field.
 template <class Id>
 BigVector<Id> join_tree(const RepresentedSet<Id>& set);
 template <class Id>

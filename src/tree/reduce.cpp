@@ -15,7 +15,7 @@ namespace {
 template <class Id>
 constexpr Id kNone = std::numeric_limits<Id>::max();
 
-constexpr int kOpen = 3;  // stands for the branches of an open extremum: it is no leaf to be removed
+constexpr int kOpen = 3;  // stands for the branches of an open extremum, which is not removed as a leaf
 
 /// One direction of sweeping over a part: down over the components above its elements, or up over those below.
 template <class Id>
@@ -23,7 +23,7 @@ class Side {
 public:
     using Names = std::array<Id, 2> Representatives<Id>::*;
 
-    /// The names in ends become numbers within the part, until rename(). first, end: of its own extrema.
+    /// Representatives become numbers within the part, until rename(). first, end: of its own extrema.
     Side(std::span<PartitionedElement<Id>> elements, bool down, Id first, Id end)
         : elements_(elements),
           down_(down),
@@ -53,7 +53,7 @@ public:
         return parent;
     }
 
-    /// Names of what is left. left: per element what was counted and not removed.
+    /// Representatives of what is left. left: per element what was counted and not removed.
     void rename(std::span<const std::uint8_t> left) {
         const auto survives = [&](std::size_t x) { return left[x] != kRemoved; };
         components_.start(numbers_.size(), [&](Id c) { return c >= numbers_.own() ? c : kNone<Id>; });
@@ -69,7 +69,7 @@ public:
                 if (survives(x)) {
                     const int count = (name_a != kNone<Id>)+(name_b != kNone<Id>);
                     ISOATLAS_CHECK(count == side_of(left[x]));
-                    if (count == 0) name = first;  // nobody goes by this name any more
+                    if (count == 0) name = first;  // no component has this representative any more
                     set_branches(elements_[x].branches, count);
                     names(x) = {name, count == 2 ? name_b : name};
                 }
@@ -108,7 +108,7 @@ private:
     bool down_;
     Names names_;
     LocalNumbers<Id> numbers_;
-    MarkedSets<Id> components_;  // marks: first the last element, then the name
+    MarkedSets<Id> components_;  // marks: first the last element, then the representative
 };
 
 constexpr std::uint8_t kOneAbove = branches_of(1, 0), kOneBelow = branches_of(0, 1);

@@ -1,4 +1,4 @@
-// What follows from the arcs of a contour tree alone.
+// Restores the data of a contour tree from its arcs alone.
 #include "tree/contour_tree.h"
 
 #include "base/memory_limit.h"

@@ -1,5 +1,5 @@
-// The split tree once more, from the contour tree alone (Carr, Snoeyink, Axen 2003: the contour tree has the split tree of its volume),
-// with the name of every low component.
+// The split tree restored from the contour tree alone (Carr, Snoeyink, Axen 2003: the contour tree has the split tree of its volume), with
+// the representative of every low component.
 //
 // In the literature: split tree, the merge tree of sublevel sets.
 #pragma once

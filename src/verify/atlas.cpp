@@ -14,8 +14,7 @@
 namespace isoatlas {
 namespace {
 
-/// Runs work; a store that cannot be read, or contradicts itself, makes a check of that name fail with what it says. Returns whether it
-/// ran.
+/// Runs work; for an unreadable or inconsistent store the check of that name fails with the message of the error. Returns whether it ran.
 bool readable(const std::string& name, std::vector<CheckResult>& results, const std::function<void()>& work) {
     try {
         work();
@@ -27,7 +26,7 @@ bool readable(const std::string& name, std::vector<CheckResult>& results, const 
     }
 }
 
-/// The samples, when every checksum is right.
+/// The samples, if all checksums are correct.
 std::optional<Volume> checksums_are_right(const Atlas& atlas, const Context& context, std::vector<CheckResult>& results) {
     std::optional<Volume> samples;
     if (readable("checksums_are_right", results, [&] { samples = atlas.check(context); }))
@@ -51,7 +50,7 @@ EventOfVoxel events_of_maxima(const Analysis& analysis) {
     };
 }
 
-/// What is compared at every isovalue.
+/// The comparisons at every isovalue.
 class Comparison {
 public:
     Comparison(const Atlas& atlas, const Volume& samples, const VerifyOptions& options)
@@ -64,7 +63,7 @@ public:
         const double tau = checks.isovalues()[i];
         const Cut at = cut(samples_, tau, {.interpolant = own_.interpolant, .tunnel_height = own_.tunnel_height}, context);
         const Surface expected = extract(samples_, tau, own_, context), stored = atlas_.extract(tau, own_, context);
-        if (!are_same(stored, expected)) surfaces_.fail("at " + std::to_string(tau) + ": another surface");
+        if (!are_same(stored, expected)) surfaces_.fail("at " + std::to_string(tau) + ": different surface");
         ++surfaces_seen_;
         triangles_ += static_cast<std::int64_t>(stored.triangles.size());
         const SurfaceParts parts(expected);
@@ -72,7 +71,7 @@ public:
             ExtractOptions alone = own_;
             alone.objects = {object};
             if (!are_same(atlas_.extract(tau, alone, context), parts.of(object)))
-                objects_.fail("at " + std::to_string(tau) + ": object " + std::to_string(object) + " has another surface");
+                objects_.fail("at " + std::to_string(tau) + ": object " + std::to_string(object) + " has a different surface");
             ++objects_seen_;
         }
         checks.look_at(i, at, stored);
@@ -110,7 +109,7 @@ void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analy
                           const Context& context, std::vector<CheckResult>& results) {
     LevelChecks checks(stored, random_isovalues(samples, options.levels, options.seed), events_of_maxima(stored));
     Comparison comparison(atlas, samples, options);
-    Context silent = context;  // its parts would run the bar back and forth
+    Context silent = context;  // nested progress would move the bar back and forth
     silent.progress = nullptr;
     const std::size_t count = checks.isovalues().size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// What a named check is made of: it holds until the first offender is reported.
+// A named check: holds until a violation is reported.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ class Check {
 public:
     explicit Check(std::string name) : name_(std::move(name)) {}
 
-    /// Remembers the first offender; later ones are counted.
+    /// Keeps the first violation; later ones are counted.
     void fail(const std::string& offender) {
         if (failures_++ == 0) offender_ = offender;
     }
     [[nodiscard]] bool holds() const { return failures_ == 0; }
 
-    /// `counted`: what was looked at, "1234 events".
+    /// `counted`: the checked items, "1234 events".
     [[nodiscard]] CheckResult result(const std::string& counted) const {
         if (holds()) return {name_, true, counted};
         return {name_, false, offender_ + (failures_ > 1 ? " (and " + std::to_string(failures_ - 1) + " more)" : "") + "; " + counted};

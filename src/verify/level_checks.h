@@ -1,4 +1,4 @@
-// Tree, cut and surface at a list of isovalues, isovalue after isovalue: three ways to the same answer.
+// Compares tree, cut and surface at a list of isovalues: three independent computations.
 #pragma once
 
 #include <vector>

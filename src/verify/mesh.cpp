@@ -1,4 +1,4 @@
-// verify_mesh: what a closed surface file must be.
+// verify_mesh: checks that a surface file is a closed oriented manifold.
 #include <cmath>
 
 #include "verify/checks.h"
@@ -52,7 +52,7 @@ CheckResult euler_numbers_are_even(const SurfaceReport& report) {
 
 std::vector<CheckResult> verify_mesh(const Mesh& mesh) {
     std::vector<CheckResult> results{surface_exists(mesh), indices_are_valid(mesh), points_are_finite(mesh)};
-    if (!results[1].holds) return results;  // nothing else can be looked at
+    if (!results[1].holds) return results;  // no other check is possible
     const SurfaceReport report = inspect(mesh.points, mesh.triangles);
     results.push_back(
         {"surface_is_closed", report.is_closed(),
@@ -60,7 +60,7 @@ std::vector<CheckResult> verify_mesh(const Mesh& mesh) {
     results.push_back({"surface_is_manifold", report.is_manifold(),
                        number(report.non_manifold_edges, "bad edges") + ", " + number(report.non_manifold_points, "bad points")});
     results.push_back(
-        {"surface_is_oriented", report.is_oriented(), number(report.misoriented_edges, "edges with triangles that run the same way")});
+        {"surface_is_oriented", report.is_oriented(), number(report.misoriented_edges, "edges with inconsistent orientation")});
     results.push_back(
         {"surface_has_no_zero_area", report.has_no_zero_area(), number(report.zero_area_triangles, "triangles without area")});
     results.push_back(euler_numbers_are_even(report));

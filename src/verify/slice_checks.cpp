@@ -15,7 +15,7 @@ std::string at(double tau) {
     return text;
 }
 
-/// Some values of the volume, sorted and distinct: enough to spread isovalues by quantiles.
+/// A sample of the values of the volume, sorted and distinct, for isovalues by quantiles.
 std::vector<double> sampled_values(const Volume& volume) {
     constexpr std::int64_t wanted = 1 << 16;
     const std::int64_t voxels = volume.info.extent.voxels();
@@ -122,10 +122,10 @@ void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, st
         }
         taken[static_cast<std::size_t>(found - objects.begin())] = true;
         if (found->chi != object.chi || found->b1 != object.b1 || found->b2 != object.b2)
-            check.fail(name + " has other Betti numbers in the tree");
+            check.fail(name + " has different Betti numbers in the tree");
         if (found->max_voxels > 0 && (object.voxels < found->min_voxels || object.voxels > found->max_voxels))
             check.fail(name + " has more or fewer voxels than in the tree");
-        if (found->genera != genera_of(cut, object)) check.fail(name + " has contours of other genera in the tree");
+        if (found->genera != genera_of(cut, object)) check.fail(name + " has contours of different genera in the tree");
     }
 }
 
@@ -142,7 +142,7 @@ void compare_arcs_and_cut(const Analysis& analysis, const Cut& cut, Check& check
         check.fail(at(cut.tau) + std::to_string(promised.size()) + " contours in the contour tree, " + std::to_string(found.size()) +
                    " in the volume");
     } else if (promised != found) {
-        check.fail(at(cut.tau) + "the contours have other genera in the contour tree");
+        check.fail(at(cut.tau) + "the contours have different genera in the contour tree");
     }
 }
 
@@ -155,7 +155,7 @@ void compare_cut_and_mesh(const Cut& cut, const Surface& surface, const SurfaceR
     std::unordered_map<std::int64_t, std::int64_t> twice_chi;  // of a closed surface: 2 V - F, because 2 E = 3 F
     for (const std::int64_t contour : surface.contour) twice_chi[contour] += 2;
     for (const auto& triangle : surface.triangles) twice_chi[surface.contour[static_cast<std::size_t>(triangle[0])]] -= 1;
-    if (twice_chi.size() != cut.contours.size()) check.fail(at(cut.tau) + "the surface names contours that the volume does not have");
+    if (twice_chi.size() != cut.contours.size()) check.fail(at(cut.tau) + "the surface has contour ids that the volume does not have");
     for (const CutContour& contour : cut.contours) {
         const auto found = twice_chi.find(contour.id);
         if (found == twice_chi.end()) {
@@ -173,7 +173,7 @@ void compare_cut_and_curves(const Cut& cut, const Surface& surface, Check& check
     std::vector<bool> entered(surface.points.size(), false);
     for (const auto& [from, to] : surface.segments) {
         if (next[static_cast<std::size_t>(from)] != none || entered[static_cast<std::size_t>(to)])
-            check.fail(at(cut.tau) + "a point has more than two segments or they run against each other");
+            check.fail(at(cut.tau) + "a point has more than two segments or they have inconsistent orientation");
         next[static_cast<std::size_t>(from)] = to;
         entered[static_cast<std::size_t>(to)] = true;
     }

@@ -1,4 +1,4 @@
-// Checks at single isovalues: three independent ways to the same answer must agree. tree (Analysis), cut (flood of the volume), mesh
+// Checks at single isovalues: three independent computations must agree. tree (Analysis), cut (flood of the volume), mesh
 // (extract).
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace isoatlas {
 
-/// Isovalues spread over the samples: by turns a data value and the middle between two neighbouring ones; the lowest and highest value are
-/// in. At most `count`, ascending, distinct.
+/// Isovalues spread over the samples: alternately a data value and the middle between two neighbouring ones; the lowest and highest value
+/// are in. At most `count`, ascending, distinct.
 [[nodiscard]] std::vector<double> isovalues_to_check(const Volume& volume, int count);
 
-/// The lowest and highest sample, and `count` isovalues drawn with a seed: by turns a sample and something between two samples. Ascending,
+/// The lowest and highest sample, and `count` isovalues drawn with a seed: alternately a sample and a value between two samples. Ascending,
 /// distinct.
 [[nodiscard]] std::vector<double> random_isovalues(const Volume& volume, int count, std::uint64_t seed);
 
-/// What the tree says is there at some isovalues. Built in one walk, because the genera of all events together can be huge.
+/// The objects of the tree at some isovalues. Built in one traversal, because the genera of all events together can be huge.
 class TreeAtLevels {
 public:
     struct Object {
@@ -39,11 +39,11 @@ private:
     std::vector<std::vector<Object>> objects_;
 };
 
-/// The event at which the maximum that names an object appears; -1: there is none.
+/// The event at which the maximum that represents an object appears; -1: none.
 using EventOfVoxel = std::function<std::int64_t(std::int64_t)>;
 
-/// Each object of the cut is exactly one of the tree: found through the voxel it is named by, with the same Betti numbers and genera, and
-/// as many voxels as its zone allows.
+/// Each object of the cut is exactly one of the tree: found by its representative voxel, with the same Betti numbers and genera, and a
+/// number of voxels within the bounds of its zone.
 void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, std::size_t i, const Cut& cut, const EventOfVoxel& event_of,
                           Check& check);
 

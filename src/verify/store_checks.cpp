@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-/// Number i of a part of a store, as samples compare.
+/// Number i of a part of a store, in the order of samples.
 double number_of(const StoreNumbers& numbers, std::size_t i) {
     return std::visit([i](const auto& list) { return static_cast<double>(list[i]); }, numbers);
 }
@@ -62,7 +62,7 @@ CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples) 
         const double stored_low = number_of(low, static_cast<std::size_t>(b)), stored_high = number_of(high, static_cast<std::size_t>(b));
         if (stored_low == range[0] && stored_high == range[1]) continue;
         check.fail("brick " + std::to_string(b) + " has samples " + std::to_string(range[0]) + " to " + std::to_string(range[1]) +
-                   " and is read as if they were " + std::to_string(stored_low) + " to " + std::to_string(stored_high));
+                   " and its stored range is " + std::to_string(stored_low) + " to " + std::to_string(stored_high));
     }
     return check.result("ranges of " + std::to_string(grid.count()) + " bricks, for every isovalue");
 }
@@ -77,7 +77,7 @@ CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& 
     stored.data().visit([&]<class Id>(const IndexedArrays<Id>& own) {
         expected.data().visit([&]<class Other>(const IndexedArrays<Other>& fresh) {
             if constexpr (!std::is_same_v<Id, Other>) {
-                check.fail("its ids have another width");
+                check.fail("its ids have a different width");
             } else {
                 compare("elements/value", own.arrays.value, fresh.arrays.value, check, tolerance);
                 compare("elements/code", own.arrays.code, fresh.arrays.code, check);
@@ -93,7 +93,7 @@ CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& 
 
 CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored) {
     Check check("stored_events_follow_from_elements");
-    if (!stores_events(stored)) return check.result("no events are stored of so many elements");
+    if (!stores_events(stored)) return check.result("events are not stored for that many elements");
     if (const std::string wrong = first_wrong_event(Container(atlas.info().path), stored); !wrong.empty()) check.fail(wrong);
     return check.result(std::to_string(stored.event_count()) + " events");
 }

@@ -9,35 +9,34 @@
 
 namespace isoatlas {
 
-/// The stored lowest and highest sample of every brick are those of its samples. They alone decide which bricks a query reads, so when they
-/// are right the bricks that are read hold every active cell, of every object, at every isovalue. Cost: O(volume).
+/// The stored lowest and highest sample of every brick are those of its samples. They alone determine the bricks that a query reads; if
+/// they are correct, these bricks contain every active cell, of every object, at every isovalue. Cost: O(volume).
 [[nodiscard]] CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples);
 
-/// Every number of the stored trees is that of an analysis of the samples. Names array and place of the first that is not.
+/// Every number of the stored trees is that of an analysis of the samples. Reports array and index of the first difference.
 /// tolerance: of values (saddle_tolerance).
 [[nodiscard]] CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& expected, double tolerance = 0);
 
-/// How far the values of a store's saddles may be from the exact ones: 0, but for versions of the store that did not round them once.
+/// Tolerance of the stored values of saddles: 0, except for versions of the store that did not round them once.
 [[nodiscard]] double saddle_tolerance(const Atlas& atlas);
 
-/// The stored events, where a store has them, are those that follow from its elements.
+/// The stored events, if any, are those that follow from the elements.
 [[nodiscard]] CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored);
 
-/// The numbers that a store holds beside its samples and its tree, which queries take as they are: lowest and highest samples of bricks,
-/// census, sums of zones, tables of objects and dark objects, their isovalues. They are found again from the samples and the
-/// stored tree, or, `anew`, from the samples alone; then the voxels of elements and the arrays of the tree are compared, too. Of a store
-/// that another version would have made otherwise (Atlas::has_present_values()) only what has always been the same is compared. Cost: the
-/// second half of a build; anew: a build.
+/// Derived data of a store that queries use without checking: lowest and highest samples of bricks, census, sums of zones, tables of
+/// objects and cavities, their isovalues. They are recomputed from the samples and the stored tree, or, `anew`, from the samples alone;
+/// then the voxels of elements and the arrays of the tree are compared too. In stores of earlier rules (Atlas::has_present_values()) only
+/// arrays that no version has changed are compared. Cost: the second half of a build; anew: a build.
 [[nodiscard]] CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& samples, bool anew, const Context& context);
 
-/// All points, triangles, normals and ids are the same.
+/// All points, triangles, normals and ids are equal.
 [[nodiscard]] bool are_same(const Surface& p, const Surface& q);
 
-/// A surface taken apart into those of its objects. The surface must outlive it. Cost: that of the surface once, of a part its own size.
+/// Splits a surface into those of its objects. The surface must outlive it. Cost: O(surface) once, O(part) for each part.
 class SurfaceParts {
 public:
     explicit SurfaceParts(const Surface& surface);
-    /// As extract() gives it for that object alone.
+    /// Equal to extract() of that object alone.
     [[nodiscard]] Surface of(std::int64_t object) const;
 
 private:

@@ -1,4 +1,4 @@
-// stored_tables_are_recomputed: every array is made once more, as a build makes it, and compared with the stored one byte by byte.
+// stored_tables_are_recomputed: recomputes every array as a build does, and compares it with the stored one byte by byte.
 #include <algorithm>
 #include <cstring>
 #include <set>
@@ -12,9 +12,6 @@
 
 namespace isoatlas {
 namespace {
-
-using PackedArray;
-using StoredArray;
 
 /// A number of an array as text.
 std::string number_text(std::span<const std::byte> bytes, const std::string& type) {
@@ -41,7 +38,7 @@ public:
     void compare(const std::vector<PackedArray>& arrays) {
         for (const PackedArray& array : arrays) compare(array);
     }
-    /// Only those of these names.
+    /// Only arrays of these names.
     void compare(const std::vector<PackedArray>& arrays, const std::set<std::string>& names) {
         for (const PackedArray& array : arrays) {
             if (names.contains(array.name)) compare(array);
@@ -49,12 +46,12 @@ public:
     }
     void expect_nothing_else() {
         for (const StoredArray& array : store_.contents().arrays) {
-            if (!seen_.contains(array.name)) check_.fail(array.name + " is stored and nothing is known of it");
+            if (!seen_.contains(array.name)) check_.fail(array.name + " is an unknown array");
         }
     }
     [[nodiscard]] CheckResult result() const {
         std::string counted = std::to_string(numbers_) + " numbers of " + std::to_string(seen_.size()) + " arrays";
-        if (!is_present_) counted += "; an earlier version made the others, by rules that it does not tell";
+        if (!is_present_) counted += "; the others follow the rules of an earlier version";
         return check_.result(counted);
     }
 
@@ -62,10 +59,10 @@ private:
     void compare(const PackedArray& made) {
         const auto& arrays = store_.contents().arrays;
         const auto stored = std::ranges::find(arrays, made.name, &StoredArray::name);
-        if (stored == arrays.end() && !is_present_) return;  // not in stores of those days
+        if (stored == arrays.end() && !is_present_) return;  // not in stores of earlier versions
         seen_.insert(made.name);
         if (stored == arrays.end()) return check_.fail(made.name + " is missing");
-        if (stored->type != made.type || stored->shape != made.shape) return check_.fail(made.name + " has another type or size");
+        if (stored->type != made.type || stored->shape != made.shape) return check_.fail(made.name + " has a different type or size");
         std::int64_t first = 0;
         std::vector<std::byte> part;
         made.feed([&](std::span<const std::byte> bytes) {

@@ -32,7 +32,7 @@ void check_children(const Analysis& analysis, const Event& event, Check& check) 
 void check_parent(const Analysis& analysis, const Event& event, Check& check) {
     const bool last = event.id + 1 == analysis.event_count();
     if (last != (event.parent == -1)) {
-        check.fail(event_name(event.id) + (last ? " is the last one but no root" : " has no parent"));
+        check.fail(event_name(event.id) + (last ? " is the last one but not a root" : " has no parent"));
     } else if (!last && (event.parent <= event.id || event.parent >= analysis.event_count())) {
         check.fail(event_name(event.id) + " has the impossible parent " + std::to_string(event.parent));
     } else if (!last && !(analysis.event(event.parent).value < event.value)) {
@@ -40,7 +40,7 @@ void check_parent(const Analysis& analysis, const Event& event, Check& check) {
     }
 }
 
-/// Euler number of closed surfaces of these genera; the High set below has half of it (curves in 2D: nothing to see).
+/// Euler number of closed surfaces of these genera; the High set below has half of it (no contribution of curves in 2D).
 std::int64_t surface_chi(const std::vector<std::int64_t>& genera) {
     std::int64_t chi = 0;
     for (const std::int64_t genus : genera) chi += 2 - 2 * genus;
@@ -52,11 +52,11 @@ std::int64_t surface_chi(const std::vector<std::int64_t>& genera) {
 CheckResult join_tree_is_valid(const Analysis& analysis) {
     Check check("join_tree_is_valid");
     const std::int64_t count = analysis.event_count();
-    if (count == 0) check.fail("there is no event at all");
+    if (count == 0) check.fail("there are no events");
     std::int64_t children = 0;
     for (std::int64_t id = 0; id < count; ++id) {
         const Event event = analysis.event(id);
-        if (event.id != id) check.fail(event_name(id) + " calls itself " + std::to_string(event.id));
+        if (event.id != id) check.fail(event_name(id) + " has the id " + std::to_string(event.id));
         children += event.objects_in;
         check_children(analysis, event, check);
         check_parent(analysis, event, check);
@@ -64,7 +64,7 @@ CheckResult join_tree_is_valid(const Analysis& analysis) {
         if (event.zone.tau_high != event.value || event.zone.tau_low != low)
             check.fail("the zone of " + event_name(id) + " is not between it and its parent");
     }
-    if (count > 0 && children != count - 1) check.fail("an event is child of nobody or of two");
+    if (count > 0 && children != count - 1) check.fail("an event is not the child of exactly one other");
     return check.result(std::to_string(count) + " events");
 }
 

@@ -1,4 +1,4 @@
-// verify_volume: the analysis checked against itself, then tree, cut and surface against each other at some isovalues.
+// verify_volume: checks the consistency of the analysis, then compares tree, cut and surface at some isovalues.
 #include <string>
 
 #include "verify/level_checks.h"
@@ -14,7 +14,7 @@ std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions
     LevelChecks checks(analysis, isovalues_to_check(volume, options.levels), [&](std::int64_t voxel) { return analysis.zone(voxel); });
     ExtractOptions own;
     own.interpolant = options.interpolant, own.tunnel_height = options.tunnel_height, own.normals = false;
-    Context silent = context;  // the parts would run the bar back and forth
+    Context silent = context;  // nested progress would move the bar back and forth
     silent.progress = nullptr;
     for (std::size_t i = 0; i < checks.isovalues().size(); ++i) {
         const double tau = checks.isovalues()[i];

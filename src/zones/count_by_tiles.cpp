@@ -70,7 +70,7 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
                     int threads) {
     const std::size_t n = value.size();
     BigVector<Id> voxels(n);
-    Components<Id, ArrayAllocator<Id>> components;  // marks: the last element
+    MarkedSets<Id, ArrayAllocator<Id>> components;  // marks: the last element
     components.start(names, [](Id) { return Id{0}; });
     PartReaders<CountedElement<Id>> counted(elements.counted, elements.first);
     BudgetPoll memory;

@@ -75,7 +75,7 @@ public:
             name_[c] = basins.open.has(maximum) ? static_cast<Id>(basins.open.rank(maximum)) : kNoName<Id>;
         }
     }
-    /// Returns the names of the open components that it meets.
+    /// Returns the representatives of the open components that it meets.
     [[nodiscard]] std::array<Id, 2> pass(Id element, Id first, Id second) {
         const Id a = components_.find(first), b = components_.find(second);
         const std::array<Id, 2> names{name_[a], a == b ? kNoName<Id> : name_[b]};
@@ -89,7 +89,7 @@ public:
     [[nodiscard]] Id name(Id component) const { return name_[component]; }
 
 private:
-    Components<Id> components_;
+    MarkedSets<Id> components_;
     std::vector<Id> last_, name_;
 };
 

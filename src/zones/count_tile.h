@@ -12,17 +12,17 @@
 
 namespace isoatlas {
 
-/// What is found out about an element of a tile.
+/// Counts of an element of a tile.
 template <class Id>
 struct CountedElement {
     Id voxels;                ///< of components that lie within the tile
-    std::array<Id, 2> names;  ///< of components above that span tiles; kNoName: there is none
+    std::array<Id, 2> names;  ///< representatives of components above that span tiles; kNoName: there is none
 };
 template <class Id>
 constexpr Id kNoName = static_cast<Id>(-1);
 
-/// elements: of the tile, descending. Names are ranks in basins.open. open: where voxels of components that span tiles go. Cost: O(voxels
-/// log voxels) of the tile.
+/// elements: of the tile, descending. Representatives are ranks in basins.open. open: receives the voxels of components that span tiles.
+/// Cost: O(voxels log voxels) of the tile.
 template <class T, class Id>
 void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile, const TiledBasins<Id>& basins,
                 std::span<const KeyedElement> elements, std::span<CountedElement<Id>> counted, OpenVoxelBuckets<T, Id>& open);

@@ -1,4 +1,4 @@
-// Voxels per critical element: what sizes of zones are sums of.
+// Voxels per critical element; sizes of zones are sums of them.
 //
 // A voxel belongs to the lowest element on the way down the join tree from the voxel that is not below the voxel's value. The voxels of a
 // zone are those of the elements of its event (tree/criticality_tree.h): values between two elements of an object belong to the upper one.

@@ -11,12 +11,12 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBlock = 1024;                         // samples that climb together
-constexpr std::size_t kLimitedBlock = std::size_t{1} << 15;  // and where memory is limited: those that need the same pages, too
+constexpr std::size_t kBlock = 1024;                         // samples whose zones are found together
+constexpr std::size_t kLimitedBlock = std::size_t{1} << 15;  // where memory is limited: more samples share a page of the tree
 
 std::size_t block_size() { return memory_is_limited() ? kLimitedBlock : kBlock; }
 
-/// Voxels per event. Few events are counted apart and added once: threads would fight for their cache lines.
+/// Voxels per event. Few events are counted per thread and added once: threads would contend for their cache lines.
 template <class Id>
 class Tally {
 public:

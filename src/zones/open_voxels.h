@@ -1,4 +1,4 @@
-// Voxels whose component spans several tiles: how many of which value belong to which name, to be read again in descending order.
+// Voxels whose component spans several tiles, as records (value, representative, count) that are read back in descending order.
 //
 // They are kept in buckets of descending ranges of values: tiles write to the end of every bucket, and one bucket at a time is read and
 // sorted, in memory or, when few values have many voxels, in pieces that are merged.
@@ -33,7 +33,7 @@ public:
 
     [[nodiscard]] std::size_t count() const { return buckets_.size(); }
 
-    /// records: in descending order. From several threads at once, too.
+    /// records: in descending order. Thread safe.
     void add(std::span<const Record> records) {
         std::size_t bucket = 0;
         for (std::size_t first = 0, i = 0; first < records.size(); first = i) {

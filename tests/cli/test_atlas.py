@@ -27,8 +27,8 @@ class Atlas(harness.CliTest):
             (self.folder / folder).mkdir()
             self.run_ok("phantom", "noise", "--size", "9", "--seed", seed, "-o", f"{folder}/scan.nrrd", "--quiet")
         self.run_ok("first/scan.nrrd")
-        self.assertIn("is there already", self.run_ok("first/scan.nrrd").stderr)
-        self.assertNotIn("is there already", self.run_ok("second/scan.nrrd").stderr)
+        self.assertIn("exists and is used", self.run_ok("first/scan.nrrd").stderr)
+        self.assertNotIn("exists and is used", self.run_ok("second/scan.nrrd").stderr)
         held = self.run_json("objects", "scan.atlas", "--all")["objects"]
         self.assertEqual(held, self.run_json("objects", "second/scan.nrrd", "--all")["objects"])
 
@@ -107,7 +107,7 @@ class Atlas(harness.CliTest):
         self.assert_schema(told, "atlas")
         self.assertEqual((told["store"], told["output"]), ("again.atlas", "again.html"))
         before = os.stat(self.folder / "again.atlas").st_mtime_ns
-        self.assertIn("already", self.run_ok("demo.nrrd", "-o", "again.html", "--top", "1").stderr)
+        self.assertIn("exists and is used", self.run_ok("demo.nrrd", "-o", "again.html", "--top", "1").stderr)
         self.assertEqual(os.stat(self.folder / "again.atlas").st_mtime_ns, before)
         self.run_ok("demo.nrrd", "-o", "again.html", "--restart", "--top", "1")
         self.assertGreater(os.stat(self.folder / "again.atlas").st_mtime_ns, before)
@@ -126,14 +126,14 @@ class Atlas(harness.CliTest):
         for options, difference in ((["--interpolant", "faces"], "interpolant trilinear there, faces here"),
                                     ([], "interpolant faces there, trilinear here"),
                                     (["--tunnel-height", "50"], "tunnel height 0 there, 50 here"),
-                                    (["--voxel"], "is built anew: spacing"),
-                                    (["--gaussian", "1"], "is built anew: spacing"),
+                                    (["--voxel"], "is rebuilt: spacing"),
+                                    (["--gaussian", "1"], "is rebuilt: spacing"),
                                     (["--missing", "below"], "missing samples refused there, below all others here"),
                                     (["--gaussian", "1.5"], "Gaussian none there, 1.5 here")):
             told = said(*options)
             self.assertIn(difference, told)
-            self.assertNotIn("is there already", told)
-            self.assertIn("is there already", said(*options))
+            self.assertNotIn("exists and is used", told)
+            self.assertIn("exists and is used", said(*options))
 
     def test_a_store_of_another_sidecar_is_made_anew(self):
         scan = self.scan("sidecar", [1, 1, 1])
@@ -148,12 +148,12 @@ class Atlas(harness.CliTest):
         scan = self.scan("age", [1, 1, 1])
         self.run_ok(scan)
         os.utime(self.folder / scan)   # now: newer than the store
-        self.assertIn("is there already", self.run_ok(scan).stderr)
+        self.assertIn("exists and is used", self.run_ok(scan).stderr)
         changed = bytearray((self.folder / scan).read_bytes())
         changed[500] ^= 1
         (self.folder / scan).write_bytes(changed)
         os.utime(self.folder / scan, (0, 0))   # long ago
-        self.assertIn("is built anew: other samples there", self.run_ok(scan).stderr)
+        self.assertIn("is rebuilt: other samples there", self.run_ok(scan).stderr)
 
     def test_what_somebody_has_built_is_not_replaced(self):
         self.run_ok("build", "demo.nrrd", "--gaussian", "1", "-o", "mine.atlas", "--quiet")
@@ -165,7 +165,7 @@ class Atlas(harness.CliTest):
         self.run_ok("mine.atlas", "-o", "mine.html", "--top", "1")
         self.assertEqual((self.folder / "mine.atlas").read_bytes(), held)
         (self.folder / "letter.atlas").write_text("Dear Sir or Madam")
-        self.run_error(2, "demo.nrrd", "-o", "letter.html", says="is in the way of the store", next_says="--restart")
+        self.run_error(2, "demo.nrrd", "-o", "letter.html", says="exists and is not an isoatlas store", next_says="--restart")
         self.assertEqual((self.folder / "letter.atlas").read_text(), "Dear Sir or Madam")
         self.run_ok("demo.nrrd", "-o", "mine.html", "--restart", "--top", "1")
         self.assertNotEqual((self.folder / "mine.atlas").read_bytes(), held)

@@ -120,7 +120,7 @@ class Builds(harness.CliTest):
         builder.send_signal(signal.SIGINT)
         said = builder.communicate()[1]
         self.assertEqual(builder.returncode, 130)
-        self.assertIn("goes on", said)
+        self.assertIn("resumes", said)
         self.assertFalse((self.folder / "interrupted.atlas").exists())
         self.run_ok("build", "noise.nrrd", "-o", "interrupted.atlas")
         self.assertEqual(self.digest("interrupted.atlas"), self.wanted)

@@ -55,7 +55,7 @@ class Dark(harness.CliTest):
 
     def test_no_cavities_and_errors(self):
         self.assertEqual(self.run_json("objects", "one.npy", "--cavities")["objects"], [])
-        self.assertIn("no cavity", self.run_ok("objects", "one.npy", "--cavities").stderr)
+        self.assertIn("no significant cavities", self.run_ok("objects", "one.npy", "--cavities").stderr)
         self.run_error(2, "objects", "noise.nrrd", "--cavities", "--both", says="--both")
         self.run_error(2, "objects", "noise.nrrd", "--cavities", "--tau", "5", says="--tau")
         self.run_error(2, "label", "noise.nrrd", "--cavities", "--zones", "-o", "x.nrrd", says="--cavities")

@@ -39,7 +39,7 @@ class Errors(CliTest):
     def test_contradictions(self):
         self.run_error(2, "extract", "v.nrrd", "-o", "x.ply", says="which isovalue", next_says="isoatlas objects v.nrrd")
         self.run_error(2, "extract", "v.nrrd", "--tau", "0.5", "--best", "-o", "x.ply", says="contradict")
-        self.run_error(2, "label", "v.nrrd", "-o", "x.nrrd", says="labelled")
+        self.run_error(2, "label", "v.nrrd", "-o", "x.nrrd", says="nothing to label")
         self.run_error(2, "label", "v.nrrd", "--zones", "--tau", "0.5", "-o", "x.nrrd", says="contradict")
         self.run_error(2, "phantom", "gyroid", next_says="-o")
         self.run_error(2, "phantom", next_says="--list")

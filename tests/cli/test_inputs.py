@@ -150,7 +150,7 @@ class Inputs(CliTest):
             name = self.write("longer.nrrd", nrrd(payload, encoding))
             self.run_error(3, "objects", name, says="1 byte follows", next_says="--skip-rest")
             info = self.run_json("info", name, "--skip-rest")
-            self.assertEqual(info["volume"]["notes"], ["1 byte behind the samples was left out (longer.nrrd)"])
+            self.assertEqual(info["volume"]["notes"], ["1 byte after the samples was ignored (longer.nrrd)"])
             self.run_ok("build", name, "--skip-rest", "-o", "longer.atlas")
             self.assertIn("--skip-rest", self.run_ok("info", name, "--skip-rest").stderr)   # the next command needs it as well
         self.write("longer.raw", self.samples + b"x")

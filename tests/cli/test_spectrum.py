@@ -66,7 +66,7 @@ class Spectrum(harness.CliTest):
 
     def test_text_and_edges(self):
         text = self.run_ok("spectrum", "noise.nrrd", "--samples", "5").stdout
-        self.assertIn("essential", text)
+        self.assertIn("significant", text)
         self.assertIn("interpolant trilinear", text)
         self.assert_schema(self.run_json("spectrum", "one.npy"), "spectrum")
         self.assertEqual(self.run_json("spectrum", "one.npy", "--samples", "0")["sizes"], [])

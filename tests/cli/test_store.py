@@ -177,8 +177,8 @@ class Stores(harness.CliTest):
 
     def test_options_that_contradict_the_store(self):
         self.run_error(2, "extract", "noise.atlas", "--tau", "31", "--interpolant", "faces", "-o", "x.ply", says="built with")
-        self.run_error(2, "tree", "noise.atlas", "--tunnel-height", "2", next_says="leave out")
-        self.run_error(2, "build", "noise.atlas", "-o", "other.atlas", says="store already")
+        self.run_error(2, "tree", "noise.atlas", "--tunnel-height", "2", next_says="omit")
+        self.run_error(2, "build", "noise.atlas", "-o", "other.atlas", says="already a store")
         self.run_error(2, "build", "noise.nrrd", "-o", "other.h5", says=".atlas")
 
 

@@ -147,13 +147,13 @@ class View(harness.CliTest):
         told = self.run_json("ask", address, "/api/surface?tau=0.5&format=stl", "-o", "asked.stl")
         self.assert_schema(told, "ask")
         self.assertEqual((self.folder / "asked.stl").read_bytes(), (self.folder / "own.stl").read_bytes())
-        self.run_error(2, "ask", address, "/api/preview", says="isovalue is missing")
-        self.run_error(6, "ask", address, "/api/nothing", says="nothing here")
-        self.run_error(2, "ask", address, "/api/events", says="ends")
+        self.run_error(2, "ask", address, "/api/preview", says="missing isovalue")
+        self.run_error(6, "ask", address, "/api/nothing", says="no such path")
+        self.run_error(2, "ask", address, "/api/events", says="finite response")
         self.run_error(2, "ask", address, "/api/surface?tau=0.5", says="octet-stream", next_says="-o")
         self.assertEqual(self.run_ok("ask", self.port, "/api/preview?tau=0.5").stdout, printed)
-        self.run_error(2, "ask", "http://example.org", "/api/atlas", says="no address")
-        self.run_error(3, "ask", "http://127.0.0.1:1", "/api/atlas", says="nobody answers", next_says="isoatlas view")
+        self.run_error(2, "ask", "http://example.org", "/api/atlas", says="not an address")
+        self.run_error(3, "ask", "http://127.0.0.1:1", "/api/atlas", says="no response", next_says="isoatlas view")
 
     def test_no_secret_on_a_command_line(self):
         """What opens the viewer is neither in the words of its own process, nor taken from those of another."""
@@ -188,14 +188,14 @@ class View(harness.CliTest):
         self.assertEqual(homeless.ask("/")[0], 200)
         code, said = homeless.stop()
         self.assertEqual(code, 0)
-        self.assertIn("will not find this viewer", said)
+        self.assertIn("cannot read the token of this viewer", said)
 
     def test_a_token_that_was_left_behind(self):
         killed = served.Viewer(self.folder, "field.nrrd")
         killed.process.kill()
         killed.process.communicate()
         self.assertTrue(served.token_file(killed.port).exists())
-        self.run_error(3, "ask", killed.port, "/api/atlas", says="nobody answers")
+        self.run_error(3, "ask", killed.port, "/api/atlas", says="no response")
         again = served.Viewer(self.folder, "field.nrrd", "--port", str(killed.port))
         self.assertNotEqual(again.token, killed.token)
         self.run_ok("ask", again.port, "/api/atlas")
@@ -263,7 +263,7 @@ class View(harness.CliTest):
         os.write(terminal, b"\n")
         first, second = addresses(2)
         self.assertNotEqual(first, second)
-        self.assertIn("Enter gives one for another browser", shown)
+        self.assertIn("Enter prints another one", shown)
         for address in (second, first):
             self.assertEqual(self.opened(address)[0], 200)
         os.write(terminal, b"\x03")   # Ctrl-C

@@ -49,7 +49,7 @@ class Watching(harness.CliTest):
         viewer.until("open")
         code, said = viewer.stop()
         self.assertEqual(code, 0)
-        self.assertIn("had been finished before" if (self.folder / "noise.atlas.build").exists() else "noise.atlas", said + "noise.atlas")
+        self.assertIn("was finished by an earlier build" if (self.folder / "noise.atlas.build").exists() else "noise.atlas", said + "noise.atlas")
         self.assertFalse((self.folder / "noise.atlas.build").exists())
 
     def test_waits_for_a_store_that_another_process_builds(self):

@@ -12,7 +12,7 @@ import sys
 from links import Checkout, anchors_of, line_of, self_test
 
 SOURCES = (".h", ".cpp", ".in", ".cmake", ".txt", ".py", ".sh", ".mjs", ".ts", ".css", ".html", ".rc", "Makefile")
-OWN = ("tests/docs/citations.py", "tests/docs/links.py")  # they show what they look for
+OWN = ("tests/docs/citations.py", "tests/docs/links.py", "tests/docs/names.py")  # they show what they look for
 PAGE = re.compile(r"(?<![\w./-])((?:[\w.-]+/)*[\w-]+\.md)\b(?:#([\w-]+))?")
 DECISION = re.compile(r"(?<![\w./-])docs/decisions/(\d{4})(?![\w-])")
 SECTION = re.compile(r"([\w-]+\.md)[\s/#*]+(T\d+|sections?)\b")

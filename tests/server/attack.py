@@ -249,7 +249,7 @@ class Attacked(harness.CliTest):
             listening = statuses.index(b"503")
             self.assertIn(listening, (63, 64), "the listener of setUp() may not have been missed yet")
             self.assertEqual(statuses, [b"200"] * listening + [b"503"] * (100 - listening))
-            self.assertIn("too many listen", json.loads(answers[-1].split(b"\r\n\r\n", 1)[1])["error"]["what"])
+            self.assertIn("too many event streams", json.loads(answers[-1].split(b"\r\n\r\n", 1)[1])["error"]["what"])
 
     def test_many_idle_connections_of_the_owner(self):
         with self.attack("300 idle connections of the owner") as held:

@@ -180,7 +180,7 @@ RC_GTEST_PROP(Interior, TurnedAndMirroredVolumesHaveTheSameChanges, ()) {
     const Grid grid = *arbitrary_grid(4, 40);
     const auto changes = [](const Grid& g) { return canonical_text(isoatlas::analyse(to_volume(g), {}, one_thread())); };
     const std::string expected = changes(grid);
-    for (const auto& [order, mirror] : turns(grid.rank)) RC_ASSERT(changes(turned(grid, order, mirror)) == expected);
+    for (const auto& [order, mirror] : turns(grid.rank)) RC_ASSERT(changes(rotated(grid, order, mirror)) == expected);
 }
 
 }  // namespace

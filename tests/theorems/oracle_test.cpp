@@ -47,7 +47,7 @@ RC_GTEST_PROP(Oracle, VerticesFollowTheOctahedralRule, ()) {
 RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) {
     const Grid grid = *arbitrary_grid(5, 60);
     const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
-    const Grid other = turned(grid, order, mirror);
+    const Grid other = rotated(grid, order, mirror);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     RC_ASSERT(canonical_text(analyse(elements_of(grid, interpolant))) == canonical_text(analyse(elements_of(other, interpolant))));
 }

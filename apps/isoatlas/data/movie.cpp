@@ -37,7 +37,7 @@ std::string find_ffmpeg() {
     return "";
 }
 
-/// Single pictures in a folder of their own beside the output, gone when this goes.
+/// Frames as image files in a temporary folder beside the output; the destructor removes it.
 class FrameFolder {
 public:
     explicit FrameFolder(const fs::path& output) : path_((output.parent_path() / ".isoatlas-frames-XXXXXX").string()) {
@@ -51,7 +51,7 @@ public:
     }
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
-    /// Where a file of that name goes, which is removed too.
+    /// Path of a file of that name in the folder; it is removed too.
     [[nodiscard]] std::string file(const std::string& name) {
         names_.push_back(name);
         return path_ + "/" + name;
@@ -63,7 +63,7 @@ private:
     std::vector<std::string> names_;
 };
 
-/// Written to disk before it gets its name, as all outputs.
+/// Synced to disk before it is renamed, as all outputs.
 std::string give_name(const std::string& film, const std::string& output) {
     const int file = ::open(film.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (file < 0) return std::strerror(errno);

@@ -1,4 +1,4 @@
-// Animations as films: ffmpeg makes them, where it is installed.
+// Animations as video files, encoded by ffmpeg if it is installed.
 #pragma once
 
 #include <string>

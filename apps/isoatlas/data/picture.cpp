@@ -1,4 +1,4 @@
-// From words to pictures: what the options of `render` mean.
+// Parses the picture options of `render` and `animate`.
 #include "data/picture.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace isoatlas::cli {
 namespace {
 
 [[noreturn]] void bad(const std::string& option, const std::string& word, const std::string& expected) {
-    throw Error(ErrorKind::usage, {.what = option + " cannot be \"" + word + "\"", .expected = expected, .next = "write it like that"});
+    throw Error(ErrorKind::usage, {.what = option + " cannot be \"" + word + "\"", .expected = expected, .next = "use this form"});
 }
 
 template <class T>
@@ -26,8 +26,8 @@ ShownObject shown_object(const std::string& word, ShownPart part) {
     if (at != std::string::npos) object.tau = number_in<double>(word.substr(at + 1));
     const bool needs_tau = at != std::string::npos || part != ShownPart::object;
     if (id && (object.tau || !needs_tau)) return object;
-    if (part == ShownPart::object) bad("--object", word, "an id of the table, or with its isovalue: 81275@150");
-    bad(part == ShownPart::contour ? "--contour" : "--cavities", word, "an id with its isovalue: 81275@150");
+    if (part == ShownPart::object) bad("--object", word, "an id of the table, or an id with an isovalue: 81275@150");
+    bad(part == ShownPart::contour ? "--contour" : "--cavities", word, "an id with an isovalue: 81275@150");
 }
 
 std::optional<Colour> colour_in(const std::string& word) {
@@ -131,7 +131,7 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     for (const std::string& word : words.materials) picture.materials.push_back(shown_material(word));
     picture.volume = picture.volume || !picture.materials.empty();
     if (picture.flat && picture.slices.empty())
-        throw Error(ErrorKind::usage, {.what = "--flat needs a slice", .next = "add --slice z=N, with N from 0"});
+        throw Error(ErrorKind::usage, {.what = "--flat requires a slice", .next = "add --slice z=N, with N from 0"});
     convert_cut(words.cut, picture);
     picture.up = axis_of(words.up);
     picture.view = view_of(words.view, picture.up);

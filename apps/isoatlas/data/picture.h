@@ -1,4 +1,4 @@
-// What the user wants to see in a picture.
+// What a picture shows, and how: the options of `render` and `animate`.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ struct PictureWords {
     double height = 0;  ///< 0: not given
 };
 
-/// What of an object: all of its surface, one contour, or the walls of its cavities.
+/// Part of an object: its whole surface, one contour, or the walls of its cavities.
 enum class ShownPart : std::uint8_t { object, contour, cavities };
 
 /// --object ID or ID@T, --contour ID@T, --cavities ID@T
 struct ShownObject {
     std::int64_t id = 0;
-    std::optional<double> tau;  ///< calibrated; of an object: none is its best one
+    std::optional<double> tau;  ///< calibrated; none for an object: its best isovalue
     ShownPart part = ShownPart::object;
 };
 
@@ -76,23 +76,23 @@ struct PictureArguments {
     bool volume = false, shadows = false, flat = false;
 };
 
-/// Throws Error{usage} that names the option and what it takes.
+/// Throws Error{usage} that names the option and its valid values.
 void convert_picture(const PictureWords& words, PictureArguments& picture);
 
 [[nodiscard]] RenderOptions options_of_picture(const PictureArguments& picture);
-/// What --eye, --target and --height ask for. Throws Error{usage} for half of it.
+/// Camera of --eye, --target and --height. Throws Error{usage} when --eye or --target is missing.
 [[nodiscard]] std::optional<ShownCamera> shown_camera(const PictureWords& words);
 [[nodiscard]] Camera camera_of(const ShownCamera& shown, const PictureArguments& picture);
-/// "x>12.5" or "0.6x-0.8z>3": the half-space that is cut away; `all`: what was typed.
+/// "x>12.5" or "0.6x-0.8z>3": the removed half-space; `all`: the whole option as typed.
 [[nodiscard]] HalfSpace half_space(const std::string& word, const std::string& all);
-/// What the file calls a unit of length, for the scale bar.
+/// The unit of length of the file, for the scale bar.
 [[nodiscard]] std::string length_unit(const VolumeInfo& info);
 
-/// The scene with everything the arguments ask for but the cut. Throws Error: usage, not_found.
+/// The scene of the arguments, without the cut. Throws Error: usage, not_found.
 class Source;
 struct Arguments;
 [[nodiscard]] Scene scene_of(const Arguments& arguments, Source& source);
-/// The part that --cut takes away, seen from `view`; octants and halves are those of the volume.
+/// The part that --cut removes, seen from `view`; octants and halves are those of the volume.
 [[nodiscard]] std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view);
 
 }  // namespace isoatlas::cli

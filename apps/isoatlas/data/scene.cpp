@@ -1,4 +1,4 @@
-// The scene that the options ask for: which surfaces, in which colours, and what is cut away.
+// Builds the scene of the options: surfaces, colours, clipped part.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace isoatlas::cli {
 namespace {
 
 constexpr double kGlass = 0.28;        // opacity of what would hide others
-constexpr std::int64_t kLines = 1000;  // of the table, at most, in which --object looks for an id
+constexpr std::int64_t kLines = 1000;  // max table lines searched for the id of --object
 
 [[noreturn]] void nothing_there(const Arguments& arguments, const std::string& what) {
     throw Error(ErrorKind::not_found, {.file = arguments.file,
@@ -20,7 +20,7 @@ constexpr std::int64_t kLines = 1000;  // of the table, at most, in which --obje
                                        .next = "isoatlas objects " + shell_word(arguments.file) + " lists objects and their isovalues"});
 }
 
-/// A surface to be drawn, before it is known.
+/// A surface to be extracted and drawn.
 struct Wanted {
     double tau = 0;  ///< stored
     std::vector<std::int64_t> objects;
@@ -34,7 +34,7 @@ Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
         entry.best_tau, {entry.id}, fmt::format("{}  at {}", entry.id, scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high))};
 }
 
-/// Where --object looks. The lines of what may be noise take long where it is many.
+/// Table lines searched by --object. Lines that may be noise are slow to compute where there are many.
 ObjectTable lines_by_id(Source& source) {
     ObjectTable table = source.objects({.top = kLines});
     return table.branches > kLines ? table : source.objects({.top = 0, .gate = false});
@@ -109,7 +109,7 @@ Box box_of(const Surface& surface) {
     return box;
 }
 
-/// Does the box of a higher isovalue lie in that of a lower one? Then the surface of the lower one hides that of the higher one.
+/// Does the box of a higher isovalue lie in that of a lower one? Then the lower surface occludes the higher one.
 bool hides(const SceneObject& outer, const SceneObject& inner) {
     if (outer.surface.tau >= inner.surface.tau) return false;
     const Box a = box_of(outer.surface), b = box_of(inner.surface);
@@ -150,7 +150,7 @@ std::vector<Material> materials_of(const PictureArguments& picture, const Volume
     return materials;
 }
 
-/// What --volume and --material ask for, without the samples.
+/// The transfer function of --volume and --material, without the samples.
 SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t first_colour) {
     const PictureArguments& picture = arguments.picture;
     if (!picture.volume) return {};
@@ -166,7 +166,7 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     for (std::size_t i = 0; i < matter.bumps.size(); ++i) {
         OpacityTent& bump = matter.bumps[i];
         const bool body = i > 0 && bump.tau == matter.bumps[i - 1].tau;
-        if (!body) bump.name = fmt::format("matter above {:.5g}", scale.reported(bump.tau));
+        if (!body) bump.name = fmt::format("opacity above {:.5g}", scale.reported(bump.tau));
     }
     return matter;
 }
@@ -190,7 +190,7 @@ void add_slices(const Arguments& arguments, Source& source, const Volume& volume
     }
 }
 
-/// Slices and matter: what needs samples.
+/// Slices and volume rendering: these need the samples.
 void add_samples(const Arguments& arguments, Source& source, Scene& scene) {
     const PictureArguments& picture = arguments.picture;
     if (picture.slices.empty() && !picture.volume) return;
@@ -210,7 +210,7 @@ RenderOptions options_of_picture(const PictureArguments& picture) {
     RenderOptions options{.width = picture.width, .height = picture.height};
     options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
     options.background = picture.background;
-    options.samples = picture.samples > 0 ? picture.samples : picture.volume ? 2 : 4;  // matter has no edges
+    options.samples = picture.samples > 0 ? picture.samples : picture.volume ? 2 : 4;  // volume rendering has no edges
     options.scale_bar = options.legend = !picture.plain;
     return options;
 }
@@ -225,7 +225,7 @@ Scene scene_of(const Arguments& arguments, Source& source) {
     const PictureArguments& picture = arguments.picture;
     if (source.info().extent.rank == 2)
         throw Error(ErrorKind::usage, {.file = arguments.file,
-                                       .what = "a 2D volume has curves, no surfaces to draw in space",
+                                       .what = "a 2D volume has contour lines, not surfaces to draw in space",
                                        .next = "isoatlas extract " + shell_word(arguments.file) + " --tau T -o curves.vtp writes them"});
     Scene scene;
     scene.unit = length_unit(source.info());

@@ -46,7 +46,7 @@ void check_file_system(const std::string& output) {
                     {.file = output, .what = "the folder does not exist", .next = "mkdir -p " + shell_word(folder.string())});
     }
     check_output_file(output);
-    if (ends_with(lower(output), ".raw")) check_output_file(output + ".json");  // which may come with it
+    if (ends_with(lower(output), ".raw")) check_output_file(output + ".json");  // its sidecar
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Session: what most verbs do first. Check where the output goes, load the volume, say what it is, understand the isovalue.
+// Session: first steps of most verbs. Checks the output path, loads and describes the volume, converts the isovalue.
 #pragma once
 
 #include <string>
@@ -23,9 +23,9 @@ class Session {
 public:
     Session(const Arguments& arguments, Terminal& terminal) : arguments_(arguments), terminal_(terminal), progress_(terminal) {}
 
-    /// For long calls; valid while the session lives.
+    /// For long calls; valid for the lifetime of the session.
     [[nodiscard]] Context context();
-    /// Loads arguments.file, prints one line about it and the notes of the reader. JobQueue out-of-memory into Error{resource}.
+    /// Loads arguments.file, prints one line about it and the notes of the reader. Converts std::bad_alloc to Error{resource}.
     [[nodiscard]] Volume load();
     /// "scan.nrrd  NRRD  512 x 512 x 420  int16  spacing ...  values ..."
     [[nodiscard]] static std::string describe(const VolumeInfo& info, const ValueRange& range);
@@ -36,7 +36,7 @@ private:
     ProgressBar progress_;
 };
 
-/// Memory of an analysis in bytes, for few (smooth data) and many (noise) critical elements; time for the same.
+/// Memory of an analysis in bytes and its time, for few (smooth data) and many (noise) critical elements.
 struct Cost {
     double memory_smooth, memory_noise, seconds_smooth, seconds_noise;
 };
@@ -44,18 +44,18 @@ struct Cost {
 /// "memory 210 MB to 1.3 GB, time about 2 s" for messages.
 [[nodiscard]] std::string cost_text(const VolumeInfo& info, int threads);
 
-/// What --gaussian and --box make of a volume.
+/// Applies --gaussian and --box.
 [[nodiscard]] Volume shaped(Volume volume, const Arguments& arguments, const Context& context);
 
-/// What --voxel makes of any geometry.
+/// The geometry of --voxel.
 [[nodiscard]] Geometry voxel_geometry();
 
-/// Fails early, before the long work: unknown extension, missing or unwritable folder, output equal to the input.
+/// Checks the output path before the long work: unknown extension, missing or unwritable folder, output equal to the input.
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions);
-/// The same of another output than that of -o.
+/// The same for an output other than that of -o.
 void check_output(const Arguments& arguments, const std::string& output, const std::vector<std::string>& extensions);
 
-/// "--dims 4x4x4 --type uint8": the reading options again, for the commands we suggest.
+/// "--dims 4x4x4 --type uint8": the input options again, for suggested commands.
 [[nodiscard]] std::string reading_options(const Arguments& arguments);
 
 }  // namespace isoatlas::cli

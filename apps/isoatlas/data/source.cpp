@@ -14,7 +14,7 @@ void check_store_options(const Arguments& arguments, const Atlas& atlas) {
     const auto refuse = [&](const char* option, const std::string& has) {
         throw Error(ErrorKind::usage, {.file = arguments.file,
                                        .what = std::string(option) + " contradicts the store, which was built with " + has,
-                                       .next = std::string("leave out ") + option + ", or build another store from the volume"});
+                                       .next = std::string("omit ") + option + ", or build another store from the volume"});
     };
     if (arguments.interpolant_given && arguments.interpolant != atlas.interpolant())
         refuse("--interpolant", std::string("--interpolant ") + name_of(atlas.interpolant()));
@@ -22,12 +22,12 @@ void check_store_options(const Arguments& arguments, const Atlas& atlas) {
     const OpenOptions& open = arguments.open;
     if (open.dims || open.type || open.big_endian || open.skip_bytes || open.spacing || open.origin || open.time_step || open.skip_rest ||
         open.follow_links)
-        refuse("an option of the reader", "what the volume file said");
+        refuse("an option of the reader", "the header of the volume file");
     if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
-    if (arguments.verb != "atlas" && arguments.verb != "view") return;  // others do it to what is in the store
+    if (arguments.verb != "atlas" && arguments.verb != "view") return;  // other verbs filter the samples of the store
     const double gaussian = atlas.info().gaussian;
     if (arguments.gaussian && *arguments.gaussian != gaussian)
-        refuse("--gaussian", gaussian > 0 ? fmt::format("--gaussian {}", gaussian) : "samples as they are");
+        refuse("--gaussian", gaussian > 0 ? fmt::format("--gaussian {}", gaussian) : "unfiltered samples");
     if (arguments.voxel_units && atlas.info().geometry != voxel_geometry()) refuse("--voxel", "the geometry of the volume");
 }
 

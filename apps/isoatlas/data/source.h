@@ -1,6 +1,6 @@
-// Source: what the verbs ask of a volume file or of a store (`isoatlas build`), so that they need not know which one it is.
+// Source: one interface to a volume file or a store (`isoatlas build`) for the verbs.
 //
-// A volume file is read whole. A store is read as far as a question needs.
+// A volume file is read whole, a store only as far as a query needs.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace isoatlas::cli {
 
-/// A store has its own answer to everything that is decided while it is built: throws Error{usage} when an option contradicts it.
+/// Options that are fixed when a store is built: throws Error{usage} when one contradicts the store.
 void check_store_options(const Arguments& arguments, const Atlas& atlas);
 
 class Source {
@@ -22,7 +22,7 @@ public:
     Source(const Arguments& arguments, Terminal& terminal);
 
     [[nodiscard]] bool is_store() const { return atlas_.has_value(); }
-    /// Only of a store.
+    /// Stores only.
     [[nodiscard]] const Atlas& atlas() const { return atlas_.value(); }
     [[nodiscard]] const VolumeInfo& info() const { return info_; }
     [[nodiscard]] ValueRange range();
@@ -31,7 +31,7 @@ public:
     [[nodiscard]] AnalysisOptions analysis_options() { return {.interpolant = interpolant(), .tunnel_height = tunnel_height()}; }
     /// The stored isovalue of --tau. Throws Error{not_found} with the range when no sample of the volume has it between them.
     [[nodiscard]] double tau() { return stored(*arguments_.tau); }
-    /// The same of any isovalue that the user typed.
+    /// The same for any isovalue that the user typed.
     [[nodiscard]] double stored(double typed);
     [[nodiscard]] Context context() { return session_.context(); }
 
@@ -49,14 +49,14 @@ public:
     /// The selection of the command line, in stored values.
     [[nodiscard]] Selection selection();
     [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);
-    /// The trees. with_zones: zone(voxel) will be asked.
+    /// The trees. with_zones: zone(voxel) is needed.
     [[nodiscard]] Analysis analysis(bool with_zones);
     /// All samples.
     [[nodiscard]] const Volume& volume();
-    /// A volume with at least these samples; of a store no others are read. Valid until the next call.
+    /// A volume with at least these samples; no others are read from a store. Valid until the next call.
     [[nodiscard]] const Volume& volume(const SamplesWanted& wanted);
 
-    /// What has been read of a store, for the JSON documents; nothing for a volume file.
+    /// Read statistics of a store, for the JSON documents; nullopt for a volume file.
     [[nodiscard]] std::optional<QueryCost> reads() const;
 
 private:

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kLook{300};  ///< how often another process is asked
+constexpr std::chrono::milliseconds kLook{300};  ///< polling interval of another process
 constexpr std::chrono::milliseconds kTellEvery{50};
 
 fs::file_time_type age_of(const std::string& path) {
@@ -33,7 +33,7 @@ fs::file_time_type age_of(const std::string& path) {
                                       .next = "isoatlas build " + volume + reading_options(arguments) + " -o " + shell_word(store)});
 }
 
-/// Waits for as long as somebody else builds the store. Is there a new one then?
+/// Waits while another process builds the store. Returns whether there is a new one.
 bool await_others(const std::string& store, const std::function<void(const BuildState&)>& tell) {
     const fs::file_time_type before = age_of(store);
     bool waited = false;
@@ -78,12 +78,12 @@ bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string&
         check_store_options(arguments, Atlas(arguments.file));
         return true;
     }
-    if (arguments.read_only || build_state(store)) {  // nothing is replaced, or by somebody else
+    if (arguments.read_only || build_state(store)) {  // not replaced here
         const Beside beside = look_beside(store, arguments);
         if (!arguments.restart && beside.is_usable()) return is_usable(store, arguments, terminal);
         if (build_state(store)) return false;
         const std::string why = beside.differs.empty() ? "" : " with these options (" + beside.differs + ")";
-        no_store(arguments, store, "it has no store" + why + ", and --read-only writes none");
+        no_store(arguments, store, "it has no store" + why + ", and --read-only does not write one");
     }
     if (!arguments.restart && is_usable(store, arguments, terminal)) return true;
     check_is_volume(arguments, open_volume(arguments.file, arguments.open)->info());
@@ -95,11 +95,11 @@ void await_store(const Arguments& arguments, Terminal& terminal, const std::stri
     const auto is_right = [&] { return arguments.file == store || is_usable(store, arguments, terminal); };
     while (!await_others(store, tell) || !is_right()) {
         if (arguments.read_only || arguments.file == store)
-            no_store(arguments, store, "the build that was waited for has left no store of it");
+            no_store(arguments, store, "the build by another process ended without a store of it");
         try {
             return build(arguments, terminal, store, tell);
         } catch (const Error&) {
-            if (!build_state(store)) throw;  // else somebody was faster
+            if (!build_state(store)) throw;  // else another process has started a build
         }
     }
 }

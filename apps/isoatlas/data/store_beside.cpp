@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kCompared = std::int64_t{1} << 30;  ///< bytes of samples: those of larger volumes are told by the age of the files
+constexpr std::int64_t kCompared = std::int64_t{1} << 30;  ///< bytes of samples; for larger volumes the modification times are compared
 
 bool is_newer(const std::string& store, const VolumeInfo& volume) {
     for (const std::string& file : {volume.path, volume.data_file}) {
@@ -26,7 +26,7 @@ bool is_newer(const std::string& store, const VolumeInfo& volume) {
     return true;
 }
 
-/// Of a store and arguments.file.
+/// Differences between a store and arguments.file.
 std::string differences(const Atlas& atlas, const std::string& store, const Arguments& arguments) {
     const std::unique_ptr<VolumeReader> volume = open_volume(arguments.file, arguments.open);
     const VolumeInfo& info = volume->info();
@@ -42,7 +42,7 @@ std::string differences(const Atlas& atlas, const std::string& store, const Argu
 [[noreturn]] void in_the_way(const std::string& store, const Arguments& arguments, const std::string& what) {
     const std::string build = "isoatlas build " + shell_word(arguments.file) + reading_options(arguments) + " -o OTHER.atlas";
     const std::string elsewhere =
-        arguments.verb == "atlas" ? "a page elsewhere (-o) has a store of its own" : build + " makes another one to view";
+        arguments.verb == "atlas" ? "-o writes page and store elsewhere" : build + " builds another store to view";
     throw Error(ErrorKind::usage, {.file = store, .what = what, .next = "--restart replaces it; " + elsewhere});
 }
 
@@ -63,7 +63,7 @@ Beside look_beside(const std::string& store, const Arguments& arguments) {
     } catch (const Error& damaged) {
         if (damaged.kind() != ErrorKind::input || damaged.text().file != store) throw;
         ErrorText text = damaged.text();
-        text.next = "it is damaged: --restart builds it again";
+        text.next = "it is damaged; --restart rebuilds it";
         throw Error(ErrorKind::input, text);
     }
 }
@@ -73,17 +73,17 @@ bool is_usable(const std::string& store, const Arguments& arguments, Terminal& t
     if (!beside.is_there) return false;
     if (!beside.is_store) {
         check_output_file(store);
-        in_the_way(store, arguments, "is in the way of the store, and is none");
+        in_the_way(store, arguments, "exists and is not an isoatlas store");
     }
     if (!beside.is_usable()) {
         if (!beside.is_replaceable)
-            in_the_way(store, arguments, "is a store that was built otherwise, and is not replaced: " + beside.differs);
-        terminal.say("note: " + store + " is built anew: " + beside.differs);
+            in_the_way(store, arguments, "is a store of other samples or options, and is not replaced: " + beside.differs);
+        terminal.say("note: " + store + " is rebuilt: " + beside.differs);
         return false;
     }
-    terminal.say("note: " + store + " is there already" + (arguments.read_only ? "" : "; --restart builds it anew"));
+    terminal.say("note: " + store + " exists and is used" + (arguments.read_only ? "" : "; --restart rebuilds it"));
     if (!beside.is_present)
-        terminal.say("note: an earlier version of isoatlas built it: values between samples may differ in their last digits");
+        terminal.say("note: it was built by an earlier version of isoatlas: interpolated values may differ in their last digits");
     return true;
 }
 

@@ -1,8 +1,7 @@
-// The store of a volume in the current folder: built when somebody wants to see what is in the volume, used again while it is what a build
-// with these options would write.
+// The store of a volume in the current folder: built on demand, reused while it equals what a build with these options would write.
 //
-// It is a cache: one that `isoatlas FILE` or `isoatlas view` has made is made anew when volume or options are others, and what differs is
-// said. One that the user has built (`isoatlas build`) is never replaced without --restart: then the difference is an error.
+// It is a cache: a store made by `isoatlas FILE` or `isoatlas view` is rebuilt when volume or options differ, with a note that names the
+// difference. A store that the user has built (`isoatlas build`) is never replaced without --restart: there a difference is an error.
 #pragma once
 
 #include <string>
@@ -20,13 +19,13 @@ class Terminal;
 /// scan.atlas.html and scan.html stand beside scan.atlas.
 [[nodiscard]] std::string store_beside(const std::string& page);
 
-/// What lies where the store of arguments.file would be built.
+/// The file at the path of the store of arguments.file.
 struct Beside {
-    bool is_there = false;        ///< a file or anything else
-    bool is_store = false;        ///< that can be opened
+    bool is_there = false;        ///< any directory entry
+    bool is_store = false;        ///< a store that can be opened
     bool is_replaceable = false;  ///< BuildOptions::is_replaceable
     bool is_present = true;       ///< Atlas::has_present_values()
-    std::string differs;          ///< what it was made of, or with, otherwise; "": it is of this volume with these options
+    std::string differs;          ///< difference of volume or options; "": none
 
     [[nodiscard]] bool is_usable() const { return is_store && differs.empty(); }
 };
@@ -35,10 +34,11 @@ struct Beside {
 /// volume), cancelled.
 [[nodiscard]] Beside look_beside(const std::string& store, const Arguments& arguments);
 
-/// Can the store be used? Says so, or why it is built anew. Throws Error{usage} when something is in the way that is not to be replaced.
+/// Can the store be used? Prints a note, also with the reason for a rebuild. Throws Error{usage} when there is a file that must not be
+/// replaced.
 [[nodiscard]] bool is_usable(const std::string& store, const Arguments& arguments, Terminal& terminal);
 
-/// arguments.file if it is a store; else `store`, built from it unless it is usable.
+/// arguments.file if it is a store; else `store`, built from the volume unless it is usable.
 [[nodiscard]] std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store);
 
 }  // namespace isoatlas::cli

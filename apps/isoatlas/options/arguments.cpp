@@ -1,4 +1,4 @@
-// Every verb gets its own small parser.
+// One CLI11 parser for each verb.
 #include "options/arguments.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
     throw Error(ErrorKind::usage, {.what = what, .expected = expected, .next = next});
 }
 
-/// Options as typed; converted after the parse so that every message is ours.
+/// Options as typed; converted after parsing, so that all messages have one form.
 struct Typed {
     std::string box, dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all",
                                                                    style = "compact", boundary = "closed", detail = "events", memory;
@@ -32,46 +32,45 @@ struct Typed {
 };
 
 void add_talking(CLI::App& app, Arguments& arguments) {
-    app.add_flag("--json", arguments.json, "One JSON document on standard output, errors included")->group("Talking");
-    app.add_flag("-q,--quiet", arguments.quiet, "No progress, no hints")->group("Talking");
-    app.add_flag("-v,--verbose", arguments.verbose, "Say more (time, memory)")->group("Talking");
-    app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Talking");
+    app.add_flag("--json", arguments.json, "One JSON document on standard output, errors included")->group("Output options");
+    app.add_flag("-q,--quiet", arguments.quiet, "No progress, no hints")->group("Output options");
+    app.add_flag("-v,--verbose", arguments.verbose, "Print time and memory")->group("Output options");
+    app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Output options");
     add_number(app, "--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
         ->check(in_range(0, 4096))
         ->type_name("N")
-        ->group("Talking");
+        ->group("Output options");
 }
 
 void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
-    const char* group = "Reading";
+    const char* group = "Input options";
     app.add_option("--dims", typed.dims, "Samples per axis of a RAW file, x fastest: 512x512x100")->type_name("NX[xNY[xNZ]]")->group(group);
     app.add_option("--type", typed.type, "Sample type of a RAW file: uint8 int8 uint16 int16 uint32 int32 float32 float64")
         ->type_name("T")
         ->group(group);
     app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
     add_number(app, "--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
-    app.add_option("--spacing", typed.spacing, "Distance of samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
+    app.add_option("--spacing", typed.spacing, "Spacing of the samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
     app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
-    add_number(app, "--time-step", typed.time_step, "Which volume of a 4D file, from 0")->type_name("N")->group(group);
-    app.add_flag("--skip-rest", arguments.open.skip_rest, "Leave out what follows the samples; else it is an error")->group(group);
-    app.add_flag("--follow-links", arguments.open.follow_links, "Trust headers that name files outside their folder")->group(group);
-    app.add_option("--missing", typed.missing, "Put VALUE for NaN and infinite samples; below: less than every value")
+    add_number(app, "--time-step", typed.time_step, "Volume of a 4D file, from 0")->type_name("N")->group(group);
+    app.add_flag("--skip-rest", arguments.open.skip_rest, "Ignore bytes after the samples; without it they are an error")->group(group);
+    app.add_flag("--follow-links", arguments.open.follow_links, "Follow headers and links to files outside their folder")->group(group);
+    app.add_option("--missing", typed.missing, "Replace NaN and infinite samples by VALUE; below: less than every value")
         ->type_name("VALUE|below")
         ->group(group);
-    add_number(app, "--no-data", typed.no_data, "Samples of this stored value are missing too (with --missing)")
+    add_number(app, "--no-data", typed.no_data, "Stored value that marks missing samples (with --missing)")
         ->type_name("VALUE")
         ->group(group);
-    app.add_flag("--voxel", arguments.voxel_units, "Lengths in voxels, not in the file's units")->group(group);
+    app.add_flag("--voxel", arguments.voxel_units, "Measure in voxels, not in the units of the file")->group(group);
 }
 
 void add_interpolant(CLI::App& app, Typed& typed) {
-    app.add_option("--interpolant", typed.interpolant,
-                   "How samples are connected inside cells: trilinear (default) or faces, the face rule alone")
+    app.add_option("--interpolant", typed.interpolant, "Connectivity inside cells: trilinear (default), or faces for the face rule alone")
         ->type_name("NAME")
-        ->group("Reading");
-    app.add_option("--tunnel-height", typed.tunnel_height, "Leave out tunnels through cells of at most this height (trilinear)")
+        ->group("Input options");
+    app.add_option("--tunnel-height", typed.tunnel_height, "Ignore tunnels through cells of at most this height (trilinear)")
         ->type_name("H|P%")
-        ->group("Reading");
+        ->group("Input options");
 }
 
 void add_output(CLI::App& app, Arguments& arguments, const std::string& formats, bool required) {
@@ -86,18 +85,17 @@ void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
 }
 
 void add_gaussian(CLI::App& app, Typed& typed) {
-    add_number(app, "--gaussian", typed.gaussian, "Filter first: a Gaussian of this standard deviation, in the unit of the spacing")
+    add_number(app, "--gaussian", typed.gaussian, "Gaussian filter first: standard deviation in the unit of the spacing")
         ->type_name("SIGMA");
 }
 
 void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_gaussian(app, typed);
-    app.add_option("--memory", typed.memory, "Use at most this much memory, such as 1G or 500M; default: half of what there is")
-        ->type_name("SIZE");
-    app.add_flag("--restart", arguments.restart, "Forget what an earlier build has left");
+    app.add_option("--memory", typed.memory, "Memory budget, such as 1G or 500M; default: half of the available memory")->type_name("SIZE");
+    app.add_flag("--restart", arguments.restart, "Discard the phases of an earlier build");
 }
 
-/// What is made of a volume before anything else.
+/// Options applied to the samples first.
 void add_shape(CLI::App& app, Typed& typed) {
     add_gaussian(app, typed);
     app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
@@ -109,21 +107,20 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_selection(app, typed.selection, true);
         add_output(app, arguments, ".json .graphml .csv .vtu", false);
     } else if (verb == "info") {
-        add_tau(app, typed, "What the surface at this isovalue is and costs, before it is read (of a store)");
+        add_tau(app, typed, "Size of the surface at this isovalue and cost of reading it (stores)");
     } else if (verb == "objects") {
         add_tau(app, typed, "List every object at this isovalue");
         app.add_option("--top", typed.selection.top,
                        "At most N lines (without --tau: 24); with a percent sign: keep the first P percent of all objects")
             ->type_name("N|P%");
         add_selection(app, typed.selection, false);
-        app.add_option("--curve", arguments.curve, "Write how many objects there are for every threshold (.csv .svg .json)")
-            ->type_name("FILE");
-        app.add_flag("--all", arguments.all, "Also what noise alone may explain, and no limit");
+        app.add_option("--curve", arguments.curve, "Write the number of objects for every threshold (.csv .svg .json)")->type_name("FILE");
+        app.add_flag("--all", arguments.all, "All objects, also those that noise alone may explain");
         CLI::Option* cavities =
-            app.add_flag("--cavities", arguments.cavities, "Cavities instead: voids, and regions of lower values inside of objects");
+            app.add_flag("--cavities", arguments.cavities, "Cavities instead: voids and low-value regions inside objects");
         app.add_flag("--both", arguments.both, "Objects and cavities")->excludes(cavities);
     } else if (verb == "extract") {
-        add_tau(app, typed, "Isovalue; left out: the best isovalue of the object");
+        add_tau(app, typed, "Isovalue; default: the best isovalue of the object");
         add_number(app, "--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
         add_number(app, "--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID");
         app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
@@ -150,25 +147,25 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
     } else if (verb == "build") {
         add_output(app, arguments, ".atlas", true);
         add_build(app, arguments, typed);
-        app.add_flag("--dry-run", arguments.dry_run, "Only say what it would take: memory, disk, time");
+        app.add_flag("--dry-run", arguments.dry_run, "Only estimate memory, disk and time");
     } else if (verb == "atlas") {
         add_number(app, "--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
         add_output(app, arguments, ".html", false);
         add_build(app, arguments, typed);
     } else if (verb == "view") {
-        add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (any that is free)")
+        add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (default: any free port)")
             ->check(in_range(1, 65535))
             ->type_name("N");
         app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
         app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store");
         add_build(app, arguments, typed);
     } else if (verb == "ask") {
-        add_output(app, arguments, "what the question gives", false);
+        add_output(app, arguments, "the response", false);
     } else if (verb == "handles") {
-        app.add_flag("--exact", arguments.exact, "Which tunnel closes where, truly: persistent homology (slower)");
+        app.add_flag("--exact", arguments.exact, "Exact pairs by persistent homology (slower)");
         add_number(app, "--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
         app.add_option("--top", typed.selection.top, "At most N tunnels (24)")->type_name("N");
-        app.add_option("--persistence", typed.selection.persistence, "Only tunnels that are open so long, or for P percent of the range")
+        app.add_option("--persistence", typed.selection.persistence, "Only tunnels of at least this persistence, or P percent of the range")
             ->type_name("H|P%");
     } else if (verb == "spectrum") {
         add_number(app, "--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
@@ -196,8 +193,8 @@ void add_own(CLI::App& app, const std::string& verb, Arguments& arguments, Typed
         add_number(app, "--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
             ->check(in_range(1, 100000))
             ->type_name("N");
-        app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree made anew from the samples");
-        add_number(app, "--seed", arguments.seed, "Stores: draws isovalues and objects (1)")->type_name("N");
+        app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree recomputed from the samples");
+        add_number(app, "--seed", arguments.seed, "Stores: seed for drawing isovalues and objects (1)")->type_name("N");
     }
 }
 
@@ -208,12 +205,13 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     CLI::Option* operand = app->add_option(verb.operand, arguments.file,
                                            reads_volumes(verb.name) ? "The file (or folder of slices)"
                                            : verb.name == "dump"    ? "The store"
-                                           : verb.name == "ask"     ? "What `isoatlas view` printed"
+                                           : verb.name == "ask"     ? "Address that `isoatlas view` printed"
                                                                     : "");
     operand->type_name("");
     if (verb.name != "phantom") operand->required();
-    if (verb.name == "dump") app->add_option("PART", arguments.part, "What to print; left out: a list of all parts")->type_name("");
-    if (verb.name == "ask") app->add_option("QUESTION", arguments.part, "Such as '/api/objects?tau=300' (docs/server.md)")->type_name("");
+    if (verb.name == "dump") app->add_option("PART", arguments.part, "Part to print; default: a list of all parts")->type_name("");
+    if (verb.name == "ask")
+        app->add_option("REQUEST", arguments.part, "Path, such as '/api/objects?tau=300' (docs/server.md)")->type_name("");
     add_own(*app, verb.name, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
     if (reads_volumes(verb.name) && verb.name != "info" && verb.name != "convert") add_interpolant(*app, typed);
@@ -267,7 +265,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
         arguments.tunnel_height_in_percent = typed.tunnel_height.ends_with('%');
         arguments.tunnel_height = parse_height("--tunnel-height", typed.tunnel_height);
         if (arguments.interpolant != Interpolant::trilinear)
-            usage("--tunnel-height means nothing with --interpolant faces", "leave out --interpolant faces: trilinear is the default");
+            usage("--tunnel-height does not apply to --interpolant faces", "omit --interpolant faces: trilinear is the default");
     }
     if (given("--memory")) arguments.memory = parse_bytes("--memory", typed.memory);
     arguments.shell = parse_choice<ShellChoice>("--shell", typed.shell,
@@ -294,7 +292,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     usage(message, "isoatlas " + verb + " --help");
 }
 
-/// What an unset variable of a script leaves of a value: no option takes it, and CLI11 would take the next word.
+/// Rejects empty values (an unset variable of a script): CLI11 would take the next word instead.
 void refuse_empty_values(const CLI::App& app, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::size_t sign = words[i].find('=');
@@ -302,7 +300,7 @@ void refuse_empty_values(const CLI::App& app, const std::vector<std::string>& wo
         const CLI::Option* option = name.starts_with('-') ? app.get_option_no_throw(name) : nullptr;
         if (option == nullptr || option->get_items_expected_max() == 0) continue;
         const bool is_empty = sign == std::string::npos ? i + 1 < words.size() && words[i + 1].empty() : sign + 1 == words[i].size();
-        if (is_empty) usage(name + " has an empty value", "give it a value, or leave it out");
+        if (is_empty) usage(name + " has an empty value", "give it a value, or omit it");
     }
 }
 
@@ -319,7 +317,7 @@ std::string take_verb(std::vector<std::string>& words) {
         if (words[i] == "--threads") {
             ++i;
         } else if (words[i].empty()) {
-            usage("where the verb or the file should be is an empty word", "isoatlas --help");
+            usage("the verb or file is an empty word", "isoatlas --help");
         } else if (words[i][0] != '-') {
             const std::string verb = words[i];
             std::vector<std::string> before(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i));

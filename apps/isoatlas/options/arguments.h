@@ -1,4 +1,4 @@
-// Arguments: what the user typed, checked and converted. parse() lives in the only file that knows CLI11.
+// Arguments: the command line, checked and converted. Only parse() and the option files use CLI11.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ struct Arguments {
     std::string verb;
     std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
     std::string output;             ///< -o; empty: none
-    std::vector<std::string> part;  ///< of a store: the words of its name
+    std::vector<std::string> part;  ///< name of a part of a store
 
-    // Reading
+    // Input
     OpenOptions open;
     MissingPolicy missing;
     std::optional<SampleBox> box;    ///< only this part of the volume
     std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
-    bool voxel_units = false;        ///< lengths in voxels, whatever the file says
+    bool voxel_units = false;        ///< measures in voxels, not in the units of the file
 
-    // Running and talking
+    // Running and messages
     Interpolant interpolant = Interpolant::trilinear;
     bool interpolant_given = false;
     double tunnel_height = 0;  ///< in reported units, or in percent of the range
@@ -38,7 +38,7 @@ struct Arguments {
     std::int64_t memory = 0;  ///< bytes; 0: not given
     bool dry_run = false, restart = false;
 
-    // Choosing
+    // Selection
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
     bool exact = false;  ///< handles: exact pairs
@@ -47,16 +47,16 @@ struct Arguments {
     Selection selection;   ///< as typed: reported units
     bool selects = false, persistence_in_percent = false;
     std::string curve;                    ///< file
-    std::optional<std::int64_t> samples;  ///< isovalues that are measured
+    std::optional<std::int64_t> samples;  ///< number of isovalues to measure
     int levels = 8;
     bool full = false;
     std::uint64_t seed = 1;
 
-    // Serving
+    // Server
     int port = 0;  ///< 0: any
     bool no_browser = false, read_only = false;
 
-    // Shaping the output
+    // Output
     ShellChoice shell = ShellChoice::all;
     SurfaceStyle style = SurfaceStyle::compact;
     Boundary boundary = Boundary::closed;
@@ -65,13 +65,13 @@ struct Arguments {
     PictureArguments picture;
 };
 
-/// What to do with a command line: run a verb, or print a text (help, version) and stop.
+/// Result of parsing: run a verb, or print a text (help, version).
 struct Parsed {
     Arguments arguments;
     std::string text;  ///< not empty: print it and exit 0
 };
 
-/// Throws Error{usage} with a next step (did you mean ...?) for everything it does not understand.
+/// Throws Error{usage} with a next step (did you mean ...?) for an invalid command line.
 [[nodiscard]] Parsed parse(const std::vector<std::string>& words);
 
 /// The long options of a verb, for completion.

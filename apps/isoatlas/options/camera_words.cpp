@@ -1,4 +1,4 @@
-// Where one looks from, and planes that cut, as typed.
+// Parses camera options and clipping planes.
 #include <cmath>
 #include <numbers>
 
@@ -8,12 +8,12 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  // of the picture's height, where none is given: that of the viewer
+constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  // half the default field of view, as in the viewer
 
 [[noreturn]] void bad_cut(const std::string& word) {
     throw Error(ErrorKind::usage, {.what = "--cut cannot be \"" + word + "\"",
                                    .expected = "octant, half, or planes such as x>12.5,y<3 or 0.6x-0.8z>20",
-                                   .next = "write it like that"});
+                                   .next = "use this form"});
 }
 
 /// "x", "-x", "0.6x", "+0.8z": a coefficient and its axis, taken from the front of `rest`.
@@ -54,7 +54,7 @@ HalfSpace half_space(const std::string& word, const std::string& all) {
 std::optional<ShownCamera> shown_camera(const PictureWords& words) {
     if (words.eye.empty() && words.target.empty() && words.height == 0) return std::nullopt;
     if (words.eye.empty() || words.target.empty()) {
-        throw Error(ErrorKind::usage, {.what = "--eye and --target belong together",
+        throw Error(ErrorKind::usage, {.what = "--eye and --target must be given together",
                                        .expected = "--eye X,Y,Z --target X,Y,Z, physical",
                                        .next = "give both, or --view"});
     }
@@ -63,7 +63,7 @@ std::optional<ShownCamera> shown_camera(const PictureWords& words) {
     double squares = 0;
     for (std::size_t a = 0; a < 3; ++a) squares += (camera.eye[a] - camera.target[a]) * (camera.eye[a] - camera.target[a]);
     if (!(squares > 0) || !std::isfinite(squares))
-        throw Error(ErrorKind::usage, {.what = "--eye is where --target is, or too far", .next = "give two different places"});
+        throw Error(ErrorKind::usage, {.what = "--eye and --target coincide or are too far apart", .next = "give two different positions"});
     if (camera.height == 0) camera.height = 2 * std::sqrt(squares) * std::tan(kHalfAngle);
     return camera;
 }

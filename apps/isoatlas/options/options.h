@@ -9,7 +9,7 @@
 
 namespace isoatlas::cli {
 
-/// The range is told in the message of a failure, not in the help.
+/// The range appears in the error message, not in the help.
 template <class T>
 CLI::Validator in_range(T low, T high) {
     return CLI::Range(low, high).description("");
@@ -20,7 +20,7 @@ inline constexpr bool kIsVector = false;
 template <class T>
 inline constexpr bool kIsVector<std::vector<T>> = true;
 
-/// An option that takes a number, or several for a vector, each read by read_number(): CLI11 takes nothing for 0.
+/// An option that takes a number, or several for a vector, each read by read_number(): CLI11 would read an empty value as 0.
 template <class T>
 CLI::Option* add_number(CLI::App& app, const std::string& name, T& value, const std::string& meaning) {
     const auto take = [&value, name](const CLI::results_t& words) {
@@ -42,7 +42,7 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words);
 void add_camera(CLI::App& app, PictureWords& words);
 void add_animation(CLI::App& app, Arguments& arguments);
 
-/// Which objects are to be seen. top: also --top P%, where --top has no other meaning.
+/// Options of a selection. top: also --top P%, where --top has no other meaning.
 void add_selection(CLI::App& app, TypedSelection& typed, bool top);
 
 }  // namespace isoatlas::cli

@@ -18,26 +18,26 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
         return add_word_or_number(app, name, value, meaning)->type_name(type);
     };
-    add("--tau", words.taus, "Everything at these isovalues (calibrated), one object in the picture each", "T");
-    add("--object", words.objects, "These objects, each at its isovalue; left out: its best one", "ID[@T]");
-    add("--contour", words.contours, "These contours, such as the wall of a dark object, each at an isovalue", "ID@T");
+    add("--tau", words.taus, "Surface of everything at these isovalues (calibrated)", "T");
+    add("--object", words.objects, "Objects, each at an isovalue; default: its best isovalue", "ID[@T]");
+    add("--contour", words.contours, "Contours, such as the wall of a cavity, each at an isovalue", "ID@T");
     add("--cavities", words.cavities, "Only the walls of the cavities of these objects, each at an isovalue", "ID@T");
     add("--top", arguments.top, "The first N objects of the table, each at its best isovalue (1)", "N")->check(in_range(1, 1000));
-    add("--opacity", words.opacities, "Of each thing in the picture, 0 to 1; left out: what hides others is transparent", "P");
-    add("--colour", words.colours, "Of each thing in the picture, as #RRGGBB", "C");
+    add("--opacity", words.opacities, "Opacity of each surface, 0 to 1; default: surfaces that occlude others are transparent", "P");
+    add("--colour", words.colours, "Colour of each surface, #RRGGBB", "C");
     add("--cut", words.cut, "Cut away: octant (nearest to the eye), half, or where all hold: x>12.5,0.6y-0.8z<3 (physical)", "WHAT");
-    add("--slice", words.slices, "Also slices, in grey with the contours of the isovalues: x, y or z = number of samples", "z=40");
-    app.add_flag("--flat", arguments.picture.flat, "The (first) slice alone, as a plain picture");
-    app.add_flag("--volume", arguments.picture.volume, "Also the volume as glowing matter, one colour for each object of the table");
-    add("--material", words.materials,
-        "Matter of known materials instead: name, mean, standard deviation, colour, opacity of a voxel (0.1)", "NAME:M:S:C[:P]");
-    app.add_flag("--shadows", arguments.picture.shadows, "Matter throws shadows (with --volume)");
+    add("--slice", words.slices, "Also slices, in grey with the contours of the isovalues: x, y or z = index of the slice", "z=40");
+    app.add_flag("--flat", arguments.picture.flat, "The (first) slice alone, as a 2D image");
+    app.add_flag("--volume", arguments.picture.volume, "Also volume rendering, one colour for each object of the table");
+    add("--material", words.materials, "Volume rendering of materials: name, mean, standard deviation, colour, opacity of a voxel (0.1)",
+        "NAME:M:S:C[:P]");
+    app.add_flag("--shadows", arguments.picture.shadows, "Shadows in the volume rendering (with --volume)");
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
-    add("--up", words.up, "What is upwards: x, y, z, -x, -y or -z", "AXIS");
+    add("--up", words.up, "Up axis of the picture: x, y, z, -x, -y or -z", "AXIS");
     add("--size", words.size, "Pixels: 768x768", "WxH");
     add("--background", words.background, "light, dark or transparent", "NAME");
     add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));
-    app.add_flag("--perspective", arguments.picture.perspective, "Things further away look smaller; no scale bar then");
+    app.add_flag("--perspective", arguments.picture.perspective, "Perspective projection, without a scale bar");
     app.add_flag("--plain", arguments.picture.plain, "No scale bar and no legend");
 }
 
@@ -45,15 +45,15 @@ void add_camera(CLI::App& app, PictureWords& words) {
     const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
         return add_word_or_number(app, name, value, meaning)->type_name(type);
     };
-    add("--eye", words.eye, "Where the eye is, physical, instead of --view; with --target", "X,Y,Z")->excludes("--view");
-    add("--target", words.target, "What is in the middle of the picture, physical", "X,Y,Z");
-    add("--height", words.height, "Of the picture at the target, physical; left out: an angle of 30 degrees", "H")
+    add("--eye", words.eye, "Position of the camera, physical, instead of --view; with --target", "X,Y,Z")->excludes("--view");
+    add("--target", words.target, "Point in the middle of the picture, physical", "X,Y,Z");
+    add("--height", words.height, "Height of the picture at the target, physical; default: a field of view of 30 degrees", "H")
         ->check(in_range(1e-300, 1e300));
 }
 
 void add_animation(CLI::App& app, Arguments& arguments) {
     AnimationArguments& animation = arguments.picture.animation;
-    add_number(app, "--from", animation.from, "First isovalue of an evolution; without --from and --to things turn around")->type_name("A");
+    add_number(app, "--from", animation.from, "First isovalue of an evolution; without --from and --to: a turntable")->type_name("A");
     add_number(app, "--to", animation.to, "Last isovalue of an evolution")->type_name("B");
     add_number(app, "--steps", animation.steps, "Number of frames (36)")
         ->check(in_range(std::int64_t{1}, std::int64_t{10000}))

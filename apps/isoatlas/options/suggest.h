@@ -1,4 +1,4 @@
-// "Did you mean": the nearest of some known words.
+// "Did you mean": the nearest of a list of known words.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace isoatlas::cli {
 
-/// The known word at the smallest edit distance, or "" when none is near enough to be a slip of the fingers.
+/// The known word at the smallest edit distance, or "" when none is near enough to be a typing error.
 [[nodiscard]] std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 /// "a, b, c"

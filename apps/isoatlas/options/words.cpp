@@ -21,7 +21,7 @@ std::vector<std::string> split(const std::string& word, const std::string& separ
 }
 
 [[noreturn]] void bad_word(const std::string& option, const std::string& word, const std::string& expected) {
-    throw Error(ErrorKind::usage, {.what = option + " cannot be \"" + word + "\"", .expected = expected, .next = "write it like that"});
+    throw Error(ErrorKind::usage, {.what = option + " cannot be \"" + word + "\"", .expected = expected, .next = "use this form"});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// From words to values: what the options mean. Every function throws Error{usage} that names the option and what it takes.
+// Parses values of options. Every function throws Error{usage} that names the option and its valid values.
 #pragma once
 
 #include <charconv>
@@ -14,7 +14,7 @@
 
 namespace isoatlas::cli {
 
-/// Is the whole word a number, read to the nearest that T has? Not one that only rounds to 0 or to infinity.
+/// Parses the whole word as the nearest number of type T. False for a word that underflows to 0 or overflows to infinity.
 template <class T>
 [[nodiscard]] bool read_number(std::string_view word, T& value, int base = 10) {
     if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
@@ -30,7 +30,7 @@ template <class T>
 [[nodiscard]] bool is_number(const std::string& word);
 
 [[noreturn]] void bad_number(const std::string& option, const std::string& word, bool whole);
-/// The same as an option: what is no number is refused.
+/// The same as an option: rejects what is not a number.
 template <class T>
 [[nodiscard]] T parse_number(const std::string& option, const std::string& word) {
     T value{};
@@ -41,7 +41,7 @@ template <class T>
 /// "512x512x100", "512,512" or "512": 1 to 3 positive numbers; one number means a cube.
 [[nodiscard]] std::vector<std::int64_t> parse_dims(const std::string& word);
 
-/// "0:20,30:50,10:30": first sample and the one behind the last of each axis; without the third the first slice.
+/// "0:20,30:50,10:30": first sample and one past the last of each axis; two axes: the first slice.
 [[nodiscard]] SampleBox parse_box(const std::string& option, const std::string& word);
 
 /// A number of at least 0, with or without % behind it (then 0..100).

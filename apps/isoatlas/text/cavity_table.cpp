@@ -1,4 +1,4 @@
-#include "text/dark_table.h"
+#include "text/cavity_table.h"
 
 #include "text/entry_json.h"
 
@@ -34,7 +34,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
     const Sizes sizes(info, largest_measure(table.entries));
     std::vector<Table::Column> columns{{"cavity"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
     sizes.add_titles(columns, "islands");
-    columns.insert(columns.end(), {{"inside of"}, {"why there", true}, {"note", true}});
+    columns.insert(columns.end(), {{"inside"}, {"reason", true}, {"note", true}});
     Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const CavityEntry& entry = table.entries[i];
@@ -44,7 +44,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
         row.insert(row.end(), {fmt::format("{}", entry.object), name_of(entry.reason), entry.note});
         text.add(row);
     }
-    terminal.say(fmt::format("{} in all; {} to look at", counted(table.branches, "cavity", "cavities"),
+    terminal.say(fmt::format("{} in all; {} listed", counted(table.branches, "cavity", "cavities"),
                              counted(static_cast<std::int64_t>(table.entries.size()), "cavity", "cavities")));
     text.print(terminal);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
@@ -53,7 +53,7 @@ void print_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo
         tell_isovalues(terminal, i, others, scale);
     }
     if (table.entries.empty()) {
-        terminal.say("no cavity stands out from the noise; --all lists everything");
+        terminal.say("no significant cavities; --all lists all of them");
         return;
     }
     const CavityEntry& first = table.entries[0];

@@ -1,4 +1,4 @@
-// The table of dark objects, as text and as JSON.
+// The table of cavities, as text and as JSON.
 #pragma once
 
 #include "options/arguments.h"

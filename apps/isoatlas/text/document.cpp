@@ -10,7 +10,7 @@
 namespace isoatlas::cli {
 namespace {
 
-/// Names of files need not be UTF-8: their other bytes are escaped. With a list of what is to be seen instead of recursion.
+/// File names need not be UTF-8: other bytes are escaped. Uses an explicit stack instead of recursion.
 void make_utf8(Json& json) {
     for (std::vector<Json*> left{&json}; !left.empty();) {
         Json& value = *left.back();
@@ -26,7 +26,7 @@ void make_utf8(Json& json) {
 
 std::string text_of(Json json) {
     make_utf8(json);
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // nothing is left to replace: a second net
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // no invalid bytes are left; a safeguard
 }
 
 /// One member a line.

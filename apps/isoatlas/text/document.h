@@ -1,4 +1,4 @@
-// The JSON documents of --json: one object on standard output, long lists one entry a line so that nothing big is built in memory.
+// The JSON documents of --json: one object on standard output; long lists are streamed, one entry a line.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json document(const std::string& name, const VolumeInfo& info, Interpolant interpolant, double tunnel_height,
                             Boundary boundary = Boundary::closed);
 
-/// "reads": what a store was asked for this document; null for a volume file.
+/// "reads": read statistics of the store for this document; null for a volume file.
 void add_reads(Json& json, const std::optional<QueryCost>& reads);
 
 void print(Terminal& terminal, const Json& json);

@@ -1,4 +1,4 @@
-// Members that the tables of bright and of dark objects have in common. Entry: ObjectEntry, CavityEntry.
+// Members that the tables of objects and cavities have in common. Entry: ObjectEntry, CavityEntry.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ void add_isovalues(Json& json, const Entry& entry, const Scale& scale) {
     return list;
 }
 
-/// Where else to look at an entry; nothing for none.
+/// Prints the other recommended isovalues of an entry; nothing if there are none.
 inline void tell_isovalues(Terminal& terminal, std::size_t entry, const std::vector<RecommendedIsovalue>& others, const Scale& scale) {
     std::string text;
     for (const RecommendedIsovalue& isovalue : others) {

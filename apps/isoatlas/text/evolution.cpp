@@ -30,7 +30,7 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
     for (const Handle& handle : found.handles) {
         if (rank_of_event_[static_cast<std::size_t>(handle.event)] >= 0) tunnels_.push_back({handle.opens, handle.closes});
     }
-    std::set<std::array<double, 3>> known;  // several lines may show the same dark object
+    std::set<std::array<double, 3>> known;  // several lines may show the same cavity
     for (const CavityEntry& cavities : source.cavities(options).entries) {
         if (known.insert(cavities.position).second) cavities_.push_back({cavities.merges, cavities.appears});
     }

@@ -1,4 +1,4 @@
-// What appears, merges and changes while the isovalue moves: of everything, and of what is kept, so that noise does not flood the labels.
+// Events between frames of an isovalue sweep: of all objects, and of the kept ones (noise would flood the captions).
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ class Source;
 
 struct Census {
     std::int64_t objects = 0, tunnels = 0, cavities = 0;
-    std::int64_t appeared = 0, merged = 0;  ///< objects, since the frame before: on the way down
+    std::int64_t appeared = 0, merged = 0;  ///< since the previous frame, for descending isovalues
 };
 
 struct Frame {
@@ -24,21 +24,21 @@ struct Frame {
     Census all, kept;
 };
 
-/// Kept are the objects of the selection, without one those that noise does not explain; of the tunnels of these, those that live longer
-/// than noise rises (or --persistence says); dark objects that the same selection or gate keeps, as cavities.
+/// Kept are the objects of the selection, or the significant ones without a selection; their tunnels of a persistence above the noise level
+/// (or --persistence); as cavities, those that the same selection or gate keeps.
 class Evolution {
 public:
     Evolution(const Arguments& arguments, Source& source);
 
-    /// before: the isovalue of the frame before it.
+    /// before: the isovalue of the previous frame.
     [[nodiscard]] Frame at(double tau, const std::optional<double>& before) const;
     /// The kept objects at an isovalue: their rank by id.
     [[nodiscard]] std::map<std::int64_t, std::int64_t> kept_objects(double tau) const;
-    /// Is it exact from where to where each kept tunnel is open?
+    /// Are the isovalues at which the kept tunnels open and close exact?
     [[nodiscard]] bool has_exact_tunnels() const { return exact_tunnels_; }
 
 private:
-    /// There for tau in (ends, begins].
+    /// Exists for tau in (ends, begins].
     struct Life {
         double begins, ends;
         [[nodiscard]] bool holds(double tau) const { return ends < tau && tau <= begins; }

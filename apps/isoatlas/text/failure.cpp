@@ -16,7 +16,7 @@ Error bug(const std::string& what) {
             {.what = "a bug of isoatlas: " + what, .next = "please report it with the command line and, if you may share it, the file"}};
 }
 
-/// Does the system lack what it was asked for?
+/// Has the system run out of a resource?
 bool is_refusal(const std::error_code& code) {
     for (const std::errc lack : {std::errc::resource_unavailable_try_again, std::errc::not_enough_memory, std::errc::too_many_files_open,
                                  std::errc::too_many_files_open_in_system, std::errc::no_space_on_device})
@@ -28,12 +28,12 @@ void say(const char* text) { [[maybe_unused]] const ssize_t said = ::write(STDER
 
 [[noreturn]] void end() noexcept {
     if (std::current_exception() == nullptr) {
-        say("isoatlas: a bug of isoatlas: it ended for no reason. Next: please report it with the command line\n");
+        say("isoatlas: a bug of isoatlas: it terminated without an exception. Next: please report it with the command line\n");
         ::_exit(static_cast<int>(ErrorKind::internal));
     }
     try {
         throw;
-    } catch (const std::bad_alloc&) {  // nothing more can be asked for
+    } catch (const std::bad_alloc&) {  // nothing more can be allocated
         say("isoatlas: not enough memory. Next: use a machine with more memory, or allow this process more (ulimit -v)\n");
         ::_exit(static_cast<int>(ErrorKind::resource));
     } catch (...) {
@@ -53,17 +53,18 @@ Error failure() noexcept {
     } catch (const Error& error) {
         return error;
     } catch (const std::bad_alloc&) {
-        return {ErrorKind::resource,
-                {.what = "not enough memory", .next = "isoatlas info FILE tells what an analysis needs; use a machine with more memory"}};
+        return {
+            ErrorKind::resource,
+            {.what = "not enough memory", .next = "isoatlas info FILE prints the memory of an analysis; use a machine with more memory"}};
     } catch (const std::system_error& error) {
         if (!is_refusal(error.code())) return bug(error.what());
         return {ErrorKind::resource,
-                {.what = std::string("the system refuses: ") + error.what(),
+                {.what = std::string("the system denied a resource: ") + error.what(),
                  .next = "allow this process more memory, threads and open files (ulimit -v, -u, -n)"}};
     } catch (const std::exception& error) {
         return bug(error.what());
     } catch (...) {
-        return bug("an exception without a name");
+        return bug("an unknown exception");
     }
 }
 

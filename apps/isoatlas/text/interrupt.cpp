@@ -39,7 +39,7 @@ void catch_signals() {
     sigaction(SIGTERM, &action, nullptr);
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, nullptr);
-    sigaction(SIGXFSZ, &action, nullptr);  // a limit on file sizes is an error of the write, which is told
+    sigaction(SIGXFSZ, &action, nullptr);  // a limit on file sizes is reported as an error of the write
 }
 
 bool interrupted() { return signals > 0; }

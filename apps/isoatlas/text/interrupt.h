@@ -1,4 +1,4 @@
-// Ctrl-C: the first one asks the running call to stop; while a file is being written it removes the unfinished file and leaves at once.
+// Ctrl-C: cancels the running call; while a file is being written, removes the unfinished file and exits at once.
 #pragma once
 
 namespace isoatlas::cli {
@@ -11,7 +11,7 @@ void catch_signals();
 /// Throws Error{cancelled} when interrupted.
 void stop_if_interrupted();
 
-/// While it lives, an interrupt removes what is being written and leaves. message: said then; it must live as long as the program.
+/// During its lifetime an interrupt removes the unfinished output and exits. message: printed then; it must have static lifetime.
 class WritingGuard {
 public:
     explicit WritingGuard(const char* message = "stopped: the unfinished output was removed");

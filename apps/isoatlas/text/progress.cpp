@@ -17,7 +17,7 @@ namespace {
 constexpr double kQuietStart = 0.5;  // short jobs show no bar
 constexpr double kRedraw = 0.1, kLineEvery = 10;
 
-/// The most memory that was ever resident, in bytes.
+/// Peak resident memory in bytes.
 double peak_memory() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);

@@ -45,7 +45,7 @@ int report(const Error& error, bool json, Terminal& terminal) {
         print(terminal, document_of_error);
         terminal.finish();
     } catch (const std::exception&) {
-        // Standard output is what failed: the message above has said so.
+        // Standard output has failed: the message above reports it.
     }
     return code;
 }

@@ -1,4 +1,4 @@
-// How failures reach the user: one clear message on standard error, with --json also a document on standard output, and the exit code.
+// Reports a failure: one message on standard error, with --json also a document on standard output, and the exit code.
 #pragma once
 
 #include <isoatlas/error.h>

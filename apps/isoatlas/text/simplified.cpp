@@ -28,7 +28,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarch
                    fmt::format("{}", hierarchy.branches()[static_cast<std::size_t>(node.branch)].id), scale.brief(node.tau_high),
                    node.parent < 0 ? "bottom" : scale.brief(node.tau_low), count_text(node.voxels), count_text(node.object_voxels)});
         const std::vector<std::int64_t>& children = above[i];
-        // A line without branches goes straight down the page.
+        // A chain without branches is not indented further.
         for (auto child = children.rbegin(); child != children.rend(); ++child) stack.push_back({*child, depth + (children.size() > 1)});
     }
     table.print(terminal);
@@ -71,8 +71,7 @@ void write_curves(const Arguments& arguments, Source& source) {
 
 int run_simplified_tree(const Arguments& arguments, Terminal& terminal) {
     if (arguments.detail != TreeDetail::events) {
-        throw Error(ErrorKind::usage,
-                    {.what = "a simplified tree has events, no other detail", .next = "leave out --detail, or the selection"});
+        throw Error(ErrorKind::usage, {.what = "a simplified tree has events only", .next = "omit --detail, or the selection"});
     }
     Source source(arguments, terminal);
     const auto [analysis, hierarchy] = source.analysis_and_hierarchy();

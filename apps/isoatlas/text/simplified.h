@@ -1,4 +1,4 @@
-// The simplified tree, as text, as JSON and as a file, and what a selection hides.
+// The simplified tree, as text, as JSON and as a file, and the objects that a selection hides.
 #pragma once
 
 #include "options/arguments.h"

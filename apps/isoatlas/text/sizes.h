@@ -13,12 +13,12 @@
 
 namespace isoatlas::cli {
 
-/// Voxel counts, and physical sizes where they say something else.
+/// Voxel counts, and physical sizes where they differ.
 class Sizes {
 public:
     Sizes(const VolumeInfo& info, double largest) : unit_(measure_unit(info, largest)), flat_(info.extent.rank == 2) {}
 
-    /// inner: what the objects of the table have inside; 2D objects have no cavities.
+    /// inner: title of the inner components; 2D objects have no cavities.
     void add_titles(std::vector<Table::Column>& columns, const std::string& inner = "cavities") const {
         columns.push_back({"voxels"});
         if (is_physical()) columns.push_back({std::string(flat_ ? "area" : "volume") + " [" + unit_.name + "]"});

@@ -22,10 +22,10 @@ namespace {
                                       .next = error == EPIPE ? "keep the reader of the pipe open" : "send it to a place with free space"});
 }
 
-/// A name in it may hold any byte: what is not UTF-8 or moves the cursor is escaped. Lines stay lines.
+/// File names may hold any byte: invalid UTF-8 and control characters are escaped, line ends are kept.
 void talk(const std::string& line) {
     const std::string text = header_text(written_name(line), /*lines=*/true) + "\n";
-    // Talk that nobody can read is no reason to fail.
+    // A failed write of a message is not an error.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
@@ -42,7 +42,8 @@ class Terminal::Buffer : public std::streambuf {
 public:
     Buffer() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
 
-    /// Results are text, and UTF-8 whatever names are in it. A character that is not whole yet waits for its end, unless this is the end.
+    /// Results are valid UTF-8, whatever file names they contain. An incomplete character waits for its remaining bytes, unless this is the
+    /// end.
     void flush(bool is_end) {
         const std::string_view all(pbase(), static_cast<std::size_t>(pptr() - pbase()));
         const std::string_view text = is_end ? all : whole_characters(all);
@@ -94,7 +95,7 @@ private:
 };
 
 Terminal::Terminal() : buffer_(std::make_unique<Buffer>()), out_(buffer_.get()) {
-    out_.exceptions(std::ios::badbit);  // so that the Error of Buffer::flush comes through
+    out_.exceptions(std::ios::badbit);  // so that the Error of Buffer::flush is rethrown
 }
 
 Terminal::~Terminal() = default;

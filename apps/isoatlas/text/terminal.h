@@ -1,4 +1,4 @@
-// Terminal: results go to standard output, talk to standard error. A result that cannot be written is an error, never silence.
+// Terminal: results go to standard output, messages to standard error. A result that cannot be written is an error.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ public:
 
     /// Standard output. Throws Error{resource} when writing fails (disk full, pipe closed).
     [[nodiscard]] std::ostream& out();
-    /// Everything written must have arrived: call before success is claimed.
+    /// Flushes and checks standard output: call before reporting success.
     void finish();
 
     /// One line on standard error unless --quiet.
@@ -36,7 +36,7 @@ public:
     void detail(const std::string& line);
 
     [[nodiscard]] bool is_interactive() const;                      ///< standard error is a terminal that can rewrite a line
-    [[nodiscard]] std::string bold(const std::string& text) const;  ///< of results; plain unless standard output shows colours
+    [[nodiscard]] std::string bold(const std::string& text) const;  ///< of results; no colours unless standard output shows them
 
 private:
     class Buffer;

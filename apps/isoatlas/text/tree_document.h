@@ -1,4 +1,4 @@
-// The document about a tree that was written.
+// The JSON document about a tree file.
 #pragma once
 
 #include "options/arguments.h"

@@ -1,4 +1,4 @@
-// Values as people read them: calibrated sample values, sizes in physical units, bytes, counts.
+// Formats values for reading: calibrated sample values, sizes in physical units, bytes, counts.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,24 @@
 
 namespace isoatlas::cli {
 
-/// Between the stored values of a file and the calibrated ones that users give and see.
+/// Converts between the stored values of a file and calibrated ones.
 class Scale {
 public:
     explicit Scale(const VolumeInfo& info) { info_.calibration = info.calibration, info_.type = info.type; }
 
-    /// The stored isovalue that the user means: the sample value that text() prints like that, if there is one.
+    /// The stored isovalue of a typed one: the sample value that text() prints in this form, if there is one.
     [[nodiscard]] double stored(double reported) const { return stored_isovalue(info_, reported); }
     [[nodiscard]] double reported(double stored) const { return info_.calibration.reported(stored); }
 
-    /// Shortest text that means this value again; infinities: "never".
+    /// Shortest text that reads back as this value; infinities: "never".
     [[nodiscard]] std::string text(double stored) const;
     /// For tables: as text(), but never more than about nine characters.
     [[nodiscard]] std::string brief(double stored) const;
-    /// Seven digits, or as many more as it takes to stay in (low, high]: where nothing changes.
+    /// Seven digits, or as many more as needed to stay in (low, high], where the topology is constant.
     [[nodiscard]] std::string text_within(double stored, double low, double high) const;
 
 private:
-    VolumeInfo info_;  ///< of which calibration and type
+    VolumeInfo info_;  ///< calibration and type
 };
 
 /// "16,777,216"
@@ -41,13 +41,13 @@ private:
 /// "interpolant trilinear, tunnel height 0.25"; the height is given in stored values
 [[nodiscard]] std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, double tunnel_height);
 
-/// The unit of volumes (areas in 2D) that suits numbers up to `largest`: of mm3, cm3, dm3, ... Factor: multiply by it.
+/// The unit of volumes (areas in 2D) for numbers up to `largest`: mm3, cm3, dm3, ... Multiply values by the factor.
 struct MeasureUnit {
     std::string name;
     double factor = 1;
 };
 [[nodiscard]] MeasureUnit measure_unit(const VolumeInfo& info, double largest);
-/// The unit of volumes as the file has it: "mm3", "voxels", or "units3" when the file does not say.
+/// The unit of volumes as the file has it: "mm3", "voxels", or "units3" when the file names no unit.
 [[nodiscard]] std::string plain_measure_unit(const VolumeInfo& info);
 
 /// "512 x 512 x 420"

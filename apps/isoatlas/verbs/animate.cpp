@@ -1,4 +1,4 @@
-// isoatlas animate: objects turning around, or appearing, merging and changing while the isovalue moves.
+// isoatlas animate: a turntable of objects, or their evolution while the isovalue changes.
 #include <algorithm>
 #include <map>
 
@@ -17,7 +17,7 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr Colour kRest{0.62, 0.64, 0.66};  // of what is not kept
+constexpr Colour kRest{0.62, 0.64, 0.66};  // of objects that are not kept
 
 struct Made {
     Animation animation;
@@ -55,7 +55,7 @@ void append(Surface& to, const Surface& from) {
     to.tau = from.tau, to.unit = from.unit;
 }
 
-/// Kept objects in the colours of their ranks, which stay with them while the isovalue moves; the others grey, unless they were asked away.
+/// Kept objects in the colours of their ranks, constant over all isovalues; the others grey, unless a selection hides them.
 Scene scene_at(const Surface& surface, const std::map<std::int64_t, std::int64_t>& kept, bool others, const std::string& unit) {
     Scene scene;
     scene.unit = unit;
@@ -76,7 +76,7 @@ std::string part_text(std::int64_t kept, std::int64_t all, const std::string& on
     return kept == all ? counted(all, one, many) : fmt::format("{} of {}", count_text(kept), counted(all, one, many));
 }
 
-/// What happened is told of what is kept: with noise, something happens to everything else at every isovalue.
+/// Captions report events of kept objects: with noise, the others have events at every isovalue.
 std::vector<std::string> caption(const Frame& frame, const Frame* before, const Scale& scale) {
     std::string happened;
     const auto add = [&](const std::string& what) { happened += (happened.empty() ? "" : ", ") + what; };
@@ -117,7 +117,7 @@ Made evolve(const Arguments& arguments, Source& source, RenderOptions options) {
     const std::vector<double> taus = isovalues(arguments, source);
     const Scale scale(source.info());
     const Evolution evolution(arguments, source);
-    // The camera stays where it sees the largest surface best.
+    // The camera is fixed at the best view of the largest surface.
     Scene largest;
     largest.objects.push_back({.surface = source.extract(*std::min_element(taus.begin(), taus.end()), {}), .colour = palette(0)});
     const View view = picture.view ? *picture.view : best_view(largest, picture.up, source.context());
@@ -148,7 +148,7 @@ Made turntable(const Arguments& arguments, Source& source, const RenderOptions& 
     Made made;
     for (std::int64_t i = 0; i < picture.animation.steps; ++i) {
         stop_if_interrupted();
-        camera.view = turned(view, picture.up, 360 * static_cast<double>(i) / static_cast<double>(picture.animation.steps));
+        camera.view = rotated(view, picture.up, 360 * static_cast<double>(i) / static_cast<double>(picture.animation.steps));
         made.animation.frames.push_back(render_scene(scene, camera, options, source.context()));
     }
     return made;
@@ -188,12 +188,12 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".gif", ".webp", ".png", ".apng", ".mp4"});
     check_movie(arguments.output);
     if (wanted.from.has_value() != wanted.to.has_value()) {
-        throw Error(ErrorKind::usage, {.what = "--from and --to belong together",
-                                       .next = "give both isovalues; or leave both out: then the objects turn around"});
+        throw Error(ErrorKind::usage,
+                    {.what = "--from and --to must be given together", .next = "give both isovalues, or omit both for a turntable"});
     }
     if (arguments.selects && !wanted.from)
         throw Error(ErrorKind::usage,
-                    {.what = "a selection is for an evolution", .next = "give --from and --to, or leave out the selection"});
+                    {.what = "a selection applies to an evolution only", .next = "give --from and --to, or omit the selection"});
     Source source(arguments, terminal);
     RenderOptions options = options_of_picture(arguments.picture);
     Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, source, options);
@@ -204,7 +204,7 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
     } else {
         const Image& first = made.animation.frames[0];
         if (made.exact_tunnels && !*made.exact_tunnels)
-            terminal.say("the tunnels that are told are approximate: the one that opened last is taken to close first");
+            terminal.say("note: tunnel counts are approximate: the tunnel that opened last is assumed to close first");
         terminal.out() << fmt::format("{}: {}, {} x {} pixels\n", shown_name(arguments.output),
                                       counted(static_cast<std::int64_t>(made.animation.frames.size()), "frame"), first.width, first.height);
     }

@@ -1,4 +1,4 @@
-// isoatlas ask ADDRESS QUESTION: what a running viewer knows, on standard output or in a file.
+// isoatlas ask ADDRESS REQUEST: the response of a running viewer, on standard output or in a file.
 #include "text/document.h"
 #include "text/terminal.h"
 #include "text/values.h"
@@ -7,16 +7,16 @@
 namespace isoatlas::cli {
 namespace {
 
-/// What opens the viewer does not belong here: every user of this machine sees the words of a command.
+/// Rejects addresses with a secret: every user of this machine sees the arguments of a command.
 void refuse_secrets(const std::string& address) {
     const std::size_t path = address.find('/', address.find("//") == std::string::npos ? 0 : address.find("//") + 2);
     if (path == std::string::npos || address.find('?', path) == std::string::npos) return;
     const std::string server = address.substr(0, path);
     throw Error(ErrorKind::usage,
                 {.where = server,
-                 .what = "what follows this address is a secret, and every user of this machine sees the words of a command",
+                 .what = "the address contains a secret, and every user of this machine sees the arguments of a command",
                  .expected = "the address up to its port: the token is in a file that only you can read, or in ISOATLAS_TOKEN",
-                 .next = "isoatlas ask " + server + " QUESTION"});
+                 .next = "isoatlas ask " + server + " REQUEST"});
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ int run_ask(const Arguments& arguments, Terminal& terminal) {
         if (answer.type != "application/json") {
             throw Error(ErrorKind::usage,
                         {.where = question,
-                         .what = "the answer is " + bytes_text(static_cast<double>(answer.bytes.size())) + " of " + answer.type,
+                         .what = "the response is " + bytes_text(static_cast<double>(answer.bytes.size())) + " of " + answer.type,
                          .next = "give a file for it: -o FILE"});
         }
         terminal.out() << answer.bytes << '\n';

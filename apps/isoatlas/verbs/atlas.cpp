@@ -1,4 +1,4 @@
-// isoatlas FILE: from a volume to the page that shows what is in it. Builds the store beside the page when there is none.
+// isoatlas FILE: writes the page of the objects of a volume. Builds the store beside the page when there is none.
 #include "data/session.h"
 #include "data/store_beside.h"
 #include "text/document.h"
@@ -33,7 +33,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         print(terminal, json);
         return 0;
     }
-    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << count_text(report.cavities) << " of dark objects; "
+    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << count_text(report.cavities) << " of cavities; "
                    << counted(report.hidden, "object") << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
     terminal.next("open " + page + " in a browser");
     return 0;

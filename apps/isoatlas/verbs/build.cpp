@@ -1,4 +1,4 @@
-// isoatlas build: a volume, its trees and its bricks in one file that serves any surface without reading the rest.
+// isoatlas build: a volume, its trees and its bricks in one file, from which any surface is extracted without reading the rest.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -50,9 +50,9 @@ Json estimate_json(const BuildEstimate& estimate) {
     return json;
 }
 
-/// Prints what a build would take, and fails as it would.
+/// Prints the estimate of a build; throws where the build would.
 int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader, BuildOptions options) {
-    if (options.tunnel_height_percent > 0) {  // of the samples before they are filtered: near enough to count elements
+    if (options.tunnel_height_percent > 0) {  // of the unfiltered samples: accurate enough to count elements
         const ValueRange range = range_of(reader);
         options.analysis.tunnel_height = options.tunnel_height_percent / 100 * (range.high - range.low);
     }
@@ -75,7 +75,7 @@ int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader
     return 0;
 }
 
-/// What a folder holds that no build makes, as the end of a sentence.
+/// Lists foreign files in the folder, as the end of a sentence.
 std::string others_in(const std::string& folder) {
     std::string names;
     std::error_code failed;
@@ -84,7 +84,7 @@ std::string others_in(const std::string& folder) {
         if (name != "lock") names += (names.empty() ? "" : ", ") + name;
         if (names.size() > 200) break;
     }
-    return names.empty() ? ": remove it" : ": it holds " + names + ", which no build has made";
+    return names.empty() ? ": remove it" : ": it holds " + names + ", not written by a build";
 }
 
 void print_report(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const BuildReport& report) {
@@ -139,12 +139,12 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
             bar(progress);
             if (watch) watch(progress);
         };
-        const WritingGuard guard("stopped: finished phases are kept; the same command goes on from them, --restart begins anew");
+        const WritingGuard guard("stopped: finished phases are kept; the same command resumes, --restart starts over");
         report = build_atlas(arguments.output, reader, build_options(arguments, reader.info()), context);
     }
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
     for (const std::string& phases : report.not_used) terminal.say("note: " + phases);
-    for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" had been finished before");
+    for (const std::string& phase : report.resumed) terminal.say("note: the phase \"" + phase + "\" was finished by an earlier build");
     if (!report.left_behind.empty())
         terminal.say("note: the store is complete; " + report.left_behind + " stays" + others_in(report.left_behind));
     return report;
@@ -154,7 +154,7 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".atlas"});
     if (is_atlas(arguments.file)) {
         throw Error(ErrorKind::usage,
-                    {.file = arguments.file, .what = "is a store already", .expected = "a volume", .next = "name the volume file"});
+                    {.file = arguments.file, .what = "is already a store", .expected = "a volume", .next = "name the volume file"});
     }
     const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
     if (arguments.dry_run) return dry_run(arguments, terminal, *reader, build_options(arguments, reader->info()));

@@ -1,4 +1,4 @@
-// isoatlas dump: any part of a store as it lies in the file.
+// isoatlas dump: any part of a store as stored in the file.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace isoatlas::cli {
 namespace {
 
-/// The numbers of a part, read a stretch at a time.
+/// The numbers of a part, read in pieces.
 class Numbers {
     static constexpr std::int64_t kStretch = 1 << 16;
 
@@ -29,7 +29,7 @@ class Numbers {
 
 public:
     Numbers(const StoreDump& store, const StorePart& part) : store_(store), part_(part) {}
-    /// Reads all of them, so that nothing is printed of a part that is damaged.
+    /// Reads all of them first, so that nothing of a damaged part is printed.
     void check() {
         for (std::int64_t i = part_.first; i < part_.end; i += kStretch) (void)json(i);
     }

@@ -24,11 +24,11 @@ const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
         {.file = arguments.file, .what = what, .next = "isoatlas objects " + shell_word(arguments.file) + " lists them; or give --tau"});
 }
 
-/// The best isovalue of the objects asked for. With --best and no --object, the first line of the table is the object.
+/// The best isovalue of the selected objects. With --best and no --object: the object of the first line of the table.
 double best_tau(const Arguments& arguments, Source& source, ExtractOptions& options) {
     ObjectTable table = source.objects({});
     if (options.objects.empty()) {
-        if (table.entries.empty()) no_such_entry(arguments, "nothing in this volume rises above the noise");
+        if (table.entries.empty()) no_such_entry(arguments, "no object of this volume is above the noise level");
         options.objects = {table.entries[0].id};
     }
     const auto known = [&](std::int64_t id) { return find(table, id) != nullptr; };
@@ -57,12 +57,12 @@ void check_arguments(const Arguments& arguments) {
                      .next = "isoatlas objects " + shell_word(arguments.file) + " lists the isovalues that show something"});
     }
     if (arguments.tau && arguments.best) {
-        throw Error(ErrorKind::usage, {.what = "--tau and --best contradict each other", .next = "leave one of them out"});
+        throw Error(ErrorKind::usage, {.what = "--tau and --best contradict each other", .next = "omit one of them"});
     }
     check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
 }
 
-/// Ids are voxel indices: one beyond the volume is no object, whatever the isovalue.
+/// Ids are voxel indices: one beyond the volume is not an object at any isovalue.
 void check_ids(const Arguments& arguments, const VolumeInfo& info) {
     for (const std::vector<std::int64_t>* ids : {&arguments.objects, &arguments.contours}) {
         for (const std::int64_t id : *ids) {

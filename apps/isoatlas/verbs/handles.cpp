@@ -1,4 +1,4 @@
-// isoatlas handles: from which isovalue to which does a tunnel live?
+// isoatlas handles: the isovalues at which tunnels open and close.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ void print_text(Terminal& terminal, Source& source, const std::vector<Handle>& h
     for (std::int64_t i = 0; i < shown; ++i) {
         const Handle& handle = handles[static_cast<std::size_t>(i)];
         table.add({fmt::format("{}", i + 1), scale.brief(handle.opens), scale.brief(handle.closes), place_text(handle.opened_at),
-                   handle.is_open ? "still open, its object merges" : place_text(handle.closed_at)});
+                   handle.is_open ? "open when its object merges" : place_text(handle.closed_at)});
     }
     terminal.say(fmt::format("{}; pairs are {}; {}", counted(static_cast<std::int64_t>(handles.size()), "tunnel"),
                              exact ? "exact" : "approximate: the tunnel that opened last closes first",
@@ -48,7 +48,7 @@ std::int64_t wanted_event(const Arguments& arguments, const Analysis& analysis) 
     const std::int64_t event = event_of_highest(analysis, arguments.objects[0]);
     if (event >= 0) return event;
     throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                       .what = fmt::format("voxel {} is not the highest of an object", arguments.objects[0]),
+                                       .what = fmt::format("voxel {} is not the highest voxel of an object", arguments.objects[0]),
                                        .expected = "an id of the table of objects",
                                        .next = "isoatlas objects " + shell_word(arguments.file) + " lists ids"});
 }
@@ -63,7 +63,7 @@ std::vector<Handle> find_handles(const Arguments& arguments, Source& source) {
 
 void check_arguments(const Arguments& arguments) {
     if (!arguments.exact && !arguments.objects.empty())
-        throw Error(ErrorKind::usage, {.what = "--object is for exact pairs", .next = "add --exact"});
+        throw Error(ErrorKind::usage, {.what = "--object applies to exact pairs only", .next = "add --exact"});
     if (arguments.objects.size() > 1) throw Error(ErrorKind::usage, {.what = "one object at a time", .next = "give --object once"});
 }
 

@@ -1,4 +1,4 @@
-// isoatlas info: what the file is, and what an analysis of it would cost.
+// isoatlas info: describes a file and the cost of its analysis.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -17,7 +17,7 @@
 namespace isoatlas::cli {
 namespace {
 
-/// Above this many bytes of samples the values are not read: `info` must answer at once.
+/// Above this many bytes of samples the values are not read, to keep `info` fast.
 constexpr double kReadLimit = 2e9;
 
 struct Values {
@@ -158,7 +158,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
 
 [[noreturn]] void refuse_tau(const Arguments& arguments) {
     throw Error(ErrorKind::usage, {.file = arguments.file,
-                                   .what = "--tau asks what a surface will cost, and only a store knows before it is read",
+                                   .what = "--tau previews a surface, which requires a store",
                                    .next = "isoatlas build " + shell_word(arguments.file) + " -o FILE.atlas; or isoatlas objects --tau T"});
 }
 
@@ -181,7 +181,7 @@ int run_info(const Arguments& arguments, Terminal& terminal) {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
         info = reader->info();
         values = read_values(*reader, session);
-        info.notes = reader->info().notes;  // what is known at the end of the file only
+        info.notes = reader->info().notes;  // notes found at the end of the file
     }
     if (arguments.voxel_units) info.geometry = Geometry{};
     if (arguments.json) {

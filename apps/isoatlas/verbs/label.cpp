@@ -76,14 +76,14 @@ Labels label_zones(const Arguments& arguments, Source& source, Terminal& termina
 
 void check_arguments(const Arguments& arguments) {
     if (arguments.tau.has_value() == arguments.zones) {
-        throw Error(ErrorKind::usage, {.what = arguments.zones ? "--tau and --zones contradict each other" : "what is to be labelled?",
+        throw Error(ErrorKind::usage, {.what = arguments.zones ? "--tau and --zones contradict each other" : "nothing to label",
                                        .expected = "--tau T for the objects at an isovalue, or --zones",
                                        .next = "isoatlas label --help"});
     }
     if (arguments.cavities && arguments.zones)
         throw Error(ErrorKind::usage, {.what = "--cavities and --zones contradict each other", .next = "isoatlas label --help"});
     if (arguments.selects && !arguments.zones)
-        throw Error(ErrorKind::usage, {.what = "a selection is for --zones", .next = "isoatlas label --help"});
+        throw Error(ErrorKind::usage, {.what = "a selection applies to --zones only", .next = "isoatlas label --help"});
     check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
 }
 

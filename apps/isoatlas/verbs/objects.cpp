@@ -1,4 +1,4 @@
-// isoatlas objects: the table people come for, or every object at one isovalue.
+// isoatlas objects: the table of significant objects, or every object at one isovalue.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "data/source.h"
-#include "text/dark_table.h"
+#include "text/cavity_table.h"
 #include "text/document.h"
 #include "text/entry_json.h"
 #include "text/simplified.h"
@@ -27,7 +27,7 @@ std::string extract_command(const Arguments& arguments, std::int64_t id, const s
                        tau, id);
 }
 
-// The table: objects at their own best isovalues.
+// The table: objects at their best isovalues.
 
 Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
     Json json{{"id", entry.id}, {"event", entry.event}};
@@ -44,7 +44,7 @@ Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const Volume
     return json;
 }
 
-/// Objects, not lines.
+/// Number of objects, which may have several lines.
 std::int64_t shown_objects(const ObjectTable& table) {
     std::set<std::array<double, 4>> branches;  // no two objects have the same peak and the same size
     for (const ObjectEntry& entry : table.entries) {
@@ -54,7 +54,7 @@ std::int64_t shown_objects(const ObjectTable& table) {
     return static_cast<std::int64_t>(branches.size());
 }
 
-/// dark: listed too; null: not asked for.
+/// cavities: listed too; may be null.
 void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const CavityTable* cavities = nullptr) {
     const VolumeInfo& info = source.info();
     const Scale scale(info);
@@ -77,12 +77,12 @@ void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
     const VolumeInfo& info = source.info();
     const auto lines = static_cast<std::int64_t>(table.entries.size());
     const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * info.calibration.slope) : "";
-    terminal.say(fmt::format("{} in all, {} hidden; {} to look at, some objects at several isovalues{}; {}",
+    terminal.say(fmt::format("{} in all, {} hidden; {} listed, some objects at several isovalues{}; {}",
                              counted(table.branches, "maximum", "maxima"), count_text(table.branches - shown_objects(table)),
                              counted(lines, "line"), noise, interpolant_text(info, source.interpolant(), source.tunnel_height())));
 }
 
-/// Isovalues that no line of the table has.
+/// Recommended isovalues without a line of their own.
 void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Scale& scale) {
     std::set<std::pair<std::int64_t, double>> told;
     for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top, entry.best_tau);
@@ -98,7 +98,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
     const Sizes sizes(source.info(), largest_measure(table.entries));
     std::vector<Table::Column> columns{{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
     sizes.add_titles(columns);
-    columns.insert(columns.end(), {{"why there", true}, {"note", true}});
+    columns.insert(columns.end(), {{"reason", true}, {"note", true}});
     Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
@@ -113,13 +113,13 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
     text.print(terminal);
     tell_other_isovalues(terminal, table, scale);
     if (table.entries.empty()) {
-        terminal.say("nothing rises above the noise; --all lists everything");
+        terminal.say("no object is above the noise level; --all lists all objects");
         return;
     }
     terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], scale)));
 }
 
-/// Dark objects, after the bright ones when both are asked for.
+/// Cavities; with --both after the objects.
 int list_cavities(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
     if (!arguments.both) {
         print_cavities(terminal, arguments, source, source.cavities(options));
@@ -233,8 +233,8 @@ int list_at(const Arguments& arguments, Terminal& terminal) {
 
 int run_objects(const Arguments& arguments, Terminal& terminal) {
     if (arguments.tau && (arguments.selects || !arguments.curve.empty())) {
-        throw Error(ErrorKind::usage, {.what = "a selection is for the table of best isovalues, not for one isovalue",
-                                       .next = "leave out --tau, or the selection"});
+        throw Error(ErrorKind::usage, {.what = "a selection applies to the table of best isovalues, not to one isovalue",
+                                       .next = "omit --tau, or the selection"});
     }
     if (arguments.tau && (arguments.cavities || arguments.both)) {
         throw Error(ErrorKind::usage,

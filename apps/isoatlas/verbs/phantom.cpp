@@ -23,7 +23,7 @@ void list(const Arguments& arguments, Terminal& terminal) {
         print(terminal, json);
         return;
     }
-    Table table({{"name", true}, {"size"}, {"what it is", true}});
+    Table table({{"name", true}, {"size"}, {"description", true}});
     for (const PhantomDescription& phantom : known) table.add({phantom.name, fmt::format("{}", phantom.default_size), phantom.summary});
     table.print(terminal);
     terminal.next(fmt::format("isoatlas phantom {0} -o {0}.nrrd", known.at(0).name));
@@ -32,11 +32,10 @@ void list(const Arguments& arguments, Terminal& terminal) {
 void check_arguments(const Arguments& arguments) {
     if (arguments.file.empty()) throw Error(ErrorKind::usage, {.what = "which phantom?", .next = "isoatlas phantom --list"});
     if (arguments.output.empty()) {
-        throw Error(ErrorKind::usage,
-                    {.what = "where should the phantom go?", .expected = "-o FILE", .next = "add -o " + arguments.file + ".nrrd"});
+        throw Error(ErrorKind::usage, {.what = "no output file", .expected = "-o FILE", .next = "add -o " + arguments.file + ".nrrd"});
     }
     Arguments generated = arguments;
-    generated.file.clear();  // a name, not an input file that the output could overwrite
+    generated.file.clear();  // a name, not an input file that -o could overwrite
     check_output(generated, {".nrrd", ".npy", ".raw", ".mha", ".nii"});
 }
 

@@ -58,14 +58,14 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
     return json;
 }
 
-/// A slice that has z in its plane shows it upwards; --up -z turns it around.
+/// A slice that has z in its plane shows it upwards; --up -z flips it.
 Image upright(Image slice, const PictureArguments& picture) {
     if (picture.slices[0].axis == 2 || picture.up[2] >= 0) return slice;
-    Image turned(slice.width, slice.height);
+    Image rotated(slice.width, slice.height);
     for (std::int64_t y = 0; y < slice.height; ++y) {
-        for (std::int64_t x = 0; x < slice.width; ++x) std::copy_n(slice.at(x, y), 4, turned.at(slice.width - 1 - x, slice.height - 1 - y));
+        for (std::int64_t x = 0; x < slice.width; ++x) std::copy_n(slice.at(x, y), 4, rotated.at(slice.width - 1 - x, slice.height - 1 - y));
     }
-    return turned;
+    return rotated;
 }
 
 std::string contents_text(const Scene& scene) {

@@ -1,4 +1,4 @@
-// isoatlas spectrum: what there is at every isovalue.
+// isoatlas spectrum: topology and size at every isovalue.
 #include <cmath>
 
 #include <fmt/format.h>

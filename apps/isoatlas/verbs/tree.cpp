@@ -1,4 +1,4 @@
-// isoatlas tree: every topological change of a volume, as a file, as JSON, or as a summary to read.
+// isoatlas tree: the criticality tree, as a file, as JSON, or as a summary.
 #include <algorithm>
 #include <map>
 #include <unordered_map>
@@ -43,7 +43,7 @@ void print_counts(Terminal& terminal, const Volume& volume, const Analysis& anal
                    << counted(analysis.element_count(), "critical element") << "; " << interpolant_of(volume, analysis) << "\n\n";
 }
 
-/// The largest zones, each indented below its nearest ancestor that is shown too.
+/// The largest zones, each indented below its nearest ancestor in the list.
 void print_largest_zones(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     const Scale scale(volume.info);
     std::vector<std::pair<std::int64_t, std::int64_t>> largest;  // (-voxels, id)
@@ -130,7 +130,7 @@ void print_summary(Terminal& terminal, const Arguments& arguments, const Volume&
         case TreeDetail::contours: print_contours(terminal, volume, analysis); break;
     }
     const std::string file = shell_word(arguments.file) + reading_options(arguments);
-    terminal.next("isoatlas objects " + file + "    # which of them matter");
+    terminal.next("isoatlas objects " + file + "    # the significant objects");
     terminal.next("isoatlas tree " + file + " -o tree.json    # also .graphml .csv .vtu");
 }
 
@@ -154,7 +154,7 @@ int run_tree(const Arguments& arguments, Terminal& terminal) {
     if (arguments.selects) return run_simplified_tree(arguments, terminal);
     Source source(arguments, terminal);
     const Analysis analysis = source.analysis(false);
-    Volume volume;  // what is written needs its header only
+    Volume volume;  // the document needs the header only
     volume.info = source.info();
     stop_if_interrupted();
     if (!arguments.output.empty()) {

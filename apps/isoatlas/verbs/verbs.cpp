@@ -8,23 +8,23 @@ const std::vector<Verb>& verbs() {
     static const std::vector<Verb> list{
         {"atlas",
          "VOLUME",
-         "Show what is in a volume: a page with a picture of every object that matters. `isoatlas FILE` does the same.",
+         "Write a page with pictures of the significant objects of a volume. `isoatlas FILE` does the same.",
          {"isoatlas atlas scan.nii.gz", "isoatlas atlas scan.nii.gz -o scan.html --top 10", "isoatlas atlas scan.atlas --json"},
          run_atlas},
         {"view",
          "VOLUME",
-         "Explore a volume in a browser: turn its objects, move their isovalues, read what they are.",
+         "Explore a volume in a browser: its objects, isovalues and measures.",
          {"isoatlas view scan.nii.gz", "isoatlas view scan.atlas --port 8080 --no-browser", "isoatlas view scan.atlas --json"},
          run_view},
         {"ask",
          "ADDRESS",
-         "Ask a running viewer: what its page asks, on standard output or in a file.",
+         "Send a request to a running viewer; the response goes to standard output or a file.",
          {"isoatlas ask http://127.0.0.1:8080 '/api/objects?tau=300'", "isoatlas ask 8080 '/api/surface?tau=300&format=stl' -o bone.stl",
           "isoatlas ask 8080 /api/address"},
          run_ask},
         {"info",
          "VOLUME",
-         "Say what a file is and what an analysis would cost.",
+         "Describe a file and estimate the cost of an analysis.",
          {"isoatlas info scan.nii.gz", "isoatlas info head.raw --dims 256x256x128 --type uint16 --endian big",
           "isoatlas info scan.nrrd --json", "isoatlas info scan.atlas --tau 300"},
          run_info},
@@ -42,13 +42,13 @@ const std::vector<Verb>& verbs() {
          run_extract},
         {"render",
          "VOLUME",
-         "Draw a picture: objects at their isovalues, nested, transparent or cut open.",
+         "Render a picture: objects at their isovalues, nested, transparent or clipped.",
          {"isoatlas render scan.nii.gz -o best.png", "isoatlas render scan.nii.gz --tau 300 --tau 1200 --cut octant -o head.png",
           "isoatlas render scan.atlas --object 81275 --object 90210@150 --view front -o parts.png"},
          run_render},
         {"animate",
          "VOLUME",
-         "Make an animation: things turn around, or appear and merge while the isovalue moves.",
+         "Render an animation: a turntable, or the evolution of objects over the isovalue.",
          {"isoatlas animate scan.nii.gz --tau 300 -o turn.gif",
           "isoatlas animate scan.atlas --from 1200 --to 300 --steps 48 -o evolution.webp",
           "isoatlas animate scan.nii.gz --top 3 --cut half --steps 72 --fps 24 -o turn.mp4"},
@@ -67,7 +67,7 @@ const std::vector<Verb>& verbs() {
          run_label},
         {"spectrum",
          "VOLUME",
-         "Show what there is at every isovalue: objects, contours, tunnels, cavities, and how large the surface is.",
+         "Show objects, contours, tunnels, cavities and surface size at every isovalue.",
          {"isoatlas spectrum scan.nii.gz", "isoatlas spectrum scan.nii.gz -o spectrum.svg",
           "isoatlas spectrum scan.atlas --samples 100 --json"},
          run_spectrum},
@@ -79,13 +79,13 @@ const std::vector<Verb>& verbs() {
          run_handles},
         {"build",
          "VOLUME",
-         "Put a volume, its trees and its bricks into one file; the other verbs take it wherever they take a volume.",
+         "Write a store: a volume, its trees and its bricks in one file that all verbs read.",
          {"isoatlas build scan.nii.gz -o scan.atlas", "isoatlas build scan.nii.gz -o smooth.atlas --gaussian 1.5",
           "isoatlas build scan.nii.gz -o scan.atlas --json"},
          run_build},
         {"convert",
          "VOLUME",
-         "Write the samples of a volume, or those that a store was built of, as a volume file.",
+         "Write the samples of a volume or of a store as a volume file.",
          {"isoatlas convert scan.atlas -o scan.nrrd", "isoatlas convert scan.nii.gz -o smooth.nrrd --gaussian 1.5",
           "isoatlas convert scan.nrrd -o part.npy --box 40:60,50:70,30:50"},
          run_convert},
@@ -97,7 +97,7 @@ const std::vector<Verb>& verbs() {
          run_phantom},
         {"verify",
          "MESH|VOLUME",
-         "Prove the guarantees for a surface file, a volume or a store; exit code 7 when one fails.",
+         "Check the guarantees of a surface file, a volume or a store; exit code 7 when one fails.",
          {"isoatlas verify bone.ply", "isoatlas verify scan.nii.gz --levels 20", "isoatlas verify scan.atlas --full",
           "isoatlas verify part.stl --json"},
          run_verify},
@@ -134,10 +134,10 @@ std::string greeting() {
     return "isoatlas " ISOATLAS_VERSION
            ": which objects are in a volume, and at which isovalues?\n"
            "\n"
-           "  isoatlas scan.nii.gz                                  a page that shows them\n"
+           "  isoatlas scan.nii.gz                                  write a page of them\n"
            "  isoatlas objects scan.nii.gz                          list them\n"
            "  isoatlas extract scan.nii.gz --tau 300 -o bone.ply    write a watertight surface\n"
-           "  isoatlas phantom --list                               no data at hand? make some\n"
+           "  isoatlas phantom --list                               list of test volumes\n"
            "\n"
            "All verbs: isoatlas --help. One verb: isoatlas help VERB.\n";
 }
@@ -147,10 +147,10 @@ std::string overview() {
     for (const Verb& verb : verbs()) text += fmt::format("  {:<11} {:<12} {}\n", verb.name, verb.operand, verb.summary);
     text +=
         "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
-        "Results go to standard output, talk and progress to standard error.\n"
+        "Results go to standard output, messages and progress to standard error.\n"
         "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti, TIFF files and folders of TIFF slices.\n"
         "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
-        "6 no such object or isovalue, 7 a guarantee does not hold, 130 stopped.\n";
+        "6 no such object or isovalue, 7 a guarantee does not hold, 130 interrupted.\n";
     return text;
 }
 

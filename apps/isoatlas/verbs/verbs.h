@@ -19,9 +19,9 @@ int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
-/// What the options say about a build of a volume.
+/// Build options of a volume.
 [[nodiscard]] BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info);
-/// Builds arguments.output and says what there is to say about it. watch: hears the progress too; may be empty.
+/// Builds arguments.output and prints its notes. watch: receives the progress too; may be empty.
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
                         const std::function<void(const Progress&)>& watch = {});
 int run_build(const Arguments& arguments, Terminal& terminal);
@@ -42,13 +42,13 @@ struct Verb {
     int (*run)(const Arguments&, Terminal&);
 };
 
-/// In the order in which people need them.
+/// In the order of the help.
 [[nodiscard]] const std::vector<Verb>& verbs();
 
 /// nullptr when there is no such verb.
 [[nodiscard]] const Verb* find_verb(const std::string& name);
 
-/// What `isoatlas` alone prints, and what `isoatlas --help` prints.
+/// Output of `isoatlas` alone, and of `isoatlas --help`.
 [[nodiscard]] std::string greeting();
 [[nodiscard]] std::string overview();
 

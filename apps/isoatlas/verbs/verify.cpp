@@ -60,7 +60,7 @@ std::string sample_text(const VerifyOptions& options) {
     const std::string isovalues = fmt::format("{} isovalues drawn with seed {} and both ends of the range", options.levels, options.seed);
     return options.full
                ? "all objects at " + isovalues
-               : fmt::format("{} objects at each of {}; --full takes all objects and makes the tree anew", options.objects, isovalues);
+               : fmt::format("{} objects at each of {}; --full checks all objects and recomputes the tree", options.objects, isovalues);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// isoatlas view FILE: a store behind a local address, and the page that explores it in a browser.
+// isoatlas view FILE: serves a store and its viewer page on a local address.
 #include <cstdlib>
 #include <optional>
 #include <thread>
@@ -18,7 +18,7 @@
 namespace isoatlas::cli {
 namespace {
 
-/// Asks the desktop, where there is one, to open an address, and does not wait for it. Nothing happens elsewhere.
+/// Opens an address in the browser of the desktop, without waiting. Does nothing without a desktop.
 void open_in_browser(const std::string& address) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
     std::string program = "xdg-open", word = address;
@@ -27,7 +27,7 @@ void open_in_browser(const std::string& address) {
     (void)posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ);
 }
 
-/// Does somebody type who can be asked to press a key?
+/// Is standard input an interactive terminal of this process group?
 bool has_keyboard() { return ::isatty(STDIN_FILENO) == 1 && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
 
 void print_address(const Arguments& arguments, Terminal& terminal, Server& server, const std::string& store) {
@@ -41,12 +41,12 @@ void print_address(const Arguments& arguments, Terminal& terminal, Server& serve
     } else {
         terminal.out() << server.address_for_one_use() << '\n';
         const std::string another = has_keyboard() ? "Enter" : "isoatlas ask " + server.address() + " /api/address";
-        terminal.next("open it in a browser, where it opens once; " + another + " gives one for another browser; Ctrl-C ends the viewer");
+        terminal.next("open it in a browser; it works once; " + another + " prints another one; Ctrl-C ends the viewer");
     }
     terminal.out() << std::flush;
 }
 
-/// A server that answers from now on.
+/// Runs a server in a thread.
 class Answering {
 public:
     explicit Answering(Server& server) : server_(server), thread_([&server] { server.run(); }) {}
@@ -62,7 +62,7 @@ private:
     std::thread thread_;
 };
 
-/// Every arena of the allocator keeps what its largest answer has needed: few of them, not one for each connection.
+/// Every arena of the allocator keeps the memory of its largest response: few arenas, not one for each connection.
 void keep_memory_flat() { (void)::mallopt(M_ARENA_MAX, 2); }
 
 Context context_of(const Arguments& arguments) {
@@ -71,14 +71,14 @@ Context context_of(const Arguments& arguments) {
     return context;
 }
 
-/// While the browser starts.
+/// Prepares responses while the browser starts.
 void prepare(Server& server) {
     Context context;
     context.cancelled = interrupted;
     server.prepare(context);
 }
 
-/// The token is set by who starts the viewer, or found by other commands of this user.
+/// The token of the environment; else a random one, stored for other commands of this user.
 ServerOptions server_options(const Arguments& arguments) {
     const char* token = std::getenv("ISOATLAS_TOKEN");
     return {.port = arguments.port, .token = token == nullptr ? "" : token, .memory = arguments.memory};
@@ -88,11 +88,11 @@ void keep_token(Server& server, Terminal& terminal) {
     try {
         server.keep_token();
     } catch (const Error& error) {
-        terminal.say(std::string("note: `isoatlas ask` will not find this viewer by itself: ") + error.what());
+        terminal.say(std::string("note: `isoatlas ask` cannot read the token of this viewer: ") + error.what());
     }
 }
 
-/// A new address at each Enter.
+/// Prints a new address at each Enter.
 void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& server) {
     constexpr int kLook = 100;  // milliseconds
     while (!interrupted()) {
@@ -102,7 +102,7 @@ void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& se
         if (::read(STDIN_FILENO, typed, sizeof typed) > 0) {
             terminal.out() << server.address_for_one_use() << '\n' << std::flush;
         } else {
-            std::this_thread::sleep_for(std::chrono::milliseconds(kLook));  // the end of input: nothing will be typed
+            std::this_thread::sleep_for(std::chrono::milliseconds(kLook));  // end of input
         }
     }
 }
@@ -132,10 +132,9 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
             server.open(*atlas);
         } catch (const Error& error) {
             if (interrupted()) return 0;
-            server.fail(error);  // it stays there for the page, which tells it too
+            server.fail(error);  // the page shows it too
             code = report(error, arguments.json, terminal);
-            terminal.say("note: there is no store to show, and the page says why; Ctrl-C ends the viewer with exit code " +
-                         std::to_string(code));
+            terminal.say("note: there is no store to show, see the page; Ctrl-C ends the viewer with exit code " + std::to_string(code));
         }
     }
     if (atlas) prepare(server);

@@ -93,7 +93,7 @@ private:
         padding_ = 0;
     }
 
-    /// Whether there are decoded bytes, after decoding the next piece of text if need be.
+    /// Ensures decoded bytes by decoding the next piece of text if necessary. False at the end.
     bool decode_more() {
         while (ready_.empty() && next_ < end_) {
             const auto wanted = static_cast<std::size_t>(std::min<std::int64_t>(end_ - next_, kBufferBytes));
@@ -112,7 +112,7 @@ private:
                 end_ = next_;  // the text ends in this piece
                 return;
             }
-            if (code == kBad) fail("a character is not base64: " + quoted(std::string_view(&c, 1)), "A-Z a-z 0-9 + / =");
+            if (code == kBad) fail("a character is not base64: " + in_quotes(std::string_view(&c, 1)), "A-Z a-z 0-9 + / =");
             take_code(code);
         }
     }
@@ -128,12 +128,12 @@ private:
     std::string path_;
     std::unique_ptr<File> file_;
     std::int64_t begin_, end_;
-    std::int64_t next_;  ///< offset in the file behind the text decoded so far
+    std::int64_t next_;  ///< offset in the file after the decoded text
     std::vector<std::byte> text_;
     std::vector<std::byte> ready_;  ///< decoded bytes
     std::size_t taken_ = 0;         ///< of ready_
     std::int64_t position_ = 0;     ///< in the decoded stream
-    std::uint32_t bits_ = 0;        ///< the group so far: 6 bits a character
+    std::uint32_t bits_ = 0;        ///< the current group: 6 bits a character
     int count_ = 0, padding_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Base64 text as bytes. Forward only; going back starts again.
+// Base64 text as bytes. Forward only; seeking backwards restarts.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace isoatlas {
 
 /// Decodes base64 in the bytes [begin, end) of a file, up to `<` or the end. White space is skipped; padding may stand in the
-/// middle (several encodings one after the other). Throws Error{input} at a character that is no base64.
+/// middle (several encodings one after the other). Throws Error{input} at a character that is not base64.
 [[nodiscard]] std::unique_ptr<ByteSource> open_base64_source(const std::string& path, std::int64_t begin, std::int64_t end);
 
 }  // namespace isoatlas

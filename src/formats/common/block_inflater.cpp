@@ -54,7 +54,7 @@ std::string BlockInflater::finish(ByteSource& source) {
     }
 }
 
-/// One call of zlib. count: of the bytes it produced. Returns Z_BUF_ERROR when the block has no more bytes.
+/// One call of zlib. count: bytes it produced. Returns Z_BUF_ERROR when the block has no more bytes.
 int BlockInflater::inflate_some(ByteSource& source, std::span<std::byte> out, std::size_t& count) {
     if (stream_.avail_in == 0 && unread_ > 0) {
         const auto bytes = static_cast<std::size_t>(std::min<std::int64_t>(unread_, kBufferBytes));

@@ -1,4 +1,4 @@
-// A zlib stream of known length, decompressed as it is read: memory does not depend on its length.
+// A zlib stream of known length, decompressed on reading in constant memory.
 #pragma once
 
 #include <zlib.h>
@@ -22,10 +22,10 @@ public:
 
     /// The stream is the next `compressed` bytes of the source and decompresses to `bytes`.
     void start(std::int64_t compressed, std::int64_t bytes);
-    /// The next bytes; at most those that are left. Reading the last one reads the stream to its end, its checksum included. Returns what
-    /// is wrong with the stream, "" for nothing. Throws what the source throws.
+    /// Reads the next bytes, at most the remaining ones. Reading the last one reads the stream to its end, its checksum included. Returns a
+    /// description of the error in the stream, "" for none. Throws what the source throws.
     [[nodiscard]] std::string read(ByteSource& source, std::span<std::byte> out);
-    /// How many bytes have been read.
+    /// Number of bytes read so far.
     [[nodiscard]] std::int64_t position() const { return position_; }
 
 private:
@@ -34,7 +34,7 @@ private:
 
     z_stream stream_{};
     std::vector<std::byte> buffer_;
-    std::int64_t unread_ = 0;  // compressed bytes that the source has
+    std::int64_t unread_ = 0;  // remaining compressed bytes of the source
     std::int64_t bytes_ = 0, position_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// ByteCursor: reads a hostile file that lies in memory. Every step is checked against the bytes that are left; errors name the place.
+// ByteCursor: parses an untrusted file in memory. Every step is checked against the remaining bytes; errors name the position.
 #pragma once
 
 #include <algorithm>
@@ -77,7 +77,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The whole word as a number; false when it is none or does not fit.
+/// The whole word as a number; false when it is not a number or does not fit.
 template <class T>
 [[nodiscard]] bool parse_number(std::string_view word, T& value) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);

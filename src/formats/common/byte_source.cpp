@@ -78,7 +78,7 @@ public:
         }
     }
     void seek(std::int64_t offset) override { position_ = offset; }
-    std::int64_t payload_bytes(std::int64_t) override {  // parts that are not open are none of its business: nothing of them was read
+    std::int64_t payload_bytes(std::int64_t) override {  // only the open part can have unread bytes
         end_part();
         return plan_.count * plan_.part_bytes;
     }
@@ -89,12 +89,12 @@ public:
 private:
     [[noreturn]] void ends_early(std::size_t wanted) const {
         throw Error(ErrorKind::input, {.file = plan_.file,
-                                       .where = "behind data file " + std::to_string(plan_.count),
+                                       .where = "after data file " + std::to_string(plan_.count),
                                        .what = "the data files end early",
                                        .expected = std::to_string(wanted) + " more bytes"});
     }
 
-    /// Reads the open part to its end, whatever of it was wanted: its checksum comes last.
+    /// Reads the open part to its end, because its checksum is there.
     void end_part() {
         if (open_part_ >= 0) (void)require_end(*current_, plan_.part_bytes, plan_.skip_rest);
         open_part_ = -1;
@@ -116,7 +116,7 @@ std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan) { return std::make
 
 void refuse_rest(const std::string& file, std::int64_t rest) {
     throw Error(ErrorKind::input, {.file = file,
-                                   .where = "behind the samples",
+                                   .where = "after the samples",
                                    .what = std::to_string(rest) + (rest == 1 ? " byte follows" : " bytes follow"),
                                    .expected = "the end of the data",
                                    .next = "the header or the file is damaged, or it holds more than a volume: then pass --skip-rest"});
@@ -136,7 +136,7 @@ std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest
     }
     if (found > max) {
         throw Error(ErrorKind::input, {.file = source.file(),
-                                       .where = "behind the samples",
+                                       .where = "after the samples",
                                        .what = "more than " + std::to_string(max - wanted) + " decompressed bytes follow",
                                        .expected = std::to_string(wanted) + " bytes of samples",
                                        .next = "the header is wrong, or the file is made to fill memory or time: do not use it"});

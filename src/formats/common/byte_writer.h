@@ -19,7 +19,7 @@ namespace isoatlas {
 
 static_assert(std::endian::native == std::endian::little, "the writers copy numbers as they lie in memory");
 
-/// Collects small pieces; call finish() at the end, nothing is committed otherwise.
+/// Buffers small pieces; call finish() at the end, otherwise nothing is committed.
 class ByteWriter {
 public:
     explicit ByteWriter(AtomicFile& file) : file_(file) {}
@@ -81,7 +81,7 @@ template <class T>
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
-/// Text of a volume's header as UTF-8 on one line: control characters (a hostile unit could add lines) become spaces.
+/// Text of a volume's header as UTF-8 on one line: control characters (an untrusted unit could add lines) become spaces.
 [[nodiscard]] inline std::string one_line(const std::string& given) {
     std::string text = decoded_text(given);
     for (char& c : text) {

@@ -1,4 +1,4 @@
-// How files say which samples were connected: the interpolant and, when it makes tunnels, the height up to which they were left out.
+// Connectivity in file headers: the interpolant and, when it makes tunnels, the height up to which they are ignored.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Connectivity {
     double tunnel_height;  ///< calibrated
 
     [[nodiscard]] const char* name() const { return name_of(interpolant); }
-    [[nodiscard]] bool has_tunnels() const { return interpolant == Interpolant::trilinear; }  ///< without them no file says a height
+    [[nodiscard]] bool has_tunnels() const { return interpolant == Interpolant::trilinear; }  ///< without tunnels no height is written
 };
 [[nodiscard]] inline Connectivity connectivity_of(const Surface& surface) { return {surface.interpolant, surface.reported_tunnel_height}; }
 
@@ -25,7 +25,7 @@ void put_members(JsonStream& json, const Connectivity& connectivity);
 /// Arrays of field data "Interpolant" and "TunnelHeight".
 [[nodiscard]] std::string vtk_elements(AppendedArrays& arrays, const Connectivity& connectivity);
 
-/// Seven digits: where a header has no room for all.
+/// Seven digits, for headers of limited length.
 [[nodiscard]] std::string short_text(double value);
 
 }  // namespace isoatlas

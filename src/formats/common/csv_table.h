@@ -1,4 +1,4 @@
-// Tables as CSV: numbers, names of ours and lists of numbers separated by spaces; what does not exist is empty.
+// Tables as CSV: numbers, fixed names and lists of numbers separated by spaces; missing values are empty.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// One row of cells, ended by last_cells. No cell needs quotes: all are numbers, names of ours or lists of numbers.
+/// One row of cells, ended by last_cells. No cell needs quotes: all are numbers, fixed names or lists of numbers.
 class CsvRow {
 public:
     CsvRow(ByteWriter& out, const std::string& last_cells) : out_(out), last_cells_(last_cells) {}
@@ -43,7 +43,7 @@ private:
     bool first_ = true;
 };
 
-/// The columns of a detail, then the interpolant in each row: readers of tables would stumble over a comment line.
+/// The columns of a detail, then the interpolant in each row: many CSV readers do not accept a comment line.
 class CsvTable {
 public:
     CsvTable(ByteWriter& out, const Connectivity& connectivity, const std::string& columns) : out_(out) {

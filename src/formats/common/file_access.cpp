@@ -29,7 +29,7 @@ std::unique_ptr<File> open_file(const std::string& path) {
     if (status.kind == Kind::folder) {
         throw Error(ErrorKind::input, {.file = path, .what = "is a directory", .expected = "a file", .next = "name a file inside it"});
     }
-    if (status.kind == Kind::other) {  // a pipe would block and cannot go back
+    if (status.kind == Kind::other) {  // a pipe would block and cannot seek
         throw Error(ErrorKind::input, {.file = path, .what = "is not a regular file", .next = "copy the data into a file and open that"});
     }
     OpenedFile opened = file_system().open(path);

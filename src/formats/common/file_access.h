@@ -1,5 +1,5 @@
-// Files that are read, with errors that say what to do. Everything in io opens, sizes and reads files through here, and this through
-// base/file_system.h (libtiff as well), so a test can put a failing disk behind it.
+// File access with errors that name a next step. All formats open, size and read files through these functions, and these use
+// base/file_system.h (libtiff as well), so that tests can inject a failing disk.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ namespace isoatlas {
 [[nodiscard]] bool file_exists(const std::string& path);
 /// Whether there is a directory of that name. Never throws.
 [[nodiscard]] bool is_directory(const std::string& path);
-/// Names of at most `most` entries of a directory, in no order; nothing when it cannot be read. Never throws.
+/// Names of at most `max` entries of a directory, unordered; empty when it cannot be read. Never throws.
 [[nodiscard]] std::vector<std::string> directory_entries(const std::string& path, std::size_t max);
 
 /// Fills all of out from offset, repeating short reads. Throws Error{input} when the file ends before or the disk fails.
 void read_fully(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
 /// Like read_fully, but stops at the end of the file; the number of bytes read.
 [[nodiscard]] std::size_t read_available(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
-/// Fills all of out if that need not wait for a disk; false: it would, out holds anything. Throws Error{input} when the disk fails.
+/// Fills all of out without blocking on a disk; false: it would block, out is undefined. Throws Error{input} when the disk fails.
 [[nodiscard]] bool read_if_present(File& file, const std::string& path, std::int64_t offset, std::span<std::byte> out);
 
 }  // namespace isoatlas

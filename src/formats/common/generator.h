@@ -1,4 +1,4 @@
-// The name and version every file of ours carries.
+// Name and version of the program, written into files.
 #pragma once
 
 namespace isoatlas {

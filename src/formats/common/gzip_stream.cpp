@@ -46,7 +46,7 @@ void GzipStream::write(std::span<const std::byte> bytes) {
 
 void GzipStream::finish() { run(Z_FINISH); }
 
-/// Compresses what is there; with Z_FINISH until the end of the stream.
+/// Compresses the buffered bytes; with Z_FINISH to the end of the stream.
 void GzipStream::run(int flush) {
     z_stream& stream = state_->stream;
     int result = Z_OK;

@@ -1,4 +1,4 @@
-// Inflating gzip and zlib streams with zlib, forwards; going back starts again.
+// Inflates gzip and zlib streams with zlib. Forward only; seeking backwards restarts.
 #include <zlib.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr std::int64_t kBufferBytes = 256 * 1024;
 constexpr std::size_t kMaxPerCall = 1U << 30;  // zlib counts in 32 bits
 constexpr int kDetectGzipOrZlib = 15 + 32;     // windowBits: largest window, the stream's header decides
 
-/// zlib's stream that frees itself, also when the constructor of its owner throws behind inflateInit2.
+/// RAII for zlib's stream, also when the constructor of its owner throws after inflateInit2.
 struct Inflater : z_stream {
     Inflater() : z_stream{} {}
     Inflater(const Inflater&) = delete;
@@ -78,7 +78,7 @@ public:
         return done;
     }
 
-    /// Decodes to the end of the stream and its checksum, or to `most` + 1 bytes: how many there are.
+    /// Decodes to the end of the stream and its checksum, or to `max` + 1 bytes. Returns the number of bytes.
     std::int64_t decoded_bytes(std::int64_t max) {
         std::array<std::byte, 65536> scratch;
         while (!finished_ && position_ <= max) {
@@ -99,7 +99,7 @@ private:
         gzip_ = starts_like_gzip(std::span(buffer_).first(stream_.avail_in));
     }
 
-    /// Keeps the unread bytes of the buffer and fills up behind them; false when the file has no more.
+    /// Keeps the unread bytes of the buffer and appends bytes of the file; false at the end of the file.
     bool refill() {
         if (next_read_ == end_) return false;
         const std::size_t kept = stream_.avail_in;
@@ -129,8 +129,8 @@ private:
         return room - stream_.avail_out;
     }
 
-    /// gzip files may hold several streams in a row (bgzip, pigz, cat); what else is behind the end is counted by payload_bytes(), but for
-    /// padding by zeros.
+    /// gzip files may hold several streams in a row (bgzip, pigz, cat); other bytes after the end are counted by payload_bytes(), except
+    /// zero padding.
     bool next_member() {
         if (!gzip_) return false;
         if (stream_.avail_in < 2) refill();
@@ -172,7 +172,7 @@ private:
     std::string path_;
     std::unique_ptr<File> file_;
     std::int64_t begin_ = 0, end_ = 0;  // of the compressed bytes in the file
-    std::int64_t next_read_ = 0;        // offset in the file behind the buffer
+    std::int64_t next_read_ = 0;        // offset in the file after the buffer
     std::int64_t position_ = 0;         // in the decompressed stream
     bool finished_ = false;
     bool gzip_ = false;

@@ -1,4 +1,5 @@
-// JsonStream: writes a JSON document piece by piece; nothing of it is kept. Numbers are the shortest that read back as the same value.
+// JsonStream: writes a JSON document incrementally, without keeping it in memory. Numbers are the shortest that read back as the same
+// value.
 //
 //   JsonStream json([&](std::string_view text) { out << text; });
 //   json.begin_object().key("tau").value(1.5).key("ids").begin_array().value(std::int64_t{7}).end_array().end_object().finish();
@@ -112,11 +113,11 @@ private:
 
     Sink sink_;
     std::string text_;
-    std::vector<bool> is_first_;  ///< of each open object or array: nothing written into it yet
+    std::vector<bool> is_first_;  ///< per open object or array: still empty
     bool after_key_ = false, new_line_ = false;
 };
 
-/// Writes to a stream. `what`: "the tree"; for the message of the Error{resource} that is thrown when the stream takes no more.
+/// Writes to a stream. `what`: "the tree"; for the message of the Error{resource} thrown when the stream fails.
 [[nodiscard]] JsonStream::Sink stream_sink(std::ostream& out, const char* what);
 
 }  // namespace isoatlas

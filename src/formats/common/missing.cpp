@@ -50,7 +50,7 @@ template <class T>
 bool MissingScan::is_missing(T sample) const {
     if constexpr (std::is_floating_point_v<T>) {
         if (!std::isfinite(sample)) return true;
-        // A no-data value like 1e20 means the float nearest to it.
+        // A no-data value such as 1e20 is the nearest float.
         return !calibrated_ && policy_.no_data && sample == static_cast<T>(*policy_.no_data);
     }
     return !calibrated_ && policy_.no_data && static_cast<double>(sample) == *policy_.no_data;
@@ -60,7 +60,7 @@ template <class T>
 bool MissingScan::any_missing(std::span<const T> samples) const {
     const bool compare = !calibrated_ && policy_.no_data.has_value();
     const double no_data = compare ? *policy_.no_data : 0;
-    int found = 0;  // no early exit: such a loop is vectorised, and memory is the limit then
+    int found = 0;  // no early exit, so that the loop is vectorised; it is memory-bound then
     for (const T sample : samples) {
         if constexpr (std::is_floating_point_v<T>) {
             found |= !(std::abs(sample) <= std::numeric_limits<T>::max());
@@ -74,7 +74,7 @@ bool MissingScan::any_missing(std::span<const T> samples) const {
 
 template <class T>
 void MissingScan::look_at(std::span<const T> samples, std::int64_t first) {
-    constexpr std::size_t kBlock = 4096;  // stays in the fastest cache for the second look
+    constexpr std::size_t kBlock = 4096;  // stays in the L1 cache for the second pass
     for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
         const std::span<const T> block = samples.subspan(begin, std::min(kBlock, samples.size() - begin));
         if (policy_.action == MissingPolicy::Action::below || any_missing(block)) {

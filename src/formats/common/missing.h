@@ -1,4 +1,4 @@
-// Missing samples: NaN, infinities and, if the caller names one, a no-data value. Found while slabs are read, replaced at the end.
+// Missing samples: NaN, infinities and optionally a no-data value. Found while slabs are read, replaced at the end.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ public:
     /// out[i] = calibrated samples[i]; missing samples become NaN (look() is then to be called with f64).
     void calibrate(ValueType type, std::span<const std::byte> samples, const Calibration& calibration, std::span<double> out) const;
 
-    /// Puts the replacement for every missing sample and notes how many there were.
+    /// Replaces every missing sample and adds a note with their number.
     /// Throws Error{input} under Action::below when every sample is missing or the type has nothing below the smallest one.
     void replace(VolumeInfo& info, std::span<std::byte> samples) const;
 
@@ -44,8 +44,8 @@ private:
 
     const VolumeInfo info_;  // of the file
     const MissingPolicy policy_;
-    const bool calibrated_;  // samples are looked at after the calibration: no-data values are NaN by then
-    double value_ = 0;       // of the replacement, in the units of the samples looked at
+    const bool calibrated_;  // samples are checked after the calibration, when no-data values are NaN
+    double value_ = 0;       // of the replacement, in the units of the checked samples
     std::int64_t count_ = 0;
     double smallest_ = std::numeric_limits<double>::infinity();  // exact: every sample type fits in double
 };

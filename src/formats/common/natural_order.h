@@ -1,4 +1,4 @@
-// The order in which people number files: runs of digits count as numbers, so slice2 comes before slice10.
+// Natural sort order: runs of digits compare as numbers, so slice2 comes before slice10.
 #pragma once
 
 #include <string_view>

@@ -87,7 +87,7 @@ private:
         return ticks;
     }
 
-    /// Per column of half a pixel the first, lowest, highest and last point: what is left out would not be seen.
+    /// Per column of half a pixel the first, lowest, highest and last point: the other points are not visible.
     [[nodiscard]] std::vector<std::array<double, 2>> drawn(const PlotCurve& curve) const {
         std::vector<std::array<double, 2>> places;
         double before = 0;

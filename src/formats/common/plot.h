@@ -1,4 +1,4 @@
-// A plot of curves as SVG: readable on light and dark pages, printed, without scripts or fonts of its own.
+// A plot of curves as SVG: for light and dark pages and print, without scripts or embedded fonts.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace isoatlas {
 
-/// Text as it may stand between tags and in attributes.
+/// Escapes text for content and attributes.
 [[nodiscard]] std::string svg_text(const std::string& text);
 
 struct PlotCurve {
@@ -18,7 +18,7 @@ struct PlotCurve {
     bool thick = false;
 };
 
-/// A vertical line with a few words.
+/// A vertical line with a label.
 struct PlotMark {
     double x;
     std::string words;

@@ -5,7 +5,7 @@
 namespace isoatlas {
 namespace {
 
-/// Inside $'...': bytes that no terminal shows as they are, as three octal digits.
+/// Inside $'...': unprintable bytes as three octal digits.
 std::string ansi_quoted(const std::string& word) {
     std::string text;
     for (const char c : word) {

@@ -70,7 +70,7 @@ bool is_damaged(std::string_view word, std::string_view known) {
 
 std::string printable(std::string_view text) { return header_text(text); }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     const std::string shown = printable(text);
     return "'" + std::string(utf8_prefix(shown, kLongestQuote)) + (shown.size() > kLongestQuote ? "...'" : "'");
 }

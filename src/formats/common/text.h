@@ -1,4 +1,4 @@
-// Reading the words and numbers of text headers. Numbers are independent of the locale and must be the whole word.
+// Parses words and numbers of text headers. Numbers are independent of the locale and must span the whole word.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace isoatlas {
 [[nodiscard]] std::string_view trim(std::string_view text);                      ///< without blanks, tabs and line ends around it
 [[nodiscard]] std::string lower(std::string_view text);                          ///< ASCII only
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);  ///< at white space, views into text
-[[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);  ///< nothing: not an integer or out of range
+[[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);  ///< nullopt: not an integer or out of range
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);         ///< also nan and inf
 [[nodiscard]] bool ends_with_ignoring_case(std::string_view text, std::string_view end);
-/// Whether a flipped bit can have made `word` of a known one: another character in it, or one more at an end (it was a blank).
+/// Whether `word` may be a known one with a flipped bit: one character differs, or there is one more at an end (it was a blank).
 [[nodiscard]] bool is_damaged(std::string_view word, std::string_view known);
 /// The text as UTF-8, with control characters escaped: header texts are shown on terminals and written into files.
 [[nodiscard]] std::string printable(std::string_view text);
-/// printable() in quotes, shortened, fit to be shown in a message.
-[[nodiscard]] std::string quoted(std::string_view text);
+/// printable() in quotes, shortened, for messages.
+[[nodiscard]] std::string in_quotes(std::string_view text);
 /// `name` beside `path`: names are relative to the folder of the header that contains them.
 [[nodiscard]] std::string beside(const std::string& path, std::string_view name);
 

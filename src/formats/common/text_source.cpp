@@ -56,7 +56,7 @@ public:
           sample_bytes_(static_cast<std::int64_t>(size_of(type))),
           text_bytes_(text_->size_bound()) {}
 
-    void read(std::span<std::byte> out) override {  // whole samples: every reader of samples asks for those
+    void read(std::span<std::byte> out) override {  // whole samples: readers request only those
         for (std::size_t done = 0; done < out.size(); done += static_cast<std::size_t>(sample_bytes_)) next_sample(out.data() + done);
     }
     void seek(std::int64_t offset) override {
@@ -109,10 +109,10 @@ private:
         while ((at_ < chunk_.size() || refill()) && !is_separator(chunk_[at_]) && word_.size() < kLongestWord) word_ += chunk_[at_++];
         if (word_.empty()) fail("the text ends early", "one more number");
         if (is_at_end() && end_ == TextEnd::separator) {
-            fail("the text ends with " + quoted(word_) + ", which may be the beginning of a longer number", "a line end behind it",
+            fail("the text ends with " + in_quotes(word_) + ", which may be the beginning of a longer number", "a line end after it",
                  "the file is truncated: get it again; if it is whole, add a line end");
         }
-        if (!parse_sample(word_, type_, out)) fail(quoted(word_) + " is not a sample", std::string("a ") + name_of(type_) + " number");
+        if (!parse_sample(word_, type_, out)) fail(in_quotes(word_) + " is not a sample", std::string("a ") + name_of(type_) + " number");
         ++samples_read_;
     }
     [[nodiscard]] bool is_at_end() const { return at_ == chunk_.size() && consumed_ == text_bytes_; }

@@ -1,4 +1,4 @@
-// Volume files of any format: a header made from a VolumeInfo, then samples that are handed over piece by piece.
+// Writers of volume files: a header made from a VolumeInfo, then samples in pieces.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ enum class Packing : bool { raw, gzip };
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
 // Each writes info.extent samples of info.type with the geometry, calibration and description of `info`, as far as the format has them.
-// Rectilinear grids become regular ones with the mean spacing; what a format cannot say is said in its comment or description.
-// Throws Error{resource}; nothing appears under `path` then.
+// Rectilinear grids become regular ones with the mean spacing; the comment or description names what a format cannot represent.
+// Throws Error{resource}; then there is no file at `path`.
 void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs = {});
-/// Space RAS (LPS and LAS are turned), lengths in m, mm or um. NIfTI-2 when sizes (above 32767) or numbers do not fit in NIfTI-1.
+/// Space RAS (LPS and LAS are converted), lengths in m, mm or um. NIfTI-2 when sizes (above 32767) or numbers do not fit in NIfTI-1.
 void write_nifti(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing);
 /// One page a slice, deflate, voxel size for ImageJ; BigTIFF when the samples exceed 3.9 GB. Keeps neither origin nor directions.
 void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs = {});
@@ -33,15 +33,15 @@ void write_metaimage(const std::string& path, const VolumeInfo& info, const Samp
 /// NumPy: shape (z, y, x). Keeps no geometry.
 void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
 /// Samples alone. A sidecar PATH.json is written beside it unless the name says dims and type and the geometry is the default one.
-/// Throws Error{usage} when the name says other dims or another type.
+/// Throws Error{usage} when the name contradicts dims or type.
 void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
 
 /// The geometry without coordinates: rectilinear axes get their mean spacing.
 [[nodiscard]] Geometry regular_geometry(const VolumeInfo& info);
 [[nodiscard]] bool is_rectilinear(const Geometry& geometry);
-/// The same place in another space, "LPS" or "RAS"; unchanged from spaces that are neither these nor "LAS".
+/// The same position in another space, "LPS" or "RAS"; unchanged for spaces other than these and "LAS".
 [[nodiscard]] Geometry turned_to(Geometry geometry, const std::string& space);
-/// "LPS", "RAS" or "LAS": the axes have a meaning in the body.
+/// "LPS", "RAS" or "LAS": the axes are anatomical.
 [[nodiscard]] bool is_anatomical(const Geometry& geometry);
 
 }  // namespace isoatlas

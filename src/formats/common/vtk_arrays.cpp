@@ -32,7 +32,7 @@ VtkType type_named(const std::string& name, const std::string& array, const VtkE
     if (found != kTypeNames.end()) return static_cast<VtkType>(found - kTypeNames.begin());
     throw Error(ErrorKind::unsupported, {.file = encoding.file,
                                          .where = "DataArray \"" + array + "\"",
-                                         .what = "type " + quoted(name) + " is not one of numbers",
+                                         .what = "type " + in_quotes(name) + " is not numeric",
                                          .next = "write the file again with VTK or ParaView"});
 }
 
@@ -43,7 +43,7 @@ int base64_digit(char c) {
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/// The first `count` bytes of a base64 text (all when it is shorter); `used`: characters that stand for them, padding included.
+/// The first `count` bytes of a base64 text (all when it is shorter); `used`: characters that encode them, including padding.
 std::string base64_prefix(std::string_view text, std::size_t count, std::size_t& used, const std::string& file) {
     std::string out;
     out.reserve(std::min(count, text.size() / 4 * 3 + 3));
@@ -176,18 +176,18 @@ void parse_ascii(std::string_view text, std::vector<T>& out, const std::string& 
     ByteCursor in(text, encoding.file);
     for (std::string_view word = in.word(); !word.empty(); word = in.word()) {
         T value;
-        if (!parse_number(word, value)) fail(encoding, array, quoted(word) + " is not a number of this array's type");
+        if (!parse_number(word, value)) fail(encoding, array, in_quotes(word) + " is not a number of this array's type");
         out.push_back(value);
     }
 }
 
 std::string decode_binary(const pugi::xml_node& element, std::string_view format, const std::string& array, const VtkEncoding& encoding) {
     if (format == "binary") return decode_base64_array(element.text().get(), array, encoding);
-    if (format != "appended") fail(encoding, array, "unknown format " + quoted(format), "ascii, binary or appended");
+    if (format != "appended") fail(encoding, array, "unknown format " + in_quotes(format), "ascii, binary or appended");
     std::uint64_t offset = 0;
     const std::string_view text = element.attribute("offset").value();
     if (!parse_number(text, offset) || offset > encoding.appended.size())
-        fail(encoding, array, "the offset " + quoted(text) + " is not in the file");
+        fail(encoding, array, "the offset " + in_quotes(text) + " is not in the file");
     const std::string_view data = encoding.appended.substr(offset);
     return encoding.appended_base64 ? decode_base64_array(data, array, encoding) : decode_raw_array(data, array, encoding);
 }

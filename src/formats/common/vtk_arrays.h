@@ -14,7 +14,7 @@ class xml_node;
 
 namespace isoatlas {
 
-/// What the VTKFile element and the AppendedData element say about all arrays.
+/// Attributes of the VTKFile and AppendedData elements that apply to all arrays.
 struct VtkEncoding {
     std::string file;  ///< for messages
     bool big_endian = false;
@@ -22,7 +22,7 @@ struct VtkEncoding {
     bool zlib = false;
     bool appended_base64 = false;
     std::string_view appended;  ///< the bytes after '_'
-    std::int64_t budget = 0;    ///< values that may still be decoded: what a file of this size can hold
+    std::int64_t budget = 0;    ///< values that may still be decoded, bounded by the size of the file
 };
 
 /// The values of one array. Integers of 64 bits are kept exact.

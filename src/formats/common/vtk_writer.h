@@ -27,7 +27,7 @@ inline constexpr const char* vtk_type<float> = "Float32";
 template <>
 inline constexpr const char* vtk_type<double> = "Float64";
 
-/// The blocks behind the XML. add() gives the element that refers to the block; write() comes after all elements are written.
+/// The appended blocks. add() returns the element that refers to the block; write() must follow all elements.
 class AppendedArrays {
 public:
     /// put writes exactly tuples * components values of T.
@@ -66,7 +66,7 @@ private:
            "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
 }
 
-/// A text as VTK stores it in field data: its bytes as numbers, ended by 0. No character of it can break the XML.
+/// A text as VTK stores it in field data: its bytes as numbers, ended by 0. Any character is safe in the XML.
 [[nodiscard]] inline std::string vtk_string(std::string_view name, std::string_view text) {
     std::string element = "<DataArray type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"1\" format=\"ascii\">";
     for (const char c : decoded_text(text)) element += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";

@@ -15,17 +15,17 @@ namespace {
 constexpr std::size_t kMaxTags = std::size_t{16} << 20;
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-/// The characters of a file, one after the other, with a fast search.
+/// Sequential characters of a file, with a fast search.
 class Characters {
 public:
     explicit Characters(const std::string& path) : path_(path), file_(open_file(path)), buffer_(kBufferBytes) {}
 
-    /// The next character, or nothing at the end of the file.
+    /// The next character, or nullopt at the end of the file.
     [[nodiscard]] std::optional<char> next() {
         if (cursor_ == filled_ && !fill()) return std::nullopt;
         return static_cast<char>(buffer_[cursor_++]);
     }
-    /// Moves behind the next such character; false: there is none.
+    /// Advances past the next such character; false: there is none.
     [[nodiscard]] bool skip_behind(char wanted) {
         while (cursor_ < filled_ || fill()) {
             const auto begin = buffer_.begin() + static_cast<std::ptrdiff_t>(cursor_),
@@ -84,7 +84,7 @@ private:
                                        .next = "the file is damaged or truncated: get it again"});
     }
 
-    /// The tag behind a '<' into tag_, without '<' and '>'. False: a comment or instruction, skipped.
+    /// Reads the tag after a '<' into tag_, without '<' and '>'. False: a comment or instruction, skipped.
     bool read_tag() {
         tag_.clear();
         char quote = 0;
@@ -108,7 +108,7 @@ private:
 
     void keep_tag() {
         if (is_element("DataArray") && !tag_.ends_with('/')) {
-            pending_ = tag_;  // where its content ends is known at the next tag
+            pending_ = tag_;  // the end of its content is known at the next tag
             return;
         }
         skeleton_.text += "<" + tag_ + ">";
@@ -117,12 +117,12 @@ private:
         if (pending_.empty()) return;
         if (end < 0) fail("the file ends inside a data array", "</DataArray>");
         const std::size_t name = std::string_view("DataArray").size();
-        // Ours come first: an attribute of the same name in the file does not count.
+        // Our attributes come first: one of the same name in the file is ignored.
         skeleton_.text += "<" + pending_.substr(0, name) + " " + kContentBegin + "=\"" + std::to_string(begin) + "\" " + kContentEnd +
                           "=\"" + std::to_string(end) + "\"" + pending_.substr(name) + ">";
         pending_.clear();
     }
-    /// What follows is binary: the section is closed here and the document with it.
+    /// Binary data follow: closes the section and the document.
     void keep_appended() {
         const bool empty = tag_.ends_with('/');
         skeleton_.text += "<" + tag_ + (empty ? ">" : "/>") + "</VTKFile>";

@@ -1,4 +1,4 @@
-// The tags of a VTK XML file without the data between them, so that an XML parser never sees samples.
+// The tags of a VTK XML file without the data between them, for an XML parser.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,13 @@
 
 namespace isoatlas {
 
-/// Names of attributes that the skeleton adds to each DataArray with content: where its text lies in the file.
+/// Names of attributes that the skeleton adds to each DataArray with content: the range of its text in the file.
 inline constexpr const char* kContentBegin = "content-begin";
 inline constexpr const char* kContentEnd = "content-end";
 
 struct XmlSkeleton {
-    std::string text;            ///< well formed when the file is; text, comments and instructions are left out
-    std::int64_t appended = -1;  ///< offset of the first byte behind the '_' of AppendedData; -1: no such section
+    std::string text;            ///< well formed when the file is; without text, comments and instructions
+    std::int64_t appended = -1;  ///< offset of the first byte after the '_' of AppendedData; -1: no such section
 };
 
 /// Scans the file up to its AppendedData section, or to its end. Cost: one pass with a fixed buffer; memory: the tags, at most 16 MiB.

@@ -1,4 +1,4 @@
-// The mesh formats behind write_surface and read_mesh: one writer and one parser each. docs/formats.md says what each keeps.
+// The mesh formats behind write_surface and read_mesh: one writer and one parser each. docs/formats.md lists what each keeps.
 #pragma once
 
 #include <array>
@@ -29,16 +29,16 @@ void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings);
 [[nodiscard]] Mesh parse_vtp(std::string_view bytes, const std::string& file);
 [[nodiscard]] Mesh parse_glb(std::string_view bytes, const std::string& file);
 
-/// Throws Error{usage} when arrays of different length or indices out of range would make a broken file.
+/// Throws Error{usage} for arrays of different length or indices out of range.
 void check_surface(const Surface& surface, const std::string& file);
-/// Throws Error{input} for a point that is not finite or a triangle that names a point that is not there.
+/// Throws Error{input} for a point that is not finite or an index out of range.
 void check_mesh(const Mesh& mesh, const std::string& file);
 /// Adds the triangles of a polygon: a fan around its first corner. Fewer than 3 corners add nothing.
 void add_polygon(Mesh& mesh, const std::vector<std::int64_t>& corners);
-/// Adds the triangles of a strip; every second one runs the other way.
+/// Adds the triangles of a strip; every second one has the opposite orientation.
 void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners);
 
-/// Where a surface comes from, a line each: generator, tau, space, unit, interpolant, tunnel height.
+/// Provenance of a surface, a line each: generator, tau, space, unit, interpolant, tunnel height.
 [[nodiscard]] std::string comment_lines(const Surface& surface, const std::string& comment_mark);
 
 /// Triangles (or segments) in runs of one object: `order` lists them grouped by the object of their first point, objects in ascending
@@ -53,7 +53,7 @@ struct ObjectGroups {
     bool has_ids = false;
 };
 [[nodiscard]] ObjectGroups group_by_object(const Surface& surface);
-/// Whether some object has more than one contour, so that object ids alone do not say which contour a point lies on.
+/// Whether some object has more than one contour, so that object ids alone do not identify the contour of a point.
 [[nodiscard]] bool has_inner_contours(const Surface& surface);
 
 }  // namespace isoatlas

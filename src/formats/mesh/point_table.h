@@ -1,4 +1,4 @@
-// PointTable: numbers distinct positions in the order of their first appearance. Formats without shared points are joined with it.
+// PointTable: numbers distinct positions in order of first appearance; welds formats without shared points.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 using Matrix = std::array<double, 16>;  ///< columns, as in glTF
 
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-/// Nodes may share a mesh; beyond this many times the size of the file it is an attack rather than a scene.
+/// Nodes may share a mesh; more than this many times the size of the file is rejected (denial of service).
 constexpr std::size_t kMaxInstances = 64;
 
 struct Chunks {
@@ -115,7 +115,7 @@ public:
     Mesh parse() {
         document_ = Json::parse(chunks_.json);
         if (const auto needed = document_.find("extensionsRequired"); needed != document_.end() && !needed->empty()) {
-            fail_unsupported(file_, "needs the extension " + quoted((*needed)[0].get<std::string>()));
+            fail_unsupported(file_, "needs the extension " + in_quotes((*needed)[0].get<std::string>()));
         }
         visit_scene();
         if (!every_node_has_id_) mesh_.object.clear();
@@ -127,7 +127,7 @@ private:
     const Json& item(const char* list, std::size_t index) {
         const auto found = document_.find(list);
         if (found == document_.end() || !found->is_array() || index >= found->size()) {
-            fail(file_, "refers to " + std::string(list) + "[" + std::to_string(index) + "], which is not there");
+            fail(file_, "refers to " + std::string(list) + "[" + std::to_string(index) + "], which does not exist");
         }
         return (*found)[index];
     }
@@ -162,7 +162,7 @@ private:
                 stack.push_back({child->get<std::size_t>(), transform});
         }
     }
-    /// Last root first: the stack turns them round.
+    /// Last root first: the stack reverses the order.
     std::vector<std::size_t> roots() {
         std::vector<std::size_t> nodes;
         if (document_.contains("scenes")) {
@@ -196,7 +196,7 @@ private:
         std::map<std::size_t, std::size_t> first_point;  ///< accessor -> its points, shared by the primitives of a mesh
         for (const Json& primitive : item("meshes", size_at(node, "mesh", {})).at("primitives"))
             add_primitive(primitive, transform, first_point);
-        if (determinant(transform) < 0) {  // a mirror turns triangles over
+        if (determinant(transform) < 0) {  // a mirror reverses the orientation
             for (std::size_t t = triangles_before; t < mesh_.triangles.size(); ++t) std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
         }
         const auto extras = node.find("extras");
@@ -257,9 +257,9 @@ private:
         if (accessor.contains("sparse") || !accessor.contains("bufferView")) fail_unsupported(file_, where + " is sparse");
         if (accessor.at("type").get<std::string>() != type) fail(file_, "is not of type " + std::string(type), where);
         const Json& view = item("bufferViews", size_at(accessor, "bufferView", {}));
-        if (item("buffers", size_at(view, "buffer", {})).contains("uri")) fail_unsupported(file_, "the data lies in another file");
+        if (item("buffers", size_at(view, "buffer", {})).contains("uri")) fail_unsupported(file_, "external data files are not supported");
         const std::size_t begin = size_at(view, "byteOffset", 0), length = size_at(view, "byteLength", {});
-        if (begin > chunks_.binary.size() || length > chunks_.binary.size() - begin) fail(file_, "its data is not in the file", where);
+        if (begin > chunks_.binary.size() || length > chunks_.binary.size() - begin) fail(file_, "its data lie outside the file", where);
         const int component = accessor.at("componentType").get<int>();
         const std::size_t bytes = component_bytes(component, where) * (std::string_view(type) == "VEC3" ? 3 : 1);
         const std::size_t stride = size_at(view, "byteStride", bytes), count = size_at(accessor, "count", {});

@@ -55,7 +55,7 @@ private:
         } else if (keyword == "o") {
             parse_object(take_word(line));
         } else if (std::none_of(kSkipped.begin(), kSkipped.end(), [&](const char* known) { return keyword == known; })) {
-            in_.fail_at_line(quoted(keyword) + " is not a statement of OBJ");
+            in_.fail_at_line(in_quotes(keyword) + " is not a statement of OBJ");
         }
     }
     void parse_point(std::string_view line) {
@@ -63,16 +63,17 @@ private:
         for (double& x : point) {
             const std::string_view word = take_word(line);
             if (!parse_number(word, x))
-                in_.fail_at_line(word.empty() ? "a point with less than 3 coordinates" : quoted(word) + " is not a number");
+                in_.fail_at_line(word.empty() ? "a point with fewer than 3 coordinates" : in_quotes(word) + " is not a number");
         }
         mesh_.points.push_back(point);
     }
     /// Indices: 7, 7/1, 7/1/3, 7//3; negative ones count back from the last point.
     std::int64_t parse_corner(std::string_view word) {
         std::int64_t index = 0;
-        if (!parse_number(word.substr(0, word.find('/')), index) || index == 0) in_.fail_at_line(quoted(word) + " is not a point number");
+        if (!parse_number(word.substr(0, word.find('/')), index) || index == 0)
+            in_.fail_at_line(in_quotes(word) + " is not a point number");
         const auto points = static_cast<std::int64_t>(mesh_.points.size());
-        if (index < -points) in_.fail_at_line(quoted(word) + " counts back beyond the first point");
+        if (index < -points) in_.fail_at_line(in_quotes(word) + " counts back beyond the first point");
         return index > 0 ? index - 1 : points + index;
     }
     void parse_cell(std::string_view line, std::size_t min) {
@@ -87,7 +88,7 @@ private:
         object_ = kNoObject;
         if (name.starts_with(kPrefix) && !parse_number(name.substr(kPrefix.size()), object_)) object_ = kNoObject;
     }
-    /// Notes the object of a point; points of two objects, or of none, mean that the file has no object ids.
+    /// Records the object of a point; if a point has two objects or none, the file has no object ids.
     void mark(std::int64_t point) {
         if (!ids_are_clear_) return;
         if (object_ == kNoObject || point >= static_cast<std::int64_t>(mesh_.points.size())) {

@@ -20,7 +20,7 @@ struct Property {
     std::optional<Scalar> count_type;  ///< set: a list
 };
 
-struct Element {
+struct PlyElement {
     std::string_view name;
     std::uint64_t count;
     std::vector<Property> properties;
@@ -28,7 +28,7 @@ struct Element {
 
 struct Header {
     Encoding encoding;
-    std::vector<Element> elements;
+    std::vector<PlyElement> elements;
 };
 
 std::size_t bytes_of_scalar(Scalar type) {
@@ -48,14 +48,14 @@ Scalar scalar_named(std::string_view name, const ByteCursor& in) {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         if (name == kNames[i][0] || name == kNames[i][1]) return static_cast<Scalar>(i);
     }
-    in.fail_at_line("unknown PLY type " + quoted(name), "char, uchar, short, ushort, int, uint, float or double");
+    in.fail_at_line("unknown PLY type " + in_quotes(name), "char, uchar, short, ushort, int, uint, float or double");
 }
 
 Encoding encoding_named(std::string_view name, const ByteCursor& in) {
     if (name == "ascii") return Encoding::ascii;
     if (name == "binary_little_endian") return Encoding::little;
     if (name == "binary_big_endian") return Encoding::big;
-    in.fail_at_line("unknown PLY format " + quoted(name), "ascii, binary_little_endian or binary_big_endian");
+    in.fail_at_line("unknown PLY format " + in_quotes(name), "ascii, binary_little_endian or binary_big_endian");
 }
 
 Property parse_property(std::string_view line, const ByteCursor& in) {
@@ -86,26 +86,26 @@ Header parse_header(ByteCursor& in) {
             header.encoding = encoding_named(take_word(line), in);
             has_format = true;
         } else if (keyword == "element") {
-            Element element{take_word(line), 0, {}};
+            PlyElement element{take_word(line), 0, {}};
             const std::string_view count = take_word(line);
-            if (!parse_number(count, element.count)) in.fail_at_line("the element count " + quoted(count) + " is not a number");
+            if (!parse_number(count, element.count)) in.fail_at_line("the element count " + in_quotes(count) + " is not a number");
             header.elements.push_back(std::move(element));
         } else if (keyword == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(parse_property(line, in));
         } else {
-            in.fail_at_line("unexpected " + quoted(keyword) + " in the PLY header");
+            in.fail_at_line("unexpected " + in_quotes(keyword) + " in the PLY header");
         }
     }
     if (!has_format) in.fail_at_line("the PLY header has no format line");
     return header;
 }
 
-/// A header cannot claim more rows than the file has bytes for.
-void check_count(const Element& element, Encoding encoding, const ByteCursor& in) {
+/// Rejects headers with more rows than the file has bytes for.
+void check_count(const PlyElement& element, Encoding encoding, const ByteCursor& in) {
     std::uint64_t row = 0;
     for (const Property& p : element.properties) row += encoding == Encoding::ascii ? 1 : bytes_of_scalar(p.count_type.value_or(p.type));
     if (row > 0 && element.count > in.left() / row) {
-        in.fail_at_offset("the header promises " + std::to_string(element.count) + " of element " + quoted(element.name) + ", but " +
+        in.fail_at_offset("the header promises " + std::to_string(element.count) + " of element " + in_quotes(element.name) + ", but " +
                               std::to_string(in.left()) + " bytes are left",
                           "at least " + std::to_string(row) + " bytes each");
     }
@@ -115,7 +115,7 @@ double read_ascii(ByteCursor& in) {
     double value;
     const std::string_view word = in.word();
     if (word.empty()) in.fail_at_line("the file ends before its last element");
-    if (!parse_number(word, value)) in.fail_at_line(quoted(word) + " is not a number");
+    if (!parse_number(word, value)) in.fail_at_line(in_quotes(word) + " is not a number");
     return value;
 }
 
@@ -148,7 +148,7 @@ std::size_t read_list_count(ByteCursor& in, const Property& property, Encoding e
     return static_cast<std::size_t>(count);
 }
 
-void skip_element(ByteCursor& in, const Element& element, Encoding encoding) {
+void skip_element(ByteCursor& in, const PlyElement& element, Encoding encoding) {
     if (element.properties.empty()) return;
     for (std::uint64_t row = 0; row < element.count; ++row) {
         for (const Property& p : element.properties) {
@@ -158,7 +158,7 @@ void skip_element(ByteCursor& in, const Element& element, Encoding encoding) {
     }
 }
 
-/// Where the value of a vertex property goes.
+/// Destination of a vertex property.
 enum class Role : std::uint8_t { x, y, z, object, contour, none };
 
 Role role_of(const Property& property) {
@@ -171,7 +171,7 @@ Role role_of(const Property& property) {
 
 class VertexReader {
 public:
-    VertexReader(const Element& element, Encoding encoding, Mesh& mesh) : element_(element), encoding_(encoding), mesh_(mesh) {
+    VertexReader(const PlyElement& element, Encoding encoding, Mesh& mesh) : element_(element), encoding_(encoding), mesh_(mesh) {
         for (const Property& p : element.properties) {
             roles_.push_back(role_of(p));
             has_[static_cast<std::size_t>(roles_.back())] = true;
@@ -185,7 +185,7 @@ public:
         if (has_[3]) mesh_.object.reserve(count);
         if (has_[4]) mesh_.contour.reserve(count);
         for (std::size_t row = 0; row < count; ++row) read_row(in);
-        if (!ids_are_whole_[0]) mesh_.object.clear();  // somebody else's property of this name
+        if (!ids_are_whole_[0]) mesh_.object.clear();  // a property of another program with this name
         if (!ids_are_whole_[1]) mesh_.contour.clear();
     }
 
@@ -206,7 +206,7 @@ private:
         if (whole) ids.push_back(static_cast<std::int64_t>(value));
     }
 
-    const Element& element_;
+    const PlyElement& element_;
     Encoding encoding_;
     Mesh& mesh_;
     std::vector<Role> roles_;
@@ -214,7 +214,7 @@ private:
     std::array<bool, 2> ids_are_whole_{true, true};
 };
 
-void read_faces(ByteCursor& in, const Element& element, Encoding encoding, Mesh& mesh) {
+void read_faces(ByteCursor& in, const PlyElement& element, Encoding encoding, Mesh& mesh) {
     const auto is_corners = [](const Property& p) { return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index"); };
     if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), is_corners)) {
         in.fail_at_offset("the faces have no list vertex_indices");
@@ -242,7 +242,7 @@ Mesh parse_ply(std::string_view bytes, const std::string& file) {
     const Header header = parse_header(in);
     Mesh mesh;
     bool has_vertices = false;
-    for (const Element& element : header.elements) {
+    for (const PlyElement& element : header.elements) {
         check_count(element, header.encoding, in);
         if (element.name == "vertex" && !has_vertices) {
             VertexReader(element, header.encoding, mesh).read(in);

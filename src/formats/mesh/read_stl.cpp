@@ -1,4 +1,4 @@
-// STL, binary and text. Its triangles carry their own points: bit-equal points are joined again.
+// STL, binary and text. Triangles do not share points: bit-equal points are welded.
 #include <array>
 #include <cmath>
 
@@ -14,7 +14,7 @@ constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50;
 
 bool starts_with_solid(std::string_view bytes) { return ByteCursor(bytes, std::string()).word() == "solid"; }
 
-/// Binary files may start with "solid" too: what decides is whether the size fits the count.
+/// Binary files may start with "solid" too: a file is binary when its size matches the count.
 bool is_binary(std::string_view bytes, const std::string& file) {
     if (bytes.size() < kHeaderBytes) return !starts_with_solid(bytes);
     ByteCursor in(bytes, file);
@@ -62,14 +62,15 @@ Mesh parse_binary(std::string_view bytes, const std::string& file) {
 void expect(ByteCursor& in, std::string_view keyword) {
     const std::string_view word = in.word();
     if (word != keyword) {
-        in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + quoted(word), "\"" + std::string(keyword) + "\"");
+        in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + in_quotes(word),
+                        "\"" + std::string(keyword) + "\"");
     }
 }
 
 double coordinate(ByteCursor& in) {
     double value;
     const std::string_view word = in.word();
-    if (!parse_number(word, value)) in.fail_at_line(quoted(word) + " is not a number");
+    if (!parse_number(word, value)) in.fail_at_line(in_quotes(word) + " is not a number");
     return value;
 }
 
@@ -94,11 +95,11 @@ Mesh parse_text(std::string_view bytes, const std::string& file) {
     Mesh mesh;
     PointTable table;
     for (std::string_view word = in.word(); !word.empty(); word = in.word()) {  // a file may hold several solids
-        if (word != "solid") in.fail_at_line("unexpected " + quoted(word), "\"solid\"");
+        if (word != "solid") in.fail_at_line("unexpected " + in_quotes(word), "\"solid\"");
         (void)in.line();  // its name
         for (word = in.word(); word == "facet"; word = in.word()) parse_facet(in, mesh, table);
         if (word != "endsolid") {
-            in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + quoted(word), "\"facet\" or \"endsolid\"");
+            in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + in_quotes(word), "\"facet\" or \"endsolid\"");
         }
         (void)in.line();
     }

@@ -13,7 +13,7 @@ namespace {
     throw Error(ErrorKind::input, {.file = file, .where = std::move(where), .what = std::move(what), .next = kDamagedFile});
 }
 
-/// Raw appended data is not XML: what comes before it is closed by hand and parsed, the bytes after '_' are handed on.
+/// Raw appended data is not XML: the part before it is completed and parsed, the bytes after '_' are decoded separately.
 std::string split_appended(std::string_view bytes, VtkEncoding& encoding) {
     const std::size_t tag = bytes.find("<AppendedData");
     if (tag == std::string_view::npos) return std::string(bytes);
@@ -35,7 +35,7 @@ void read_encoding(const pugi::xml_node& root, VtkEncoding& encoding) {
     encoding.zlib = compressor == "vtkZLibDataCompressor";
     if (!compressor.empty() && !encoding.zlib) {
         throw Error(ErrorKind::unsupported, {.file = encoding.file,
-                                             .what = "compressed with " + quoted(compressor),
+                                             .what = "compressed with " + in_quotes(compressor),
                                              .expected = "vtkZLibDataCompressor or none",
                                              .next = "write the file again with zlib or without compression"});
     }
@@ -63,7 +63,7 @@ std::size_t read_points(const pugi::xml_node& piece, VtkEncoding& encoding, Mesh
     std::uint64_t promised = 0;
     if (!parse_number(std::string_view(piece.attribute("NumberOfPoints").as_string()), promised) || promised != count ||
         values.size() % 3 != 0) {
-        fail(encoding.file, "a piece promises " + quoted(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
+        fail(encoding.file, "a piece promises " + in_quotes(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
                                 std::to_string(values.size()) + " coordinates");
     }
     const auto coordinate = [&](std::size_t i) { return values.is_real ? values.reals[i] : static_cast<double>(values.integers[i]); };
@@ -99,7 +99,7 @@ void read_cells(const pugi::xml_node& cells, VtkEncoding& encoding, std::size_t 
     }
 }
 
-/// Ids of a piece; false when it has none (or somebody else's array of this name, with another type or length).
+/// Ids of a piece; false when it has none (or an array of another program with this name, of another type or length).
 bool read_ids(const pugi::xml_node& piece, const char* name, std::size_t points, VtkEncoding& encoding, Array<std::int64_t>& ids) {
     const pugi::xml_node element = array_named(piece.child("PointData"), name);
     if (!element) return points == 0;

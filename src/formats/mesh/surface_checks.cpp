@@ -1,4 +1,4 @@
-// What every writer and parser of meshes relies on: consistent arrays, indices in range, groups of one object, comments.
+// Checks and helpers of all mesh formats: consistent arrays, indices in range, groups of one object, comments.
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -107,7 +107,7 @@ ObjectGroups group_by_object(const Surface& surface) {
     std::int64_t first = 0;
     for (ObjectGroups::Group& group : result.groups) {
         group.first = first;
-        counts[group.object] = first;  // from now on: where the next one goes
+        counts[group.object] = first;  // from here on: position of the next one
         first += group.count;
     }
     for (std::size_t i = 0; i < count; ++i) result.order[counts[surface.object[first_point(i)]]++] = static_cast<std::int64_t>(i);

@@ -9,8 +9,6 @@ namespace isoatlas {
 
 namespace {
 
-using Warnings;
-
 struct MeshFormat {
     const char* extension;
     void (*write)(AtomicFile&, const Surface&, Warnings&);
@@ -39,7 +37,7 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
     if (!surface.segments.empty() && !format.curves) {
         throw Error(ErrorKind::usage,
                     {.file = path,
-                     .what = std::string(format.extension) + " holds triangles only, and the contours of a 2D image are curves",
+                     .what = std::string(format.extension) + " stores triangles only, and the contours of a 2D image are curves",
                      .next = "write .ply, .obj or .vtp"});
     }
     check_surface(surface, path);

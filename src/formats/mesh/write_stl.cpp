@@ -14,7 +14,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// Unit normal of the triangle as it is stored; zero without an area, as the format asks.
+/// Unit normal of the stored triangle; zero for a degenerate one, as the format requires.
 std::array<float, 3> facet_normal(const Point& a, const Point& b, const Point& c) {
     const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
     const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -31,7 +31,7 @@ std::string header_words(const Surface& surface, std::string (*number)(double)) 
     return surface.unit.empty() ? text : text + " unit " + one_line(surface.unit);
 }
 
-/// 80 bytes; must not start with "solid" (that announces the text form). Short numbers come before its end: none is ever cut.
+/// 80 bytes; must not start with "solid" (that announces the text form). Short numbers, so that none is truncated.
 std::string header(const Surface& surface) {
     std::string text = header_words(surface, number_text);
     if (text.size() > 80) text = header_words(surface, short_text);

@@ -1,4 +1,4 @@
-// write_curves: how many objects there are for every threshold of a size.
+// write_curves: number of objects for every threshold of a size.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace isoatlas {
 namespace {
 
-/// Decades from the smallest positive threshold; what is 0 is drawn at the left end.
+/// Decades from the smallest positive threshold; 0 is drawn at the left end.
 Plot plot_of(const VolumeInfo& info, const SelectionCurve& curve) {
     double low = INFINITY, high = 0;
     for (const double threshold : curve.threshold) {
@@ -26,8 +26,8 @@ Plot plot_of(const VolumeInfo& info, const SelectionCurve& curve) {
     if (!std::isfinite(low)) low = high = 1;
     const auto place = [&](double threshold) { return std::log10(std::max(reported_threshold(info, curve, threshold), low)); };
     Plot plot;
-    plot.title = "Objects that are kept, by the least " + curve.size;
-    plot.x_name = "log10 of the least " + curve.size;
+    plot.title = "Number of objects, by minimum " + curve.size;
+    plot.x_name = "log10 of the minimum " + curve.size;
     plot.x_low = std::log10(low), plot.x_high = std::log10(high);
     plot.logarithmic = true;
     PlotCurve steps{"objects", "#1f77b4", {}, true, true};

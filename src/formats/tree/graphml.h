@@ -17,16 +17,16 @@ struct GraphmlKey {
     const char* owner;  ///< "node", "edge", "graph"
 };
 
-/// Everything before the first node: keys, the graph with its name, and how its volume was connected.
+/// Everything before the first node: keys, the graph with its name, the connectivity of its volume.
 void begin_graphml(ByteWriter& out, std::span<const GraphmlKey> keys, const char* graph, const char* schema,
                    const Connectivity& connectivity);
 /// Ends the file and commits.
 void end_graphml(ByteWriter& out);
 
-// Data of the node or edge that is open. The text is one of ours: nothing in it needs to be escaped.
+// Data of the node or edge that is open. The text is fixed and needs no escaping.
 void put_text(ByteWriter& out, const char* key, std::string_view text);
 void put(ByteWriter& out, const char* key, std::int64_t number);
-/// An infinite number is left out.
+/// Infinite numbers are omitted.
 void put(ByteWriter& out, const char* key, double number);
 /// As x, y, z.
 void put(ByteWriter& out, const std::array<double, 3>& position);

@@ -1,4 +1,4 @@
-// write_simplified_tree: the nodes that a selection leaves, each with its zone, those of bypassed zones included.
+// write_simplified_tree: the nodes that a selection keeps, each with its zone, including bypassed zones.
 #include <array>
 
 #include "formats/common/csv_table.h"
@@ -19,7 +19,7 @@ constexpr std::array kNodeKeys{GraphmlKey{"event", "long", "node"},     GraphmlK
                                GraphmlKey{"tau_low", "double", "node"}, GraphmlKey{"tau_high", "double", "node"},
                                GraphmlKey{"voxels", "long", "node"},    GraphmlKey{"object_voxels", "long", "node"}};
 
-/// A node as the user sees it: values are reported values.
+/// A node in reported values.
 struct NodeView {
     std::int64_t event, object, parent;
     std::array<double, 3> position;
@@ -101,7 +101,7 @@ void write_graphml(ByteWriter& out, const SimplifiedTree& tree) {
     end_graphml(out);
 }
 
-/// Every line stands for the zone of its upper end.
+/// Every line represents the zone of its upper end.
 void write_vtu(AtomicFile& file, const SimplifiedTree& tree) {
     VtuLines lines;
     const auto nodes = static_cast<std::int64_t>(tree.simplified.nodes.size());

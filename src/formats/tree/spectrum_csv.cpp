@@ -1,4 +1,4 @@
-// The spectrum as CSV: rows of kind "interval", then "size", then "advice"; what does not exist is empty.
+// The spectrum as CSV: rows of kind "interval", then "size", then "advice"; missing values are empty.
 #include <cmath>
 
 #include "formats/common/byte_writer.h"
@@ -16,7 +16,7 @@ void put_counts(ByteWriter& out, const LevelCounts& counts) {
     for (const std::int64_t count : {counts.objects, counts.contours, counts.tunnels, counts.cavities}) out.text(","), out.number(count);
 }
 
-/// What all rows of one isovalue have.
+/// Columns of all rows of one isovalue.
 void put_isovalue(ByteWriter& out, const char* kind, const VolumeInfo& info, const Spectrum& spectrum, double tau) {
     out.text(kind);
     for (int end = 0; end < 2; ++end) put_real(out, info.calibration.reported(tau));

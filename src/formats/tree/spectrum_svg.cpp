@@ -1,4 +1,4 @@
-// The spectrum as a plot: counts of all, counts of what is significant, and sizes below, over one axis of isovalues.
+// The spectrum as a plot: counts of all objects, counts of significant ones, and sizes, over one axis of isovalues.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ struct Range {
     double low, high;
 };
 
-/// Reported isovalues that are shown: where something happens or was measured.
+/// Range of the axis: reported isovalues with events or measures.
 Range range_of(const VolumeInfo& info, const Spectrum& spectrum) {
     Range range{0, 1};
     bool first = true;
@@ -46,7 +46,7 @@ PlotCurve count_curve(const std::string& name, const std::string& colour, bool t
     return curve;
 }
 
-/// As part of the largest, so that different units share a plot.
+/// Relative to the maximum, so that different units share a plot.
 template <class Number>
 PlotCurve size_curve(const std::string& name, const std::string& colour, const VolumeInfo& info, const Spectrum& spectrum,
                      const Number& number) {
@@ -59,7 +59,7 @@ PlotCurve size_curve(const std::string& name, const std::string& colour, const V
     return curve;
 }
 
-/// The object and why: "object 7 (stable, inside 1)".
+/// The object and the reason: "object 7 (stable, inside 1)".
 std::string text_of(const SpectrumAdvice& advice) {
     std::string object = "object " + std::to_string(advice.object);
     if (advice.reason == IsovalueReason::inner) object = "the wall of cavity " + std::to_string(advice.cavity) + " of " + object;
@@ -99,7 +99,7 @@ Plot plot_of_counts(const std::string& title, const VolumeInfo& info, const Spec
 
 Plot plot_of_sizes(const VolumeInfo& info, const Spectrum& spectrum, const Range& range) {
     const bool flat = info.extent.rank == 2;
-    Plot plot = plot_of("How large it is, percent of the most", info, spectrum, range);
+    Plot plot = plot_of("Size of the surface, percent of the maximum", info, spectrum, range);
     const auto add = [&](const char* name, const char* colour, auto&& number) {
         plot.curves.push_back(size_curve(name, colour, info, spectrum, number));
     };
@@ -113,8 +113,8 @@ Plot plot_of_sizes(const VolumeInfo& info, const Spectrum& spectrum, const Range
 
 void write_spectrum_svg(AtomicFile& file, const VolumeInfo& info, const Spectrum& spectrum) {
     const Range range = range_of(info, spectrum);
-    const std::string some = spectrum.selected ? "the selected objects" : "the essential objects, which noise does not explain";
-    std::vector<Plot> plots{plot_of_counts("How many there are at each isovalue", info, spectrum, range, &SpectrumInterval::all),
+    const std::string some = spectrum.selected ? "the selected objects" : "the significant objects";
+    std::vector<Plot> plots{plot_of_counts("Number at each isovalue", info, spectrum, range, &SpectrumInterval::all),
                             plot_of_counts("Of " + some, info, spectrum, range, &SpectrumInterval::significant)};
     if (!spectrum.sizes.empty()) plots.push_back(plot_of_sizes(info, spectrum, range));
     file.write(svg_of(plots));

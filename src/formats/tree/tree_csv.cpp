@@ -1,4 +1,4 @@
-// The tree as CSV: a row for each event, level, element or contour; lists are separated by spaces; what does not exist is empty.
+// The tree as CSV: a row for each event, level, element or contour; lists are separated by spaces; missing values are empty.
 #include "formats/common/csv_table.h"
 #include "formats/tree/tree_formats.h"
 

@@ -7,7 +7,7 @@ namespace isoatlas {
 
 namespace {
 
-/// Graphs need ends, and points need places.
+/// Graph formats need edges, and points need positions.
 void check_detail(const std::string& path, const std::string& extension, TreeDetail detail) {
     const bool graph = extension == ".graphml" || extension == ".vtu";
     const bool possible =

@@ -15,7 +15,7 @@
 
 namespace isoatlas {
 
-/// The tree as the user sees it: values are reported (calibrated) values.
+/// The tree in reported (calibrated) values.
 struct TreeView {
     const Volume& volume;
     const Analysis& analysis;

@@ -51,7 +51,7 @@ void put_events(ByteWriter& out, const TreeView& tree) {
     }
 }
 
-/// The node behind the last element is the outside of the volume.
+/// The node after the last element is the outside of the volume.
 void put_contours(ByteWriter& out, const TreeView& tree) {
     for (std::int64_t id = 0; id < tree.analysis.element_count(); ++id) {
         const Element e = tree.analysis.element(id);

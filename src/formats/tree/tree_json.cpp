@@ -1,4 +1,4 @@
-// The tree as JSON, written while it is read: docs/schema/tree-*.schema.json.
+// The tree as JSON, streamed: docs/schema/tree-*.schema.json.
 #include <cmath>
 
 #include "formats/common/generator.h"

@@ -19,7 +19,7 @@ TtkType type_of(const Event& e) {
     return TtkType::degenerate;
 }
 
-/// By the numbers of objects just above and low components just below. (2, 2) is the saddle of 2D, where TTK knows one kind only.
+/// By the numbers of objects just above and low components just below. (2, 2) is the saddle of 2D, where TTK has one kind only.
 TtkType type_of(const Element& e) {
     if (e.h0 == 0) return TtkType::maximum;
     if (e.l0 == 0) return TtkType::minimum;
@@ -36,7 +36,7 @@ VtuLines lines_of(const TreeView& tree) {
     } else if (tree.options.detail == TreeDetail::contours) {
         for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
             const ContourArc arc = tree.analysis.contour_arc(id);
-            if (!tree.is_outside(arc.lower)) lines.add(id, arc.upper, arc.lower);  // the outside has no place
+            if (!tree.is_outside(arc.lower)) lines.add(id, arc.upper, arc.lower);  // the outside has no position
         }
     }
     return lines;

@@ -1,5 +1,5 @@
-// A graph as VTU: points at places in physical coordinates, lines that go down between them, arrays named as TTK names them, so that its
-// ParaView states work. Sources: VTK file formats (docs.vtk.org); TTK's ttkContourTree (array names, type codes).
+// A graph as VTU: points in physical coordinates, descending lines between them, array names of TTK, so that its ParaView states work.
+// Sources: VTK file formats (docs.vtk.org); TTK's ttkContourTree (array names, type codes).
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct VtuPoint {
 
 /// Line i goes from upper[i] down to lower[i].
 struct VtuLines {
-    std::vector<std::int64_t> item, upper, lower;  ///< item: what the line stands for
+    std::vector<std::int64_t> item, upper, lower;  ///< item: what the line represents
 
     void add(std::int64_t the_item, std::int64_t the_upper, std::int64_t the_lower) {
         item.push_back(the_item), upper.push_back(the_upper), lower.push_back(the_lower);
@@ -43,7 +43,7 @@ template <class T, class Get>
 class VtuGraph {
 public:
     using At = std::function<VtuPoint(std::int64_t)>;
-    /// at: the point of a number below `points`; asked again for every array, so that nothing of a large graph is copied.
+    /// at: the point of an index below `points`; called again for every array, so that a large graph is not copied.
     VtuGraph(std::int64_t points, At at, VtuLines lines) : points_(points), at_(std::move(at)), lines_(std::move(lines)) {}
 
     /// One more array with get(point) for every point.
@@ -60,14 +60,14 @@ public:
         });
     }
     /// Writes the whole file and commits: the arrays of every graph (NodeId, Scalar, CriticalType; SegmentationId, upNodeId, downNodeId,
-    /// RegionSpan, ValueSpan, RegionType) and those that were added.
+    /// RegionSpan, ValueSpan, RegionType) and the added ones.
     void write(AtomicFile& file, const VolumeInfo& info, const Connectivity& connectivity) const;
 
 private:
     using PointArray = std::function<std::string(AppendedArrays&)>;
     using LineArray = std::function<std::string(AppendedArrays&, const std::vector<std::int64_t>& items)>;
 
-    [[nodiscard]] bool has_vertices() const { return lines_.item.empty(); }  ///< without lines, so that there is something to see
+    [[nodiscard]] bool has_vertices() const { return lines_.item.empty(); }  ///< without lines: vertices, so that the points are visible
     [[nodiscard]] std::int64_t cells() const { return has_vertices() ? points_ : static_cast<std::int64_t>(lines_.item.size()); }
     void put_point_arrays(ByteWriter& out, AppendedArrays& arrays) const;
     void put_line_arrays(ByteWriter& out, AppendedArrays& arrays, const Geometry& geometry) const;

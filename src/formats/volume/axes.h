@@ -1,4 +1,4 @@
-// From what headers say about axes (vectors, lengths, angles) to Geometry.
+// Converts axes of headers (vectors, lengths, angles) to Geometry.
 #pragma once
 
 #include <string>

@@ -38,7 +38,7 @@ Directive find_directive(std::string_view text) {
     return {};
 }
 
-/// Offset behind `lines` ends of line from `offset` on.
+/// Offset after `lines` line ends, starting at `offset`.
 std::int64_t skip_lines(const std::string& path, std::int64_t offset, std::int64_t lines) {
     if (lines == 0) return offset;
     const std::unique_ptr<ByteSource> source = open_file_source(path, offset);
@@ -90,7 +90,7 @@ std::int64_t check_parts(const PayloadPlan& plan, std::int64_t part_bytes) {
         if (source->random_access() && holds > part_bytes && longer.empty()) longer = source->file(), rest = holds - part_bytes;
         bound += part_bytes;
     }
-    if (!longer.empty() && !plan.skip_rest) refuse_rest(longer, rest);  // a missing file is more to say
+    if (!longer.empty() && !plan.skip_rest) refuse_rest(longer, rest);  // a missing file has an error of its own
     return bound;
 }
 
@@ -100,7 +100,7 @@ std::string data_file_path(const PayloadPlan& plan, std::int64_t i) {
     const std::string name = plan.files.name(i);
     if (std::any_of(name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; })) {
         throw Error(ErrorKind::input, {.file = plan.header_path,
-                                       .what = "the name of a data file contains control bytes: " + quoted(name),
+                                       .what = "the name of a data file contains control bytes: " + in_quotes(name),
                                        .expected = "a file name",
                                        .next = "the header is damaged: get the file again"});
     }
@@ -135,7 +135,7 @@ DataFiles parse_series(const std::string& header_path, const std::string& where,
         *step < -kLargest || (*last - *first) / *step < 0) {
         throw Error(ErrorKind::input, {.file = header_path,
                                        .where = where,
-                                       .what = "the numbered series of data files is not understood",
+                                       .what = "the numbered series of data files is not valid",
                                        .expected = "a name with %03d, first number, last number, step",
                                        .next = "correct the header"});
     }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct Listing {
     std::vector<std::string> slices;  ///< TIFF files in natural order
     std::string dicom, other_image;   ///< the first of these
-    std::int64_t others = 0;          ///< files that are no TIFF files
+    std::int64_t others = 0;          ///< files that are not TIFF
 };
 
 bool has_extension(const std::string& name, std::initializer_list<const char*> extensions) {
@@ -122,13 +122,13 @@ private:
 
     std::vector<std::string> files_;
     std::vector<std::int64_t> first_page_;  ///< of each file
-    std::unique_ptr<TiffFile> open_;        ///< one file at a time: thousands would exceed the limit of open files
+    std::unique_ptr<TiffFile> open_;        ///< one file at a time, because of the limit of open files
     std::size_t open_index_ = 0;
     bool skip_rest_;
     std::int64_t page_bytes_ = 0;
 };
 
-/// Checks that a file fits to the first one and adds it to the volume.
+/// Checks that a file matches the first one and adds it to the volume.
 void add_file(const TiffFile& file, const std::string& first_file, VolumeInfo& info) {
     const TiffPage& page = file.pages()[0];
     const auto shape = [](std::int64_t width, std::int64_t height, ValueType type) {

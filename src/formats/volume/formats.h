@@ -2,7 +2,7 @@
 //
 // looks_like_X(first, path): whether the file is an X, judged by its first 4096 bytes or fewer (of a gzip file: decompressed) and,
 // where a format has no magic number, by its name. Never throws.
-// open_X(path, options): reads the header and nothing else. Throws Error: input, unsupported, usage (see open_volume).
+// open_X(path, options): reads the header only. Throws Error: input, unsupported, usage (see open_volume).
 #pragma once
 
 #include <cstddef>
@@ -34,10 +34,10 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool looks_like_tiff(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptions& options);
 
-/// A directory of slices, one image file each. There is no looks_like: every directory is taken for one.
+/// A directory of slices, one image file each. Without looks_like: every directory is read as one.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options);
 
-/// Any file: nothing in it says what it is, so options, a sidecar or its name must.
+/// Any file: described by options, a sidecar or its name.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOptions& options);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// load_volume: a volume file into memory, slab by slab, with the policy for missing samples.
+// load_volume: loads a volume file into memory, slab by slab, with the policy for missing samples.
 #include <algorithm>
 #include <new>
 #include <string>
@@ -27,13 +27,13 @@ std::span<std::byte> room_for(std::size_t count, const Allocate& allocate, const
     }
 }
 
-/// Reads with the samples as they are. Missing ones are only looked at here; they are replaced when all are known.
+/// Reads the stored samples. Missing ones are only counted here; they are replaced at the end.
 VolumeInfo load_stored(VolumeReader& reader, MissingScan& scan, const Allocate& allocate, const Context& context) {
     const VolumeInfo& info = reader.info();
     const std::span<std::byte> all = room_for(static_cast<std::size_t>(info.extent.voxels()) * size_of(info.type), allocate, info);
     for_each_slab(reader, context, all,
                   [&](std::int64_t z, std::span<std::byte> samples) { scan.look(info.type, samples, z * info.extent.slice()); });
-    VolumeInfo loaded = reader.info();  // behind the reading: notes about the end of the file are there now
+    VolumeInfo loaded = reader.info();  // after reading, because of the notes about the end of the file
     scan.replace(loaded, all);
     return loaded;
 }

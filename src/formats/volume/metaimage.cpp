@@ -40,7 +40,7 @@ ValueType sample_type(const MetaHeader& header) {
     const bool known = name == "met_long_long" || name == "met_ulong_long" || name == "met_other" || name == "met_string" ||
                        name == "met_none" || (name.starts_with("met_") && name.ends_with("_array"));
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "ElementType",
-                quoted(header.text("elementtype")) + (known ? " samples are not read" : " is no MetaImage type"),
+                in_quotes(header.text("elementtype")) + (known ? " samples are not supported" : " is not a MetaImage type"),
                 "8 to 32 bit integers, MET_FLOAT or MET_DOUBLE", "convert the file to MET_DOUBLE with the program that wrote it");
 }
 
@@ -145,7 +145,7 @@ PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType 
         header.fail(ErrorKind::input, "HeaderSize", "is " + std::to_string(plan.skip),
                     "0 or more, or -1 for raw samples at the end of the file");
     }
-    if (local && plan.skip > 0) {  // counted from the start of the file, also when that holds this header
+    if (local && plan.skip > 0) {  // from the start of the file, also when it contains this header
         if (plan.skip < header.data_offset)
             header.fail(ErrorKind::input, "HeaderSize", "lies inside this header", "the start of the samples");
         plan.skip -= header.data_offset;
@@ -153,7 +153,7 @@ PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType 
     return plan;
 }
 
-/// CompressedDataSize is not needed, as streams know their end, and real files have it wrong: a larger file is read with a note.
+/// CompressedDataSize is not needed, as streams have an end mark, and is wrong in real files: a larger file is read with a note.
 void check_compressed_size(const MetaHeader& header, const PayloadPlan& plan, VolumeInfo& info) {
     const std::int64_t claimed = header.integer("compresseddatasize", 0);
     if (claimed < 0) header.fail(ErrorKind::input, "CompressedDataSize", "is negative", "the size of the compressed samples");
@@ -171,7 +171,7 @@ void check_compressed_size(const MetaHeader& header, const PayloadPlan& plan, Vo
 void refuse_other_objects(const MetaHeader& header) {
     const std::string object = header.text("objecttype");
     if (!object.empty() && lower(object) != "image") {
-        header.fail(ErrorKind::unsupported, "ObjectType", "the file holds a " + quoted(object), "Image", "choose a MetaImage file");
+        header.fail(ErrorKind::unsupported, "ObjectType", "the file holds a " + in_quotes(object), "Image", "choose a MetaImage file");
     }
     const std::int64_t channels = header.integer("elementnumberofchannels", 1);
     if (channels < 1) header.fail(ErrorKind::input, "ElementNumberOfChannels", "is " + std::to_string(channels), "1");

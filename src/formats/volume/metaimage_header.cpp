@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::string_view kLastField = "elementdatafile";
 
-/// Where the name of a line ends; npos when it has none.
+/// End of the name of a line; npos when it has none.
 std::size_t name_end(std::string_view line) {
     const std::size_t at = line.find('=');
     return at == std::string_view::npos ? line.find(':') : at;
 }
 
-/// Name and value of a line "Name = value" (or "Name : value"), the name in lower case; an empty name when it is no such line.
+/// Name and value of a line "Name = value" (or "Name : value"), the name in lower case; an empty name for any other line.
 std::pair<std::string, std::string> split_field(std::string_view line) {
     const std::size_t at = name_end(line);
     if (at == std::string_view::npos) return {};
@@ -32,8 +32,8 @@ std::optional<std::size_t> find_header_end(std::string_view text) {
     return std::nullopt;
 }
 
-/// Fields that decide something here. Others are those of whoever wrote the file; but one that differs from these in a character only is
-/// damaged, and to ignore it could mean other samples.
+/// Fields that are used. Others belong to the writer of the file; but one that differs from these in a single character is damaged, and
+/// ignoring it could change the samples.
 void refuse_damaged_name(const MetaHeader& header, const std::string& name) {
     static constexpr std::array<std::string_view, 27> kKnown = {"objecttype",
                                                                 "objectsubtype",
@@ -63,7 +63,7 @@ void refuse_damaged_name(const MetaHeader& header, const std::string& name) {
                                                                 "elementtointensityfunctionoffset",
                                                                 kLastField};
     for (const std::string_view known : kKnown) {
-        if (is_damaged(name, known)) header.fail(ErrorKind::input, name, "is no field of MetaImage", std::string(known));
+        if (is_damaged(name, known)) header.fail(ErrorKind::input, name, "is not a field of MetaImage", std::string(known));
     }
 }
 
@@ -72,7 +72,7 @@ void parse_line(MetaHeader& header, std::string_view line, int number) {
     if (name.empty()) {
         throw Error(ErrorKind::input, {.file = header.path,
                                        .where = "line " + std::to_string(number),
-                                       .what = quoted(line) + " is not a line of a MetaImage header",
+                                       .what = in_quotes(line) + " is not a line of a MetaImage header",
                                        .expected = "'Name = value'",
                                        .next = "the header is damaged: get the file again"});
     }
@@ -110,7 +110,7 @@ bool MetaHeader::flag(const std::string& field, bool otherwise) const {
     const std::string value = lower(text(field));
     if (value == "true" || value == "t" || value == "1" || value == "yes") return true;
     if (value == "false" || value == "f" || value == "0" || value == "no") return false;
-    fail(ErrorKind::input, field, "is " + quoted(text(field)), "True or False");
+    fail(ErrorKind::input, field, "is " + in_quotes(text(field)), "True or False");
 }
 
 std::int64_t MetaHeader::integer(const std::string& field, std::int64_t otherwise) const {
@@ -124,7 +124,7 @@ std::vector<std::int64_t> MetaHeader::integers(const std::string& field, std::si
     std::vector<std::int64_t> result;
     for (const std::string_view word : split_words(value)) {
         const std::optional<std::int64_t> found = parse_integer(word);
-        if (!found) fail(ErrorKind::input, field, quoted(word) + " is not a number", "an integer");
+        if (!found) fail(ErrorKind::input, field, in_quotes(word) + " is not a number", "an integer");
         result.push_back(*found);
     }
     if (result.size() != count) fail(ErrorKind::input, field, "has " + std::to_string(result.size()) + " values", std::to_string(count));
@@ -136,7 +136,7 @@ std::vector<double> MetaHeader::numbers(const std::string& field, std::size_t co
     std::vector<double> result;
     for (const std::string_view word : split_words(value)) {
         const std::optional<double> found = parse_number(word);
-        if (!found) fail(ErrorKind::input, field, quoted(word) + " is not a number", "a number");
+        if (!found) fail(ErrorKind::input, field, in_quotes(word) + " is not a number", "a number");
         result.push_back(*found);
     }
     if (result.size() != count) fail(ErrorKind::input, field, "has " + std::to_string(result.size()) + " values", std::to_string(count));

@@ -1,4 +1,4 @@
-// The text of a MetaImage header as fields (https://itk.org/Wiki/ITK/MetaIO/Documentation), without their meaning.
+// The text of a MetaImage header as fields (https://itk.org/Wiki/ITK/MetaIO/Documentation), uninterpreted.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace isoatlas {
 struct MetaHeader {
     std::string path;
     std::map<std::string, std::string> fields;    ///< names in lower case
-    std::map<std::string, std::string> spelling;  ///< the names as the file has them, for messages
-    std::vector<std::string> listed_files;        ///< lines behind ElementDataFile = LIST
+    std::map<std::string, std::string> spelling;  ///< the names in the file, for messages
+    std::vector<std::string> listed_files;        ///< lines after ElementDataFile = LIST
     std::int64_t data_offset = 0;                 ///< local data begin here
 
     [[nodiscard]] bool has(const std::string& field) const { return fields.contains(field); }
@@ -32,7 +32,7 @@ struct MetaHeader {
                            const std::string& next = "correct the header or get the file again") const;
 };
 
-/// Throws Error{input} for lines that are no "Name = value", fields given twice, a missing ElementDataFile.
+/// Throws Error{input} for lines that are not "Name = value", fields given twice, a missing ElementDataFile.
 [[nodiscard]] MetaHeader read_metaimage_header(const std::string& path);
 
 }  // namespace isoatlas

@@ -37,7 +37,7 @@ std::vector<std::byte> header_bytes(const std::string& path) {
     return is_gzip(path) ? read_inflated_bytes(path, kNifti2HeaderBytes) : read_header_bytes(path, kNifti2HeaderBytes);
 }
 
-/// "brain.img.gz" -> "brain.hdr.gz": the other file of a pair, with the case of the letters kept. Nothing: not such a name.
+/// "brain.img.gz" -> "brain.hdr.gz": the other file of a pair, with the case of the letters kept. nullopt: not such a name.
 std::optional<std::string> partner(const std::string& path, std::string_view from, std::string_view to) {
     const std::string end = ends_with_ignoring_case(path, ".gz") ? path.substr(path.size() - 3) : "";
     std::string stem = path.substr(0, path.size() - end.size());
@@ -57,7 +57,7 @@ bool is_readable(const std::string& path) {
     }
 }
 
-/// The partner with or without .gz, whichever is there; the first choice when none is (opening it explains).
+/// The partner with or without .gz, whichever exists; the first choice when none does (opening it gives the error).
 std::string find_partner(const std::string& path, std::string_view from, std::string_view to) {
     const std::string first = partner(path, from, to).value_or(path);
     const std::string second = ends_with_ignoring_case(first, ".gz") ? first.substr(0, first.size() - 3) : first + ".gz";
@@ -127,7 +127,7 @@ std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std
     }
     const std::int64_t header_size = header.version == 1 ? kNifti1HeaderBytes : kNifti2HeaderBytes;
     if (!header.pair && offset == 0) {
-        notes.push_back("the header does not say where the samples start: taken as right behind it");
+        notes.push_back("the header does not say where the samples start: assumed directly after it");
         return header_size + 4;
     }
     if (!header.pair && offset < static_cast<double>(header_size)) {
@@ -196,7 +196,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     if (header.pair && data_path == header_path) {
         throw Error(ErrorKind::input, {.file = path,
                                        .where = "header",
-                                       .what = "says that its samples are in a second file",
+                                       .what = "declares its samples in a second file",
                                        .expected = "a pair NAME.hdr and NAME.img",
                                        .next = "rename the header to .hdr and put the .img beside it"});
     }

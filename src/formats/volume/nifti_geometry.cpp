@@ -8,7 +8,7 @@ namespace isoatlas {
 
 namespace {
 
-constexpr double kSameAngle = 1e-3;  ///< float headers are good to about 1e-6; scanners round more
+constexpr double kSameAngle = 1e-3;  ///< float headers are accurate to about 1e-6; scanners round more
 constexpr double kSmallest = 1e-30;
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -17,7 +17,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[
 
 bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
-/// Geometry from the columns of a voxel-to-world matrix. Nothing: not finite or singular.
+/// Geometry from the columns of a voxel-to-world matrix. nullopt: not finite or singular.
 std::optional<Geometry> from_columns(std::array<Vec3, 3> columns, const Vec3& origin, int rank) {
     if (rank == 2 && dot(columns[2], columns[2]) == 0) columns[2] = cross(columns[0], columns[1]);
     Geometry geometry;
@@ -96,7 +96,7 @@ Geometry from_pixdim(const NiftiHeader& header, int rank, std::vector<std::strin
     Geometry geometry;
     for (int axis = 0; axis < rank; ++axis) {
         const double spacing = usable_spacing(header.pixdim[static_cast<std::size_t>(axis) + 1]);
-        if (spacing == 0) notes.push_back("the voxel size of axis " + std::to_string(axis) + " is not given: taken as 1");
+        if (spacing == 0) notes.push_back("the voxel size of axis " + std::to_string(axis) + " is not given: 1 was assumed");
         geometry.spacing[axis] = spacing == 0 ? 1 : spacing;
     }
     return geometry;
@@ -111,8 +111,8 @@ Geometry nifti_geometry(const NiftiHeader& header, int rank, std::vector<std::st
     if (header.qform_code > 0 && !qform) notes.push_back("the qform of the file is not usable and was ignored");
     if (sform && qform && !agree(*sform, *qform)) notes.push_back("sform and qform of the file differ: the sform is used");
     Geometry geometry = sform ? *sform : qform ? *qform : from_pixdim(header, rank, notes);
-    if (!sform && !qform) notes.push_back("the file says nothing about orientation: axes are taken as they are stored");
-    if (is_sheared(geometry)) notes.push_back("the axes of the file are not perpendicular (sheared sform); they are kept as they are");
+    if (!sform && !qform) notes.push_back("the file has no orientation: the stored axes are used");
+    if (is_sheared(geometry)) notes.push_back("the axes of the file are not perpendicular (sheared sform); they are kept");
     static constexpr const char* kUnit[] = {"", "m", "mm", "um"};
     const int unit = header.units & 7;
     geometry.unit = unit <= 3 ? kUnit[unit] : "";

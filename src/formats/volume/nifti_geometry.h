@@ -1,4 +1,4 @@
-// Where a NIfTI file puts its voxels: sform before qform before pixdim.
+// Geometry of a NIfTI file: sform before qform before pixdim.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace isoatlas {
 
-/// Space is "RAS" with an sform or qform, else "unknown" (then axes, spacing from pixdim, origin 0). What was chosen against the
-/// file's other statements, or had to be corrected, becomes a note.
+/// Space is "RAS" with an sform or qform, else "unknown" (then axes, spacing from pixdim, origin 0). Contradictions and corrections become
+/// notes.
 [[nodiscard]] Geometry nifti_geometry(const NiftiHeader& header, int rank, std::vector<std::string>& notes);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// The header of NIfTI-1 and NIfTI-2 files as numbers of this machine. Source: nifti1.h and nifti2.h of the NIfTI working group.
+// The header of NIfTI-1 and NIfTI-2 files in host byte order. Source: nifti1.h and nifti2.h of the NIfTI working group.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct NiftiHeader {
     std::array<std::array<double, 4>, 3> rows{};  ///< the sform
 };
 
-/// What the first bytes of a file say about NIfTI.
+/// Kind of NIfTI header by the first bytes of a file.
 enum class NiftiKind : std::uint8_t { no, nifti1, nifti2, analyze };
 /// Looks at the size field and the magic; bytes may be fewer than a header. analyze: an old header without magic.
 [[nodiscard]] NiftiKind nifti_kind(std::span<const std::byte> bytes);

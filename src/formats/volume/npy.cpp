@@ -37,7 +37,7 @@ std::string header_dictionary(const std::string& path, std::int64_t& data_offset
     const auto at = [&](std::size_t i) { return std::to_integer<std::int64_t>(bytes[i]); };
     if (bytes.size() < 12) fail(path, ErrorKind::input, "offset " + std::to_string(bytes.size()), "the file ends early", "a header");
     if (at(6) < 1 || at(6) > 3) {
-        fail(path, ErrorKind::unsupported, "offset 6", "version " + std::to_string(at(6)) + " of .npy is not read", "1, 2 or 3",
+        fail(path, ErrorKind::unsupported, "offset 6", "version " + std::to_string(at(6)) + " of .npy is not supported", "1, 2 or 3",
              "write it again with numpy.save");
     }
     const std::int64_t length = at(6) == 1 ? at(8) + 256 * at(9) : at(8) + 256 * (at(9) + 256 * (at(10) + 256 * at(11)));
@@ -57,12 +57,12 @@ std::string_view value_of(const std::string& path, std::string_view dictionary, 
         const std::size_t found = dictionary.find(name);
         if (found == std::string_view::npos) continue;
         if (dictionary.find(name, found + 1) != std::string_view::npos) {
-            fail(path, ErrorKind::input, "header", quoted(key) + " appears twice", "one value");
+            fail(path, ErrorKind::input, "header", in_quotes(key) + " appears twice", "one value");
         }
         const std::string_view rest = trim(dictionary.substr(found + name.size()));
         if (rest.starts_with(':')) return trim(rest.substr(1));
     }
-    fail(path, ErrorKind::input, "header", quoted(key) + " is missing", "'descr', 'fortran_order' and 'shape'");
+    fail(path, ErrorKind::input, "header", in_quotes(key) + " is missing", "'descr', 'fortran_order' and 'shape'");
 }
 
 std::string parse_type(const std::string& path, std::string_view value) {
@@ -72,7 +72,7 @@ std::string parse_type(const std::string& path, std::string_view value) {
     }
     const std::size_t end = value.empty() ? std::string_view::npos : value.find(value[0], 1);
     if (value.empty() || (value[0] != '\'' && value[0] != '"') || end == std::string_view::npos) {
-        fail(path, ErrorKind::input, "header", "'descr' is not understood", "a type like '<f4'");
+        fail(path, ErrorKind::input, "header", "'descr' is not valid", "a type like '<f4'");
     }
     return std::string(value.substr(1, end - 1));
 }
@@ -90,7 +90,7 @@ std::vector<std::int64_t> parse_shape(const std::string& path, std::string_view 
         if (size) shape.push_back(*size);
         begin = end + 1;
     }
-    if (!readable) fail(path, ErrorKind::input, "header", "'shape' is not understood", "a shape like (64, 64, 64)");
+    if (!readable) fail(path, ErrorKind::input, "header", "'shape' is not valid", "a shape like (64, 64, 64)");
     return shape;
 }
 
@@ -101,7 +101,7 @@ NpyHeader read_header(const std::string& path) {
     header.type = parse_type(path, value_of(path, dictionary, "descr"));
     const std::string_view order = value_of(path, dictionary, "fortran_order");
     if (!order.starts_with("True") && !order.starts_with("False")) {
-        fail(path, ErrorKind::input, "header", "'fortran_order' is not understood", "True or False");
+        fail(path, ErrorKind::input, "header", "'fortran_order' is not valid", "True or False");
     }
     header.fortran = order.starts_with("True");
     header.shape = parse_shape(path, value_of(path, dictionary, "shape"));
@@ -133,7 +133,7 @@ void set_type(const NpyHeader& header, VolumeInfo& info) {
         return;
     }
     const bool known = !name.empty() && std::string_view("fiucbOSUVMm").find(name[0]) != std::string_view::npos && name.size() > 1;
-    fail(header.path, known ? ErrorKind::unsupported : ErrorKind::input, "header", quoted(header.type) + " samples are not read",
+    fail(header.path, known ? ErrorKind::unsupported : ErrorKind::input, "header", in_quotes(header.type) + " samples are not supported",
          "8 to 32 bit integers, float32, float64 or bool", "convert: numpy.save(\"out.npy\", array.astype(\"float64\"))");
 }
 
@@ -165,7 +165,7 @@ std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOption
     info.extent.rank = static_cast<int>(std::min<std::size_t>(3, sizes.size()));
     std::copy_n(sizes.begin(), info.extent.rank, info.extent.size.begin());
     info.notes.push_back(header.fortran ? "Fortran order: array[x, y, z]" : "C order: array[z, y, x]");
-    static_cast<void>(sample_bytes(path, info.extent, info.type));  // refuses sizes below 1
+    static_cast<void>(sample_bytes(path, info.extent, info.type));  // rejects sizes below 1
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
     std::unique_ptr<ByteSource> source = open_file_source(path, header.data_offset);
     info.file_bytes = file_size(path);

@@ -1,6 +1,6 @@
 // NRRD, versions 1 to 5, attached (.nrrd) and detached (.nhdr). Format: http://teem.sourceforge.net/nrrd/format.html
 //
-// Key/value pairs calibration_slope and calibration_intercept (ours) give the calibration; NRRD itself has no such field.
+// Key/value pairs calibration_slope and calibration_intercept (of isoatlas) are the calibration; NRRD itself has no such field.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -58,7 +58,7 @@ ValueType sample_type(const NrrdHeader& header) {
     }
     const bool known = name.find("long") != std::string::npos || name.find("int64") != std::string::npos || name == "block";
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "type",
-                quoted(name) + (known ? " samples are not read" : " is no NRRD type"), "8 to 32 bit integers, float or double",
+                in_quotes(name) + (known ? " samples are not supported" : " is not a NRRD type"), "8 to 32 bit integers, float or double",
                 "convert the file, for example: unu convert -t double -i IN.nrrd -o OUT.nrrd");
 }
 
@@ -74,8 +74,8 @@ NamedEncoding sample_encoding(const NrrdHeader& header) {
     if (name == "ascii" || name == "text" || name == "txt") return {Encoding::text, "ascii"};
     const bool known = name == "bzip2" || name == "bz2" || name == "hex" || name == "zrl";
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "encoding",
-                name.empty() ? "is missing" : quoted(name) + (known ? " is not read" : " is no NRRD encoding"), "raw, gzip or ascii",
-                "convert the file, for example: unu save -f nrrd -e gzip -i IN.nrrd -o OUT.nrrd");
+                name.empty() ? "is missing" : in_quotes(name) + (known ? " is not supported" : " is not a NRRD encoding"),
+                "raw, gzip or ascii", "convert the file, for example: unu save -f nrrd -e gzip -i IN.nrrd -o OUT.nrrd");
 }
 
 bool big_endian_samples(const NrrdHeader& header, ValueType type, Encoding encoding) {
@@ -84,7 +84,7 @@ bool big_endian_samples(const NrrdHeader& header, ValueType type, Encoding encod
     const std::string endian = lower(header.text("endian"));
     if (endian == "big" || endian == "little") return size_of(type) > 1 ? endian == "big" : false;
     if (!endian.empty() || size_of(type) > 1) {
-        header.fail(ErrorKind::input, "endian", endian.empty() ? "is missing" : quoted(endian) + " is no byte order", "little or big",
+        header.fail(ErrorKind::input, "endian", endian.empty() ? "is missing" : in_quotes(endian) + " is not a byte order", "little or big",
                     "add 'endian: little' (or big) to the header");
     }
     return false;
@@ -125,7 +125,7 @@ PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, ValueType 
     plan.offset = plan.files.count() == 0 ? header.data_offset : 0;
     plan.line_skip = skip_count(header, "line skip", 0);
     const std::int64_t skip = skip_count(header, "byte skip", encoding == Encoding::raw ? -1 : 0);
-    (encoding == Encoding::deflate ? plan.inflated_skip : plan.skip) = skip;  // NRRD skips bytes behind the decompression
+    (encoding == Encoding::deflate ? plan.inflated_skip : plan.skip) = skip;  // NRRD skips bytes after decompression
     plan.type = type;
     plan.sample_bytes = bytes;
     return plan;
@@ -135,7 +135,7 @@ double key_value(const NrrdHeader& header, const std::string& key, double otherw
     const auto found = header.values.find(key);
     if (found == header.values.end()) return otherwise;
     const std::optional<double> number = parse_number(found->second);
-    if (!number) header.fail(ErrorKind::input, key, quoted(found->second) + " is not a number", "a number");
+    if (!number) header.fail(ErrorKind::input, key, in_quotes(found->second) + " is not a number", "a number");
     return *number;
 }
 

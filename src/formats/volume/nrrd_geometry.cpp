@@ -156,7 +156,7 @@ NrrdAxes choose_nrrd_axes(const NrrdHeader& header, std::vector<std::string>& no
         } else if (kinds[axis] == "list" && axis + 1 == axes.sizes.size() && kept.size() == 3) {
             kept.push_back(axis);  // a list of volumes is a series as well
         } else if (axes.sizes[axis] != 1) {
-            several_values(header, axis, quoted(kinds[axis]));
+            several_values(header, axis, in_quotes(kinds[axis]));
         } else {
             notes.push_back("axis " + std::to_string(axis) + " (" + printable(kinds[axis]) + ") has one entry and was dropped");
         }

@@ -1,4 +1,4 @@
-// Which NRRD axes are the axes of the volume, and the geometry of those.
+// Selects the NRRD axes of the volume and their geometry.
 #pragma once
 
 #include <cstdint>

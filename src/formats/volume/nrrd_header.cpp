@@ -64,12 +64,12 @@ void check_magic(const std::string& path, std::string_view line) {
     if (version && line[7] >= '1' && line[7] <= '5') return;
     throw Error(version ? ErrorKind::unsupported : ErrorKind::input, {.file = path,
                                                                       .where = "line 1",
-                                                                      .what = quoted(line) + " is not a NRRD version",
+                                                                      .what = in_quotes(line) + " is not a NRRD version",
                                                                       .expected = "NRRD0001 to NRRD0005",
                                                                       .next = "write the file again as NRRD0005"});
 }
 
-/// A field that differs from a known one in a character is that one, damaged: to ignore it could mean other samples.
+/// A field that differs from a known one in a single character is damaged: ignoring it could change the samples.
 void refuse_damaged_name(const NrrdHeader& header, std::string_view name) {
     const std::string given = lower(trim(name));
     for (const std::string_view field : kFields) {
@@ -78,8 +78,8 @@ void refuse_damaged_name(const NrrdHeader& header, std::string_view name) {
         if (!is_damaged(given, field) && !is_damaged(given, joined)) continue;
         throw Error(ErrorKind::input, {.file = header.path,
                                        .where = "header",
-                                       .what = quoted(given) + " is no field of NRRD",
-                                       .expected = quoted(field),
+                                       .what = in_quotes(given) + " is not a field of NRRD",
+                                       .expected = in_quotes(field),
                                        .next = "the header is damaged: get the file again or correct it"});
     }
 }
@@ -96,14 +96,14 @@ void parse_line(NrrdHeader& header, std::string_view line, int number) {
     if (colon == std::string_view::npos) {
         throw Error(ErrorKind::input, {.file = header.path,
                                        .where = "line " + std::to_string(number),
-                                       .what = quoted(line) + " is not a line of a NRRD header",
+                                       .what = in_quotes(line) + " is not a line of a NRRD header",
                                        .expected = "'field: value', 'key:=value' or '# comment'",
                                        .next = "the header is damaged: get the file again"});
     }
     if (pair == colon) {
         const std::string key(trim(line.substr(0, pair)));
         for (const char* known : {"calibration_slope", "calibration_intercept"}) {
-            if (is_damaged(key, known)) header.fail(ErrorKind::input, printable(key), "is no key that is known", known);
+            if (is_damaged(key, known)) header.fail(ErrorKind::input, printable(key), "is not a known key", known);
         }
         header.values.insert_or_assign(key, std::string(trim(line.substr(pair + 2))));
         return;
@@ -111,7 +111,7 @@ void parse_line(NrrdHeader& header, std::string_view line, int number) {
     const std::string field = canonical(line.substr(0, colon));
     if (field.empty()) {
         refuse_damaged_name(header, line.substr(0, colon));
-        header.notes.push_back("unknown header field " + quoted(line.substr(0, colon)) + " ignored");
+        header.notes.push_back("unknown header field " + in_quotes(line.substr(0, colon)) + " ignored");
         return;
     }
     add_once(header, header.fields, field, line.substr(colon + 1));
@@ -138,7 +138,7 @@ std::vector<std::int64_t> NrrdHeader::integers(const std::string& field, std::si
     std::vector<std::int64_t> result;
     for (const std::string_view word : split_words(value)) {
         const std::optional<std::int64_t> number = parse_integer(word);
-        if (!number) fail(ErrorKind::input, field, quoted(word) + " is not a number", "an integer");
+        if (!number) fail(ErrorKind::input, field, in_quotes(word) + " is not a number", "an integer");
         result.push_back(*number);
     }
     if (count != 0 && result.size() != count) wrong_count(*this, field, result.size(), count);
@@ -150,7 +150,7 @@ std::vector<double> NrrdHeader::numbers(const std::string& field, std::size_t co
     std::vector<double> result;
     for (const std::string_view word : split_words(value)) {
         const std::optional<double> number = parse_number(word);
-        if (!number) fail(ErrorKind::input, field, quoted(word) + " is not a number", "a number");
+        if (!number) fail(ErrorKind::input, field, in_quotes(word) + " is not a number", "a number");
         result.push_back(*number);
     }
     if (count != 0 && result.size() != count) wrong_count(*this, field, result.size(), count);
@@ -168,12 +168,12 @@ std::vector<std::optional<std::vector<double>>> NrrdHeader::vectors(const std::s
         }
         const std::size_t close = value.find(')', at);
         if (value[at] != '(' || close == std::string::npos)
-            fail(ErrorKind::input, field, quoted(value) + " is not understood", "vectors like (1,0,0)");
+            fail(ErrorKind::input, field, in_quotes(value) + " is not valid", "vectors like (1,0,0)");
         std::vector<double>& vector = result.emplace_back(std::vector<double>{}).value();
         for (std::size_t begin = at + 1; begin <= close;) {
             const std::size_t end = std::min(value.find(',', begin), close);
             const std::optional<double> number = parse_number(trim(std::string_view(value).substr(begin, end - begin)));
-            if (!number) fail(ErrorKind::input, field, quoted(value) + " is not understood", "vectors like (1,0,0)");
+            if (!number) fail(ErrorKind::input, field, in_quotes(value) + " is not valid", "vectors like (1,0,0)");
             vector.push_back(*number);
             begin = end + 1;
         }

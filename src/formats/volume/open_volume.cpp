@@ -1,4 +1,4 @@
-// open_volume: which format is this file? Content decides; a name decides only where bytes say nothing (RAW).
+// open_volume: detects the format of a file by its content, and by its name where the content has no signature (RAW).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ constexpr std::array<Format, 6> kFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_
                                              {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
                                              {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage}}};
 
-/// Files that people have and isoatlas does not read, and what to do with them.
+/// Common formats that isoatlas does not read, and how to convert them.
 constexpr std::array<std::pair<std::string_view, const char*>, 14> kForeign = {
     {{".dcm", "convert the DICOM series to NIfTI, for example with dcm2niix"},
      {".hdr", "give the .nii or .mhd file of the pair; Analyze 7.5 pairs must be converted to NIfTI"},
@@ -71,7 +71,7 @@ bool has_extension(const std::string& path, const Format& format) {
     return std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
 }
 
-/// Names the file of the same folder that a missing one was probably meant to be.
+/// Suggests a file of the same folder with a similar name.
 [[noreturn]] void missing_file(const std::string& path) {
     constexpr std::size_t kMaxEntries = 10000, kFarthest = 2;
     const std::filesystem::path whole(path);
@@ -102,7 +102,7 @@ bool has_extension(const std::string& path, const Format& format) {
                                        .next = "the file is damaged or misnamed: get it again"});
     }
     const std::string extension = lower(std::filesystem::path(path).extension().string());
-    if (extension == ".atlas") {  // nothing is left by which it could be told
+    if (extension == ".atlas") {  // no signature is left
         throw Error(ErrorKind::input, {.file = path,
                                        .where = "first bytes",
                                        .what = "the file is named like a store but does not begin like one",
@@ -117,17 +117,16 @@ bool has_extension(const std::string& path, const Format& format) {
             if (extension.size() > 1 && edit_distance(extension, known) == 1) next = "did you mean " + std::string(known) + "? " + next;
         }
     }
-    throw Error(ErrorKind::unsupported,
-                {.file = path, .what = "the format of the file is not known", .expected = kSupported, .next = next});
+    throw Error(ErrorKind::unsupported, {.file = path, .what = "unknown file format", .expected = kSupported, .next = next});
 }
 
-/// Whether the name is taken, also by something that cannot be read: then opening it says why.
+/// Whether the name exists, also when it cannot be read: then opening it gives the error.
 bool anything_at(const std::string& path) {
     std::error_code ignored;
     return std::filesystem::symlink_status(path, ignored).type() != std::filesystem::file_type::not_found;
 }
 
-/// RAW by name, or because somebody has said what it is.
+/// RAW by its name, options or sidecar.
 bool is_described_raw(const std::string& path, const OpenOptions& options) {
     if (ends_with_ignoring_case(path, ".raw")) return true;
     if (options.dims && options.type) return true;
@@ -135,7 +134,7 @@ bool is_described_raw(const std::string& path, const OpenOptions& options) {
     return (name.dims && name.type) || find_sidecar(path).has_value();
 }
 
-/// What a format may look at; for gzip files the payload.
+/// The bytes that formats inspect; for gzip files the payload.
 struct Start {
     std::vector<std::byte> bytes;
     bool gzipped = false;
@@ -147,7 +146,7 @@ Start first_bytes(const std::string& path, bool may_be_raw) {
     try {
         start = {.bytes = read_inflated_bytes(path, kFirstBytes), .gzipped = true};
     } catch (const Error&) {
-        if (!may_be_raw) throw;  // else these are samples that happen to begin like gzip
+        if (!may_be_raw) throw;  // else samples that happen to begin like gzip
     }
     return start;
 }
@@ -163,7 +162,7 @@ std::unique_ptr<VolumeReader> open_file_volume(const std::string& path, const Op
         if (!format.looks_like(start.bytes, path)) continue;
         if (start.gzipped && format.open != open_nifti) {
             throw Error(ErrorKind::unsupported, {.file = path,
-                                                 .what = std::string("a whole ") + format.name + " file in gzip is not read",
+                                                 .what = std::string("a whole ") + format.name + " file in gzip is not supported",
                                                  .next = "unpack it with gunzip"});
         }
         return format.open(path, options);
@@ -183,7 +182,7 @@ std::string text_of(const Vec3& vector) {
     return std::to_string(vector[0]) + "," + std::to_string(vector[1]) + "," + std::to_string(vector[2]);
 }
 
-/// Options describe RAW files; for other files they may repeat the header and not contradict it.
+/// Options describe RAW files; for other files they may repeat the header but not contradict it.
 void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
     if (info.format == "RAW") return;
     const Extent& extent = info.extent;

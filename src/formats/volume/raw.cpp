@@ -1,5 +1,5 @@
-// RAW: samples and nothing else. What they are comes from the options, from a JSON sidecar and from the file name, in this order
-// (see raw_description.h); options that contradict the sidecar are an error, a name gives way to both.
+// RAW: samples without a header. Their description comes from the options, from a JSON sidecar and from the file name, in this order (see
+// raw_description.h); options that contradict the sidecar are an error, both override the name.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,13 +33,13 @@ void guess(const std::optional<T>& from_name, std::optional<T>& known, const cha
     notes.push_back(std::string(what) + " taken from the file name");
 }
 
-/// What a file says wrongly is noted and taken as 1; what a user says wrongly can be corrected at once.
+/// A zero spacing in a file becomes 1, with a note; in an option it is an error.
 void check_spacing(const std::string& path, const Vec3& spacing) {
     if (std::all_of(spacing.begin(), spacing.end(), [](double length) { return std::isfinite(length) && length != 0; })) return;
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "--spacing has an axis whose samples are no distance apart",
                                    .expected = "numbers other than 0",
-                                   .next = "correct --spacing, or leave it out"});
+                                   .next = "correct --spacing, or omit it"});
 }
 
 RawDescription collect(const std::string& path, const OpenOptions& options) {
@@ -62,7 +62,7 @@ RawDescription collect(const std::string& path, const OpenOptions& options) {
     return known;
 }
 
-/// A header file beside the RAW file that would describe it: foo.mhd or foo.nhdr.
+/// A header file beside the RAW file that describes it: foo.mhd or foo.nhdr.
 std::string header_beside(const std::string& path) {
     for (const char* extension : {".mhd", ".nhdr"}) {
         const std::string candidate = std::filesystem::path(path).replace_extension(extension).string();
@@ -75,7 +75,7 @@ std::string header_beside(const std::string& path) {
     const std::string header = header_beside(path);
     const char* missing = known.dims ? "its type is not known" : known.type ? "its dims are not known" : "its dims and type are not known";
     throw Error(ErrorKind::usage, {.file = path,
-                                   .what = std::string("a RAW file says nothing about itself: ") + missing,
+                                   .what = std::string("a RAW file has no header: ") + missing,
                                    .expected = "Raw files need --dims and --type",
                                    .next = header.empty() ? "give --dims NXxNYxNZ --type TYPE, or write them into " +
                                                                 std::filesystem::path(path).filename().string() +
@@ -84,7 +84,7 @@ std::string header_beside(const std::string& path) {
                                                           : "open " + header + " instead, which describes it"});
 }
 
-/// What would fit the file: other types for the same dims, another last size for the same type, or a header to skip.
+/// Suggestions that fit the size of the file: other types for the same dims, another last size for the same type, or a header to skip.
 std::string what_fits(const Extent& extent, ValueType type, std::int64_t skip, std::int64_t holds) {
     const std::int64_t voxels = extent.voxels(), sample = static_cast<std::int64_t>(size_of(type));
     if (holds >= voxels && holds % voxels == 0) {

@@ -1,4 +1,4 @@
-// What is known about a RAW file from outside its bytes: its sidecar and its name.
+// Description of a RAW file by its sidecar and its name.
 //
 // Sidecar: a JSON object in foo.raw.json or foo.json beside foo.raw. Keys, all optional:
 //   "dims":    [nx, ny] or [nx, ny, nz], x fastest         "endian":  "little" or "big"
@@ -34,13 +34,13 @@ struct RawDescription {
 /// The type of a name like "uint8", "u8", "float" or "float32", in any case.
 [[nodiscard]] std::optional<ValueType> find_value_type(std::string_view name);
 
-/// What the file name says; nothing where it is silent.
+/// The description in the file name; members without one are empty.
 [[nodiscard]] RawDescription description_from_name(const std::string& path);
 
 /// Path of the sidecar of a RAW file, if there is one.
 [[nodiscard]] std::optional<std::string> find_sidecar(const std::string& path);
 
-/// Reads a sidecar. Throws Error{input} when it is no JSON object or a key has the wrong kind of value; unknown keys become notes.
+/// Reads a sidecar. Throws Error{input} when it is not a JSON object or a key has the wrong kind of value; unknown keys become notes.
 [[nodiscard]] RawDescription read_sidecar(const std::string& sidecar_path);
 
 }  // namespace isoatlas

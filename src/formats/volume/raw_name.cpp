@@ -8,7 +8,7 @@
 namespace isoatlas {
 namespace {
 
-/// The sizes of a word like 512x512x128; nothing when it is none.
+/// The sizes of a word like 512x512x128; nullopt for other words.
 std::optional<std::vector<std::int64_t>> parse_sizes(std::string_view word) {
     std::vector<std::int64_t> sizes;
     for (std::size_t begin = 0; begin <= word.size();) {

@@ -15,12 +15,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::int64_t kLongestSidecar = 1024 * 1024;
-constexpr int kDeepest = 8;  // a sidecar is a flat object; deeper nesting is somebody else's JSON
+constexpr int kDeepest = 8;  // a sidecar is a flat object; deeper nesting is another kind of JSON
 
 [[noreturn]] void fail(const std::string& path, const std::string& key, const std::string& expected) {
     throw Error(ErrorKind::input, {.file = path,
                                    .where = key.empty() ? "" : "key \"" + key + "\"",
-                                   .what = key.empty() ? "the sidecar of a RAW file is not understood" : "the value is not understood",
+                                   .what = key.empty() ? "the sidecar of a RAW file is not valid" : "the value is not valid",
                                    .expected = expected,
                                    .next = "correct the sidecar, or delete it and give --dims and --type"});
 }
@@ -96,7 +96,7 @@ void read_key(const std::string& path, const std::string& key, const Json& value
     } else if (key == "space") {
         description.space = read_text(path, key, value);
     } else {
-        description.notes.push_back("unknown key " + quoted(key) + " of the sidecar ignored");
+        description.notes.push_back("unknown key " + in_quotes(key) + " of the sidecar ignored");
     }
 }
 

@@ -1,4 +1,4 @@
-// A volume file slab after slab.
+// Reads a volume file slab by slab.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace isoatlas {
 
-inline constexpr std::int64_t kSlabBytes = 16 * 1024 * 1024;  // enough for full disk speed, little enough to cancel at once
+inline constexpr std::int64_t kSlabBytes = 16 * 1024 * 1024;  // large enough for full disk speed, small enough for prompt cancellation
 
 inline std::int64_t slab_slices(const VolumeInfo& info, const Context& context) {
     if (context.slab_slices > 0) return std::min(context.slab_slices, info.extent.size[2]);
@@ -20,7 +20,7 @@ inline std::int64_t slab_slices(const VolumeInfo& info, const Context& context) 
     return std::clamp<std::int64_t>(kSlabBytes / slice_bytes, 1, info.extent.size[2]);
 }
 
-/// Calls use(z_begin, samples) for slab after slab; the samples lie in `whole` when it is given, else in one slab of memory.
+/// Calls use(z_begin, samples) for each slab in order; the samples lie in `whole` when it is given, else in one slab of memory.
 template <class Use>
 void for_each_slab(VolumeReader& reader, const Context& context, std::span<std::byte> whole, const Use& use) {
     const VolumeInfo& info = reader.info();

@@ -45,8 +45,8 @@ private:
         const std::int64_t rest = require_end(*source_, wanted_, skip_rest_);
         end_checked_ = true;
         if (rest == 0) return;
-        const std::string bytes = std::to_string(rest) + (rest == 1 ? " byte behind the samples was" : " bytes behind the samples were");
-        info_.notes.push_back(bytes + " left out (" + shown_name(source_->file()) + ")");
+        const std::string bytes = std::to_string(rest) + (rest == 1 ? " byte after the samples was" : " bytes after the samples were");
+        info_.notes.push_back(bytes + " ignored (" + shown_name(source_->file()) + ")");
     }
 
     std::unique_ptr<ByteSource> source_;
@@ -99,7 +99,7 @@ TimeStep choose_time_step(const std::string& path, const OpenOptions& options, s
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "has no time step " + std::to_string(index),
                                        .expected = count == 1 ? "0: there is one volume" : "0 to " + std::to_string(count - 1),
-                                       .next = count == 1 ? "leave --time-step out" : "choose another --time-step"});
+                                       .next = count == 1 ? "omit --time-step" : "choose another --time-step"});
     }
     return {index, count};
 }

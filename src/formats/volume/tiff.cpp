@@ -44,11 +44,11 @@ private:
 
     TiffFile file_;
     PageChoice choice_;
-    std::int64_t contiguous_;  ///< offset of page 0 when the pages lie in one piece behind a single directory, else -1
+    std::int64_t contiguous_;  ///< offset of page 0 when the pages are contiguous after a single directory, else -1
     std::int64_t page_bytes_;
 };
 
-/// ImageJ writes stacks above 4 GB as one directory with all pages behind its own. Their number, or 0 for an ordinary file.
+/// ImageJ writes stacks above 4 GB as one directory followed by all pages. Their number, or 0 for an ordinary file.
 std::int64_t pages_behind(TiffFile& file, const TiffDescription& description) {
     if (description.kind != TiffDescription::Kind::imagej || description.images < 2 || file.pages().size() != 1) return 0;
     const std::int64_t offset = file.contiguous_offset();
@@ -67,12 +67,12 @@ PageChoice choose_pages(const std::string& path, const TiffDescription& descript
     const std::int64_t slices = description.slices, frames = description.frames;
     const bool is_series = frames > 1 && frames <= pages && slices == pages / frames && pages % frames == 0;
     if (frames > 1 && !is_series) {
-        notes.push_back("the description speaks of " + std::to_string(slices) + " slices and " + std::to_string(frames) +
-                        " time steps, the file has " + std::to_string(pages) + " pages: all pages are taken as slices");
+        notes.push_back("the description has " + std::to_string(slices) + " slices and " + std::to_string(frames) +
+                        " time steps, the file has " + std::to_string(pages) + " pages: all pages are read as slices");
     }
     if (is_series && slices == 1 && !options.time_step) {
         notes.push_back("the " + std::to_string(frames) +
-                        " time steps of one slice are taken as the third axis (one of them: --time-step N)");
+                        " time steps of one slice are read as the third axis (one of them: --time-step N)");
         return {.count = pages};
     }
     const TimeStep step = choose_time_step(path, options, is_series ? frames : 1);
@@ -99,14 +99,14 @@ Geometry tiff_geometry(const TiffTags& tags, const TiffDescription& description,
             spacing = {length / x, length / y, spacing[2]};
             geometry.unit = "mm";
         } else {
-            spacing = {1, x / y, spacing[2]};  // without a unit only the ratio means something
+            spacing = {1, x / y, spacing[2]};  // without a unit only the ratio is meaningful
         }
     }
     if (spacing[0] <= 0) spacing[0] = 1;
     if (spacing[1] <= 0) spacing[1] = spacing[0];
     if (spacing[2] <= 0) {
         spacing[2] = spacing[0];
-        if (slices > 1 && spacing[0] != 1) notes.push_back("the file does not say how far apart the slices are: taken as the pixel width");
+        if (slices > 1 && spacing[0] != 1) notes.push_back("the file has no slice spacing: the pixel width was assumed");
     }
     const double factor = geometry.unit == "inch" ? kMillimetresPerInch : 1;
     if (geometry.unit == "inch") geometry.unit = "mm";
@@ -151,9 +151,9 @@ std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptio
 }
 
 void add_tiff_notes(const TiffFile& file, std::vector<std::string>& notes) {
-    if (file.tags().photometric == 0) notes.push_back("the file shows 0 as white; its values are taken as they are stored");
-    if (file.tags().photometric == 3) notes.push_back("the file has a colour table; its values are taken as they are stored");
-    if (file.previews() > 0) notes.push_back(std::to_string(file.previews()) + " reduced pages (previews, masks) were left out");
+    if (file.tags().photometric == 0) notes.push_back("the file shows 0 as white; the stored values are used");
+    if (file.tags().photometric == 3) notes.push_back("the file has a colour table; the stored values are used");
+    if (file.previews() > 0) notes.push_back(std::to_string(file.previews()) + " reduced pages (previews, masks) were ignored");
 }
 
 }  // namespace isoatlas

@@ -50,7 +50,7 @@ int on_error(TIFF*, void* data, const char*, const char* format, va_list argumen
     return 1;  // handled: nothing is printed
 }
 
-int on_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }  // unknown tags and the like: no loss for us
+int on_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }  // unknown tags and similar: harmless
 
 }  // namespace
 
@@ -63,7 +63,7 @@ TIFF* open_tiff_client(TiffClient& client) {
     if (options == nullptr) throw Error(ErrorKind::resource, {.file = client.path, .what = "not enough memory to open the file"});
     TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, &client);
     TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, &client);
-    // libtiff itself needs compressed strips, tables and codec states: in proportion to the file, never to what it claims.
+    // libtiff itself needs compressed strips, tables and codec states: in proportion to the file, not to sizes it claims.
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, (std::int64_t{64} << 20) + 2 * client.file->size());
     TIFF* tiff = TIFFClientOpenExt(client.path.c_str(), "rmc", &client, read_bytes, write_bytes, seek_bytes, close_bytes, size_of_bytes,
                                    nullptr, nullptr, options);

@@ -1,4 +1,4 @@
-// The files of libtiff: it reads through base/file_system.h and says what it has to say to us.
+// Callbacks of libtiff: it reads through base/file_system.h and its messages are collected.
 #pragma once
 
 #include <tiffio.h>
@@ -11,17 +11,17 @@
 
 namespace isoatlas {
 
-/// What libtiff reads from and talks to. No exception may pass through its frames.
+/// File and messages of libtiff. No exception may pass through its frames.
 struct TiffClient {
     std::string path;
     std::unique_ptr<File> file;
     std::int64_t position = 0;
-    std::string messages;  ///< what libtiff said since the last clear
+    std::string messages;  ///< messages of libtiff since the last clear
 
     void say(const std::string& text);
 };
 
-/// Opens the file of a client, which must outlive what is returned. Null: libtiff cannot read it; the messages say why.
+/// Opens the file of a client, which must outlive the result. Null: libtiff cannot read it; see the messages.
 /// Throws Error{resource} without memory.
 [[nodiscard]] TIFF* open_tiff_client(TiffClient& client);
 

@@ -1,5 +1,5 @@
-// The entries of a TIFF directory as they are in the file. libtiff takes what it cannot read of some tags for missing, and missing tags
-// for their default: the samples would be others.
+// The raw entries of a TIFF directory. libtiff treats some unreadable tags as missing, and missing tags as their default, which would
+// change the samples.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ struct TiffEntry {
     std::uint64_t count = 0;
 };
 
-/// The entries of the directory at `offset`; nothing when the file ends inside it or its link to the next one.
+/// The entries of the directory at `offset`; nullopt when the file ends inside it or its link to the next one.
 [[nodiscard]] std::optional<std::vector<TiffEntry>> read_tiff_entries(File& file, const std::string& path, std::uint64_t offset,
                                                                       bool is_big_tiff, bool big_endian);
 
-/// What is wrong with a directory: types that do not exist, or one of the tags that decide samples and have a default (Compression,
-/// FillOrder, Predictor, SampleFormat) with another type, or missing where a tag of its form stands that differs in one bit. Empty:
-/// nothing.
+/// Describes the error in a directory: invalid types, or one of the tags that decide samples and have a default (Compression,
+/// FillOrder, Predictor, SampleFormat) with another type, or missing where a tag of its form stands that differs in one bit. Empty: no
+/// error.
 [[nodiscard]] std::string doubtful_tag(const std::vector<TiffEntry>& entries);
 
-/// How many offsets of strips or tiles the directory lists; 0: none.
+/// Number of offsets of strips or tiles in the directory; 0: none.
 [[nodiscard]] std::uint64_t pieces_listed(const std::vector<TiffEntry>& entries);
 
 }  // namespace isoatlas

@@ -19,8 +19,8 @@ namespace isoatlas {
 
 namespace {
 
-/// The most bytes that one compressed byte can stand for: what a strip claims beyond is a lie. Source: the longest match or run of
-/// each code over its shortest symbol (LZW: a 12-bit code for 4096 bytes; ZSTD: a 4-byte run-length block for 128 KiB).
+/// Max expansion of one compressed byte: a strip that claims more is damaged. Source: the longest match or run of each code over its
+/// shortest symbol (LZW: a 12-bit code for 4096 bytes; ZSTD: a 4-byte run-length block for 128 KiB).
 std::int64_t largest_ratio(int compression) {
     switch (compression) {
         case COMPRESSION_NONE: return 1;
@@ -115,11 +115,11 @@ void TiffFile::Handle::list_pages() {
         pages.push_back(page);
         client.messages.clear();
     } while (TIFFReadDirectory(tiff) == 1);
-    // A chain of directories that ends as it should says nothing and links to nothing.
+    // A valid end of the chain of directories has no message and no link.
     if (!client.messages.empty() || TIFFLastDirectory(tiff) == 0) corrupt(next_page(), "its directory cannot be read");
 }
 
-/// libtiff takes a missing link to the next directory for the end of the file: pages would be lost silently.
+/// libtiff treats a truncated link to the next directory as the end of the file: pages would be lost silently.
 std::vector<TiffEntry> TiffFile::Handle::directory_entries() const {
     auto entries = read_tiff_entries(*client.file, client.path, current, TIFFIsBigTIFF(tiff) != 0, TIFFIsBigEndian(tiff) != 0);
     if (!entries) corrupt(next_page(), "the file ends inside the directory of this page");
@@ -236,7 +236,7 @@ void TiffFile::Handle::load(std::int64_t page) {
     current = directory;
 }
 
-/// How many bytes a strip or tile decodes to, with its checksum compared where its code has one; `wanted` where that cannot be known.
+/// Decoded bytes of a strip or tile, with its checksum verified where its code has one; `wanted` where the size is unknown.
 std::int64_t TiffFile::Handle::decoded_bytes(std::uint32_t piece, std::int64_t wanted) {
     const int compression = tag<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
     const auto offset = static_cast<std::int64_t>(TIFFGetStrileOffset(tiff, piece));
@@ -251,7 +251,7 @@ std::int64_t TiffFile::Handle::decoded_bytes(std::uint32_t piece, std::int64_t w
     return compression == COMPRESSION_LZW ? lzw_bytes(packed).value_or(wanted) : packbits_bytes(packed);
 }
 
-/// libtiff stops when it has enough bytes: before the checksum of deflate, and before bytes that should not be there.
+/// libtiff stops when it has enough bytes: before the checksum of deflate, and before superfluous bytes.
 void TiffFile::Handle::check_piece(std::uint32_t piece, std::int64_t wanted, const std::string& where) {
     const std::int64_t found = decoded_bytes(piece, wanted);
     if (found == wanted || (found > wanted && skip_rest)) return;
@@ -279,7 +279,7 @@ void TiffFile::Handle::read_strips(std::span<std::byte> out, const std::string& 
 
 void TiffFile::Handle::read_tiles(const TiffPage& page, std::span<std::byte> out, const std::string& where) {
     const auto width = tag<std::uint32_t>(TIFFTAG_TILEWIDTH, 0), height = tag<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
-    tile.resize(static_cast<std::size_t>(TIFFTileSize64(tiff)));  // check_pieces has seen that the file can hold it
+    tile.resize(static_cast<std::size_t>(TIFFTileSize64(tiff)));  // check_pieces has verified that the file can hold it
     std::uint32_t number = 0;
     for (std::int64_t y = 0; y < page.height; y += height) {
         for (std::int64_t x = 0; x < page.width; x += width, ++number) {

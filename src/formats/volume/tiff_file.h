@@ -1,4 +1,4 @@
-// TiffFile: the pages of a TIFF or BigTIFF file as samples. Only this and tiff_client.h know libtiff.
+// TiffFile: the pages of a TIFF or BigTIFF file as samples. Only this and tiff_client.h use libtiff.
 #pragma once
 
 #include <cstddef>
@@ -33,9 +33,9 @@ struct TiffTags {
     int photometric = 1;                        ///< 0: white is zero, 1: black is zero, 3: palette
 };
 
-/// Reads all directories and checks every page before anything is allocated for samples: every strip or tile must be able to hold
-/// what the page says, given its compression. Throws Error: input (not a TIFF, corrupt, truncated, pages of different size or type),
-/// unsupported (colour, bit depths other than 8, 16, 32, 64, compressions that this libtiff lacks).
+/// Reads all directories and checks every page before anything is allocated for samples: every strip or tile must be able to hold its
+/// pixels, given its compression. Throws Error: input (not a TIFF, corrupt, truncated, pages of different size or type), unsupported
+/// (colour, bit depths other than 8, 16, 32, 64, compressions that this libtiff lacks).
 /// Messages of libtiff become part of the error; nothing is printed. Not thread safe.
 class TiffFile {
 public:
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] const std::string& path() const;
     /// At least one. Previews (reduced images, masks) are not listed.
     [[nodiscard]] const std::vector<TiffPage>& pages() const;
-    [[nodiscard]] std::int64_t previews() const;  ///< number of pages left out
+    [[nodiscard]] std::int64_t previews() const;  ///< number of ignored pages
     [[nodiscard]] const TiffTags& tags() const;
     [[nodiscard]] bool big_endian() const;
     [[nodiscard]] bool is_big_tiff() const;

@@ -26,7 +26,7 @@ std::int64_t packbits_bytes(std::span<const std::byte> strip) {
 std::optional<std::int64_t> lzw_bytes(std::span<const std::byte> strip) {
     constexpr std::uint32_t kClear = 256, kEnd = 257, kFirst = 258, kCodes = 4096;
     if (strip.size() >= 2 && strip[0] == std::byte{0} && (strip[1] & std::byte{1}) != std::byte{0}) return std::nullopt;
-    std::array<std::int64_t, kCodes> length{};  // of what a code stands for
+    std::array<std::int64_t, kCodes> length{};  // of the expansion of a code
     std::fill_n(length.begin(), 256, 1);
     std::int64_t bytes = 0, before = 0;  // before: length of the last code; 0: none since the table was cleared
     std::uint32_t next = kFirst, width = 9, bits = 0;
@@ -49,7 +49,7 @@ std::optional<std::int64_t> lzw_bytes(std::span<const std::byte> strip) {
         if (before > 0) length[next++] = before + 1;  // the new code: the last one and a byte
         before = length[code];
         bytes += before;
-        if (next + 1 >= 1U << width && width < 12) ++width;  // "early change": one code before it is needed
+        if (next + 1 >= 1U << width && width < 12) ++width;  // "early change": the width grows one code early
     }
     return bytes;
 }

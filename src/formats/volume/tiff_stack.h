@@ -1,4 +1,4 @@
-// What a TIFF file of many pages and a folder of TIFF files have in common.
+// Shared by multi-page TIFF files and folders of TIFF files.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace isoatlas {
 
-/// Voxel size from the description, else from the resolution tags, else 1. What had to be guessed becomes a note.
+/// Voxel size from the description, else from the resolution tags, else 1. Assumptions become notes.
 [[nodiscard]] Geometry tiff_geometry(const TiffTags& tags, const TiffDescription& description, std::int64_t slices,
                                      std::vector<std::string>& notes);
-/// Says what the reader ignored: colour tables, previews.
+/// Adds notes about ignored data: colour tables, previews.
 void add_tiff_notes(const TiffFile& file, std::vector<std::string>& notes);
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// What every JSON file says of its volume.
+// The description of a volume in JSON files.
 #pragma once
 
 #include "formats/common/json_stream.h"

@@ -38,16 +38,16 @@ pugi::xml_document parse(const std::string& path, const XmlSkeleton& skeleton) {
     return document;
 }
 
-/// Attributes with a default that decide samples: one that differs from them in a character is damaged, and a default would be wrong.
+/// Attributes with a default that affect the samples: one that differs in a single character is damaged, and a default would be wrong.
 void check_root(const std::string& path, const pugi::xml_node& root) {
     for (const pugi::xml_attribute given : root.attributes()) {
         for (const char* known : {"byte_order", "header_type", "compressor"}) {
-            if (is_damaged(given.name(), known)) bad_xml(path, "VTKFile", "has an attribute " + quoted(given.name()), known);
+            if (is_damaged(given.name(), known)) bad_xml(path, "VTKFile", "has an attribute " + in_quotes(given.name()), known);
         }
     }
     const std::string_view order = attribute(root, "byte_order");
     if (!order.empty() && order != "LittleEndian" && order != "BigEndian")
-        bad_xml(path, "VTKFile byte_order", quoted(order), "LittleEndian or BigEndian");
+        bad_xml(path, "VTKFile byte_order", in_quotes(order), "LittleEndian or BigEndian");
 }
 
 VtkFile describe_file(const std::string& path, const pugi::xml_node& root, const XmlSkeleton& skeleton) {
@@ -57,24 +57,24 @@ VtkFile describe_file(const std::string& path, const pugi::xml_node& root, const
     file.big_endian = attribute(root, "byte_order") == "BigEndian";
     const std::string_view header = attribute(root, "header_type");
     if (!header.empty() && header != "UInt32" && header != "UInt64") {
-        bad_xml(path, "VTKFile header_type", quoted(header), "UInt32 or UInt64");
+        bad_xml(path, "VTKFile header_type", in_quotes(header), "UInt32 or UInt64");
     }
     file.wide_headers = header == "UInt64";
     const std::string_view compressor = attribute(root, "compressor");
     file.compressed = !compressor.empty();
     if (file.compressed && compressor != "vtkZLibDataCompressor") {
-        unsupported(path, "VTKFile compressor", quoted(compressor), "vtkZLibDataCompressor or none",
+        unsupported(path, "VTKFile compressor", in_quotes(compressor), "vtkZLibDataCompressor or none",
                     "write it with zlib or without compression, in ParaView: Save Data > Compressor Type");
     }
     file.appended = skeleton.appended;
     const std::string_view encoding = attribute(root.child("AppendedData"), "encoding");
     file.appended_is_raw = encoding == "raw";
     if (!encoding.empty() && encoding != "raw" && encoding != "base64")
-        bad_xml(path, "AppendedData encoding", quoted(encoding), "raw or base64");
+        bad_xml(path, "AppendedData encoding", in_quotes(encoding), "raw or base64");
     return file;
 }
 
-/// Nothing for types that hold no samples of ours.
+/// nullopt for unsupported sample types.
 std::optional<ValueType> value_type(std::string_view name) {
     static constexpr std::string_view kNames[] = {"UInt8", "Int8", "UInt16", "Int16", "UInt32", "Int32", "Float32", "Float64"};
     const auto found = std::find(std::begin(kNames), std::end(kNames), name);
@@ -92,11 +92,11 @@ bool is_element(const pugi::xml_node& node, const char* name) { return std::stri
 VtkArray describe_array(const std::string& path, const pugi::xml_node& node) {
     VtkArray array;
     array.name = attribute(node, "Name");
-    const std::string where = "array " + quoted(array.name);
+    const std::string where = "array " + in_quotes(array.name);
     const std::string_view type = attribute(node, "type");
     const std::optional<ValueType> value = value_type(type);
     if (!value) {
-        unsupported(path, where, "samples are of type " + quoted(type), "Int8 to UInt32, Float32 or Float64",
+        unsupported(path, where, "samples are of type " + in_quotes(type), "Int8 to UInt32, Float32 or Float64",
                     "convert the array, e.g. in ParaView with the filter Calculator (result type Float or Double)");
     }
     array.type = *value;
@@ -109,7 +109,7 @@ VtkArray describe_array(const std::string& path, const pugi::xml_node& node) {
         return array;
     }
     if (!format.empty() && format != "ascii" && format != "binary")
-        bad_xml(path, where, "format " + quoted(format), "ascii, binary or appended");
+        bad_xml(path, where, "format " + in_quotes(format), "ascii, binary or appended");
     array.format = format == "binary" ? VtkFormat::binary : VtkFormat::ascii;
     array.begin = parse_integer(attribute(node, kContentBegin)).value_or(0);
     array.end = parse_integer(attribute(node, kContentEnd)).value_or(0);
@@ -130,9 +130,9 @@ pugi::xml_node choose_array(const std::string& path, const pugi::xml_node& data,
         if (!active.empty() && attribute(node, "Name") == active && !chosen) chosen = node;
     }
     if (usable > 1) {
-        if (!is_there) bad_xml(path, data.name(), "the active scalars are " + quoted(active), "the name of an array of the file");
+        if (!is_there) bad_xml(path, data.name(), "the active scalars are " + in_quotes(active), "the name of an array of the file");
         const pugi::xml_node taken = chosen ? chosen : first;
-        notes.push_back("the file has " + std::to_string(usable) + " scalar arrays: " + quoted(attribute(taken, "Name")) + " is read" +
+        notes.push_back("the file has " + std::to_string(usable) + " scalar arrays: " + in_quotes(attribute(taken, "Name")) + " is read" +
                         (chosen ? " (its active scalars)" : " (the first)"));
     }
     return chosen ? chosen : first;
@@ -150,7 +150,7 @@ Choice choose_data(const std::string& path, const pugi::xml_node& piece, std::ve
         const pugi::xml_node data = piece.child(cells ? "CellData" : "PointData");
         const pugi::xml_node array = choose_array(path, data, notes);
         if (!array) continue;
-        if (cells) notes.push_back("the file has values of cells, not of points: each cell is taken as one sample at its centre");
+        if (cells) notes.push_back("the file has values of cells, not of points: each cell is read as one sample at its centre");
         return {.array = array, .cells = cells};
     }
     if (has_arrays(piece.child("PointData")) || has_arrays(piece.child("CellData"))) {
@@ -171,15 +171,15 @@ pugi::xml_node only_piece(const std::string& path, const pugi::xml_node& grid) {
 }
 
 pugi::xml_node find_grid(const std::string& path, const pugi::xml_node& root) {
-    if (!is_element(root, "VTKFile")) bad_xml(path, "XML header", "the outermost element is " + quoted(root.name()), "VTKFile");
+    if (!is_element(root, "VTKFile")) bad_xml(path, "XML header", "the outermost element is " + in_quotes(root.name()), "VTKFile");
     const std::string_view type = attribute(root, "type");
     if (type != "ImageData" && type != "RectilinearGrid") {
-        unsupported(path, "VTKFile type", "is " + quoted(type), "ImageData or RectilinearGrid",
+        unsupported(path, "VTKFile type", "is " + in_quotes(type), "ImageData or RectilinearGrid",
                     type.starts_with('P') && type != "PolyData" ? "open the .vti or .vtr file that it lists"
                                                                 : "resample it, e.g. in ParaView with the filter Resample To Image");
     }
     const pugi::xml_node grid = root.child(std::string(type).c_str());
-    if (!grid) bad_xml(path, "VTKFile", "has no element " + quoted(type), "the grid");
+    if (!grid) bad_xml(path, "VTKFile", "has no element " + in_quotes(type), "the grid");
     return grid;
 }
 

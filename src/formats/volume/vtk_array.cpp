@@ -22,7 +22,7 @@ constexpr std::int64_t kDeflateRatio = 1032;  ///< deflate cannot do better: see
 
 [[noreturn]] void bad_array(const VtkFile& file, const VtkArray& array, const std::string& what, const std::string& expected) {
     throw Error(ErrorKind::input, {.file = file.path,
-                                   .where = "array " + quoted(array.name),
+                                   .where = "array " + in_quotes(array.name),
                                    .what = what,
                                    .expected = expected,
                                    .next = "the file is truncated or damaged: get it again"});
@@ -51,7 +51,7 @@ std::int64_t read_word(ByteSource& source, const VtkFile& file, const VtkArray& 
 /// The bytes [offset, offset + length) of another source.
 class PartSource final : public ByteSource {
 public:
-    /// is_last: nothing may follow in the other source (appended arrays are followed by others).
+    /// is_last: no bytes may follow in the other source (appended arrays are followed by others).
     PartSource(std::unique_ptr<ByteSource> inner, std::int64_t offset, std::int64_t length, bool is_last)
         : inner_(std::move(inner)), offset_(offset), length_(length), is_last_(is_last) {
         inner_->seek(offset_);
@@ -73,12 +73,12 @@ private:
     bool is_last_;
 };
 
-/// Where the blocks of a compressed array are.
+/// Positions of the blocks of a compressed array.
 struct BlockTable {
     std::int64_t data_begin = 0;   ///< position of the first block in the inner source
     std::int64_t block_bytes = 0;  ///< of every block but the last, decompressed
     std::int64_t last_bytes = 0;
-    std::vector<std::int64_t> begin;  ///< of each block, from data_begin; and the end of the last
+    std::vector<std::int64_t> begin;  ///< start of each block relative to data_begin; and the end of the last
     [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(begin.size()) - 1; }
     [[nodiscard]] std::int64_t bytes_of(std::int64_t block) const { return block + 1 == count() ? last_bytes : block_bytes; }
     [[nodiscard]] std::int64_t bytes() const { return count() == 0 ? 0 : (count() - 1) * block_bytes + last_bytes; }
@@ -152,7 +152,7 @@ private:
         const auto index = static_cast<std::size_t>(block);
         return table_.bytes_of(block) > kWhole || table_.begin[index + 1] - table_.begin[index] > kWhole;
     }
-    /// Bytes of a large block from an offset on: what lies before it is decompressed, and forgotten.
+    /// Bytes of a large block from an offset on: the bytes before it are decompressed and discarded.
     void stream(std::int64_t block, std::int64_t offset, std::span<std::byte> out) {
         const auto index = static_cast<std::size_t>(block);
         if (!inflater_) inflater_ = std::make_unique<BlockInflater>();
@@ -200,7 +200,7 @@ private:
     std::int64_t position_ = 0, loaded_ = -1;
     std::vector<std::byte> block_, compressed_;
     std::unique_ptr<BlockInflater> inflater_;
-    std::int64_t streamed_ = -1;  ///< the block that inflater_ reads
+    std::int64_t streamed_ = -1;  ///< the current block of inflater_
 };
 
 /// The header and the data of an array as bytes.

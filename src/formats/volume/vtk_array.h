@@ -13,7 +13,7 @@ namespace isoatlas {
 
 enum class VtkFormat : std::uint8_t { ascii, binary, appended };
 
-/// What holds for all arrays of a file.
+/// Properties of all arrays of a file.
 struct VtkFile {
     std::string path;
     bool big_endian = false;
@@ -33,8 +33,8 @@ struct VtkArray {
 };
 
 /// The `count` samples of an array, in the byte order of the file (ascii: of this machine). Random access for appended raw.
-/// Throws Error{input}, before anything of that size is allocated, when the array cannot hold exactly `count` samples (with
-/// skip_rest: at least so many).
+/// Throws Error{input}, before allocating that size, when the array cannot hold exactly `count` samples (with skip_rest: at least that
+/// many).
 [[nodiscard]] std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, std::int64_t count);
 
 /// "ascii", "base64", "raw", "raw zlib", ...: for the user.

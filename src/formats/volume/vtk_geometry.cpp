@@ -31,7 +31,7 @@ VtkExtent parse_extent(const std::string& path, const pugi::xml_node& node, cons
         const std::optional<std::int64_t> low = words.size() == 6 ? parse_integer(words[2 * axis]) : std::nullopt;
         const std::optional<std::int64_t> high = words.size() == 6 ? parse_integer(words[2 * axis + 1]) : std::nullopt;
         if (!low || !high || *low > *high || *low < -kLargestIndex || *high > kLargestIndex) {
-            bad_field(path, where, quoted(text), "six integers: first and last index of x, y, z");
+            bad_field(path, where, in_quotes(text), "six integers: first and last index of x, y, z");
         }
         extent.low[axis] = *low;
         extent.size[axis] = *high - *low + 1;
@@ -49,7 +49,7 @@ std::array<double, N> numbers(const std::string& path, const pugi::xml_node& nod
     for (std::size_t i = 0; i < N; ++i) {
         const std::optional<double> value = words.size() == N ? parse_number(words[i]) : std::nullopt;
         if (!value || !std::isfinite(*value)) {
-            bad_field(path, std::string(node.name()) + " " + name, quoted(attribute.value()), std::to_string(N) + " numbers");
+            bad_field(path, std::string(node.name()) + " " + name, in_quotes(attribute.value()), std::to_string(N) + " numbers");
         }
         values[i] = *value;
     }
@@ -101,7 +101,8 @@ void set_image_geometry(const pugi::xml_node& grid, const VtkExtent& points, boo
     }
     require_frame(info);
     for (const double place : geometry.origin) {
-        if (!std::isfinite(place)) bad_field(info.path, "ImageData Origin", "the first sample is not at a finite place", "smaller numbers");
+        if (!std::isfinite(place))
+            bad_field(info.path, "ImageData Origin", "the first sample is not at a finite position", "smaller numbers");
     }
 }
 

@@ -12,12 +12,6 @@ namespace isoatlas {
 
 namespace {
 
-using ByteSink;
-using Connectivity;
-using KeyValues;
-using Packing;
-using SampleFeed;
-
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
 template <class T>
@@ -44,7 +38,7 @@ SampleFeed feed_of(std::span<const std::uint32_t> labels, ValueType type) {
     return [labels](const ByteSink& put) { put(std::as_bytes(labels)); };
 }
 
-/// What the header says about the labels: a sentence and pairs.
+/// Description of the labels in the header: a sentence and pairs.
 struct Meaning {
     std::string sentence = "labels";
     KeyValues pairs;
@@ -93,7 +87,8 @@ std::vector<std::uint32_t> object_labels(const Cut& cut, std::span<const std::in
     for (const std::int64_t voxel : objects) {
         const bool is_inside = voxel >= 0 && voxel < static_cast<std::int64_t>(cut.label.size());
         const std::int32_t object = is_inside ? cut.label[static_cast<std::size_t>(voxel)] : -1;
-        if (object < 0) throw Error(ErrorKind::not_found, {.what = "no object holds voxel " + std::to_string(voxel) + " at this isovalue"});
+        if (object < 0)
+            throw Error(ErrorKind::not_found, {.what = "no object contains voxel " + std::to_string(voxel) + " at this isovalue"});
         is_wanted[static_cast<std::size_t>(object) + 1] = 1;
     }
     std::vector<std::uint32_t> labels(cut.label.size());

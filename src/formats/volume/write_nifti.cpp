@@ -54,7 +54,7 @@ LengthUnit length_unit(const std::string& unit) {
     return {};
 }
 
-/// What both versions hold.
+/// Members of both versions.
 struct Contents {
     std::array<std::int64_t, 8> dim{};
     std::array<double, 8> pixdim{};
@@ -66,7 +66,7 @@ struct Contents {
 
 constexpr std::size_t kDescription = 79;  ///< and a zero
 
-/// At most `room` characters; if it must, it ends at a comma: a number cut short would be another number.
+/// At most `room` characters; truncated at a comma, because a truncated number would be a different one.
 std::string shortened(const std::string& text, std::size_t room) {
     if (text.size() <= room) return text;
     return std::string(utf8_prefix(text, std::min(room, text.rfind(", ", room))));
@@ -97,7 +97,7 @@ Contents contents_of(const VolumeInfo& info) {
             contents.rows[row][axis] = geometry.direction[row][axis] * geometry.spacing[axis] * unit.factor;
         contents.rows[axis][3] = geometry.origin[axis] * unit.factor;
     }
-    // A grid at the origin without orientation stays one.
+    // A grid at the origin without orientation is preserved.
     contents.sform_code = is_anatomical(info.geometry) ? kScannerSpace : is_default(geometry) ? 0 : kAlignedSpace;
     if (!info.calibration.is_identity()) {
         contents.slope = info.calibration.slope;

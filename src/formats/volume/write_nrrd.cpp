@@ -16,7 +16,7 @@ std::string type_name(ValueType type) {
     return type == ValueType::f64 ? "double" : name_of(type);
 }
 
-/// 2D images of no particular space lie in the plane; everything else in space.
+/// 2D images without a space are planar; everything else is in 3D space.
 int space_dimension(const VolumeInfo& info, const Geometry& geometry) {
     const Mat3& m = geometry.direction;
     const bool flat = m[2][0] == 0 && m[2][1] == 0 && geometry.origin[2] == 0;

@@ -1,4 +1,4 @@
-// The formats whose samples lie plainly behind (or beside) a short text: MetaImage, NumPy, RAW with a sidecar.
+// Formats of uncompressed samples with a short text header: MetaImage, NumPy, RAW with a sidecar.
 #include <bit>
 
 #include "base/atomic_file.h"
@@ -27,7 +27,7 @@ const char* meta_type(ValueType type) {
     return kNames[static_cast<int>(type)];
 }
 
-/// Where each axis of an LPS grid comes from, as ITK writes it: RAI for the axes of LPS themselves.
+/// Orientation code of an LPS grid in ITK's convention: RAI for the axes of LPS.
 std::string anatomical_orientation(const Geometry& geometry) {
     static constexpr const char* kFrom[] = {"RL", "AP", "IS"};
     std::string letters;
@@ -79,7 +79,7 @@ std::string npy_header(const VolumeInfo& info) {
     return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(size & 255) + static_cast<char>(size >> 8) + text;
 }
 
-/// Whether the name says what the file is. Throws Error{usage} when it says something else.
+/// Whether the name describes the file. Throws Error{usage} when it contradicts it.
 bool name_is_enough(const std::string& path, const VolumeInfo& info) {
     const RawDescription name = description_from_name(path);
     const std::vector<std::int64_t> dims(info.extent.size.begin(), info.extent.size.begin() + info.extent.rank);
@@ -88,7 +88,7 @@ bool name_is_enough(const std::string& path, const VolumeInfo& info) {
         std::string size;
         for (const std::int64_t side : dims) size += (size.empty() ? "" : "x") + std::to_string(side);
         throw Error(ErrorKind::usage, {.file = path,
-                                       .what = "the name says other dims, another type or byte order than the volume has",
+                                       .what = "the name contradicts dims, type or byte order of the volume",
                                        .expected = size + " " + name_of(info.type) + (kBigEndian ? ", big endian" : ", little endian"),
                                        .next = "choose a name like volume_" + size + "_" + name_of(info.type) + ".raw"});
     }
@@ -123,7 +123,7 @@ void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed
 
 void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
     const std::string sidecar = path + ".json";
-    const bool is_replaced = require_target(sidecar).status.kind == FileStatus::Kind::regular;  // one that speaks of another volume
+    const bool is_replaced = require_target(sidecar).status.kind == FileStatus::Kind::regular;  // one that describes another volume
     const bool is_needed = !name_is_enough(path, info);
     write_file(path, "", samples);
     if (is_needed || is_replaced) write_sidecar(sidecar, info);

@@ -1,5 +1,5 @@
-// Multi-page TIFF in one pass, deflate: the strips of a page, then its directory, which links to the next one. Written by hand because
-// libtiff walks all earlier directories for every page it adds. Source: TIFF 6.0 specification, BigTIFF, ImageJ's TiffDecoder.
+// Multi-page TIFF in one pass, deflate: the strips of a page, then its directory, which links to the next one. Written without libtiff,
+// which walks all earlier directories for every page it adds. Source: TIFF 6.0 specification, BigTIFF, ImageJ's TiffDecoder.
 #include <zlib.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::size_t bytes_of_type(FieldType type) {
     }
 }
 
-/// What ImageJ reads. Without "images=": with it, ImageJ takes the pages for uncompressed and contiguous.
+/// Description for ImageJ. Without "images=": with it, ImageJ assumes uncompressed, contiguous pages.
 std::string description_of(const VolumeInfo& info, const Geometry& geometry, const KeyValues& pairs) {
     std::string text = "ImageJ=1.53t\n";
     if (info.extent.rank == 3) text += "slices=" + std::to_string(info.extent.size[2]) + "\n";
@@ -57,7 +57,7 @@ std::array<std::uint32_t, 2> resolution(double spacing) {
     return {static_cast<std::uint32_t>(std::round(pixels * denominator)), static_cast<std::uint32_t>(denominator)};
 }
 
-/// One directory: entries in ascending order of tags; long values behind it.
+/// One directory: entries in ascending order of tags, followed by long values.
 class Directory {
 public:
     Directory(bool big, std::int64_t offset) : big_(big), offset_(offset) {}
@@ -81,7 +81,7 @@ public:
     }
     [[nodiscard]] std::int64_t link_offset() const { return offset_ + size() - word(); }
 
-    /// The bytes of the directory with a link of 0, and of the values that do not fit into it.
+    /// The bytes of the directory with a link of 0, followed by values that do not fit into it.
     [[nodiscard]] std::string bytes() const {
         std::string head, tail;
         if (big_)
@@ -246,7 +246,7 @@ private:
 void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs) {
     if (std::max(info.extent.size[0], info.extent.size[1]) > std::int64_t{0xffffffff}) {
         throw Error(ErrorKind::usage, {.file = path,
-                                       .what = "an axis has more than 2^32 samples, TIFF cannot say that",
+                                       .what = "an axis has more than 2^32 samples, which TIFF cannot represent",
                                        .next = "choose another format, e.g. .nrrd"});
     }
     TiffWriter writer(path, info, pairs);

@@ -1,4 +1,4 @@
-// Sample volumes in the format that the name asks for.
+// Writes sample volumes in the format of the extension.
 #include "formats/common/text.h"
 #include "formats/common/volume_file.h"
 #include "isoatlas/output.h"

@@ -12,8 +12,6 @@
 namespace isoatlas {
 namespace {
 
-using Fingerprint;
-
 struct Asked {
     VolumeInfo file;
     BuildOptions options;

@@ -71,7 +71,7 @@ TEST_F(BuildFolders, AreNoLinksAndNoFiles) {
     expect_refused("is a link");  // to nowhere
     fs::remove(folder_);
     write(folder_, "mine");
-    expect_refused("is no folder");
+    expect_refused("is not a folder");
     EXPECT_EQ(content(folder_), "mine");
     fs::remove(folder_);
     if (::geteuid() != 0) return;  // only the superuser can make folders of others

@@ -6,7 +6,6 @@
 #include <random>
 
 #include "isoatlas/error.h"
-#include "isoatlas/shell_word.h"
 
 namespace isoatlas {
 namespace {
@@ -49,14 +48,6 @@ TEST(Text, NamesKeepTheirBytesVisible) {
                          "del"),
               "Sch\xc3\xa4"
               "del");
-    EXPECT_EQ(shell_word("Sch\xe4"
-                         "del's.nrrd"),
-              "$'Sch\\344del\\'s.nrrd'");
-    EXPECT_EQ(shell_word("plain name"), "'plain name'");
-    EXPECT_EQ(shell_word("Sch\xc3\xa4"
-                         "del"),
-              "'Sch\xc3\xa4"
-              "del'");
     const Error error(ErrorKind::input, {.file = "Sch\xe4"
                                                  "del\x1b.nrrd",
                                          .what = "ends early"});

@@ -9,9 +9,6 @@
 namespace isoatlas {
 namespace {
 
-using Box;
-using BrickGrid;
-
 template <class T>
 void bits_are_those_of_samples(T low, T high) {
     const std::array<std::int64_t, 3> size{*rc::gen::inRange<std::int64_t>(1, 17), *rc::gen::inRange<std::int64_t>(1, 9),

@@ -36,7 +36,7 @@ TEST(CellTriangles, FormADiskOverEveryLoop) {
                 chi += n;
             }
             EXPECT_EQ(rim, expected) << number;
-            chi += cell.fans + cell.triangles - static_cast<int>(sides.size() + rim.size()) / 2;
+            chi += cell.articulation_points + cell.triangles - static_cast<int>(sides.size() + rim.size()) / 2;
             EXPECT_EQ(chi, loops.count) << number;
         }
     }
@@ -79,8 +79,8 @@ Surface cell_surface(int number, SurfaceStyle style, std::mt19937& random) {
             surface.points[e][a] = from + t * (to - from);
         }
     }
-    for (int fan = 0; fan < cell.fans; ++fan) {
-        const int loop = cell.fan_loop[fan];
+    for (int fan = 0; fan < cell.articulation_points; ++fan) {
+        const int loop = cell.articulation_loop[fan];
         for (int i = loops.begin[loop]; i < loops.begin[loop + 1]; ++i) {
             for (int a = 0; a < 3; ++a) surface.points[12 + fan][a] += surface.points[loops.edge[i]][a] / loops.size(loop);
         }
@@ -106,7 +106,7 @@ TEST(CellTriangles, CompactHasFewerTrianglesAndTheDetectorSeesCrossings) {
     for (int number = 0; number < kCellCases; ++number) {
         compact += cell_triangles(SurfaceStyle::compact)[number].triangles;
         full += cell_triangles(SurfaceStyle::full)[number].triangles;
-        EXPECT_LE(cell_triangles(SurfaceStyle::compact)[number].fans, cell_triangles(SurfaceStyle::full)[number].fans);
+        EXPECT_LE(cell_triangles(SurfaceStyle::compact)[number].articulation_points, cell_triangles(SurfaceStyle::full)[number].articulation_points);
     }
     EXPECT_LT(compact, full * 3 / 4);
     Surface crossing;

@@ -85,7 +85,7 @@ private:
     void add_point(const CellTriangles& cell, int corner) {
         std::vector<int> mean_of{corner};
         if (corner >= 12) {
-            const int loop = cell.fan_loop[corner - 12];
+            const int loop = cell.articulation_loop[corner - 12];
             mean_of.assign(loops_.edge.begin() + loops_.begin[loop], loops_.edge.begin() + loops_.begin[loop + 1]);
         }
         hits_.insert(hits_.end(), mean_of.begin(), mean_of.end());
@@ -154,7 +154,7 @@ private:
 /// The loop whose disk a triangle belongs to.
 int loop_of(const CellLoops& loops, const CellTriangles& cell, int triangle) {
     const int corner = cell.corner[3 * triangle];
-    if (corner >= 12) return cell.fan_loop[corner - 12];
+    if (corner >= 12) return cell.articulation_loop[corner - 12];
     int loop = 0;
     while (std::find(&loops.edge[loops.begin[loop]], loops.edge.data() + loops.begin[loop + 1], corner) ==
            loops.edge.data() + loops.begin[loop + 1])

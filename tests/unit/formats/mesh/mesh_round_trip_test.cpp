@@ -173,8 +173,6 @@ TEST(write_surface, warns_about_what_a_format_loses) {
 }
 
 TEST(precision, float32_unless_it_merges_flattens_or_is_too_coarse) {
-    using position_precision;
-    using Real;
     EXPECT_EQ(position_precision(two_objects()), Real::f32);
     EXPECT_EQ(position_precision(far_away()), Real::f64);
     EXPECT_EQ(position_precision(Surface{}), Real::f32);

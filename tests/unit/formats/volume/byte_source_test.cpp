@@ -12,7 +12,6 @@
 namespace isoatlas {
 namespace {
 
-using ByteSource;
 using test::expect_helpful;
 using test::failure_of;
 

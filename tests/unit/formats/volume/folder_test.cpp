@@ -25,7 +25,6 @@ protected:
 };
 
 TEST_F(Folder, NaturalOrder) {
-    using natural_less;
     const std::vector<std::string> sorted = {
         "", "a", "a0", "a1", "a2", "a10", "a10b", "a010c", "a99999999999999999999998", "a99999999999999999999999", "b"};
     for (std::size_t i = 0; i < sorted.size(); ++i) {

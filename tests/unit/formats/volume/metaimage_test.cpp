@@ -163,7 +163,7 @@ TEST(MetaImage, Refusals) {
     const std::vector<Case> cases = {
         {header("MET_LONG_LONG", ""), ErrorKind::unsupported, "MET_DOUBLE"},
         {header("MET_FLOAT_ARRAY", ""), ErrorKind::unsupported, "MET_FLOAT_ARRAY"},
-        {header("MET_FLOOT", ""), ErrorKind::input, "no MetaImage type"},
+        {header("MET_FLOOT", ""), ErrorKind::input, "not a MetaImage type"},
         {header("MET_UCHAR", "ElementNumberOfChannels = 3\n"), ErrorKind::unsupported, "3 values"},
         {header("MET_UCHAR", "DimSize = 5 4 3\n"), ErrorKind::input, "twice"},
         {header("MET_UCHAR", "BinaryData = Maybe\n"), ErrorKind::input, "Maybe"},

@@ -205,7 +205,6 @@ TEST(Tiff, Damage) {
 }
 
 TEST(Tiff, DescriptionsOfAllKinds) {
-    using parse_tiff_description;
     EXPECT_EQ(parse_tiff_description("").kind, TiffDescription::Kind::none);
     EXPECT_EQ(parse_tiff_description("{\"shape\": [31, 61, 57]}").kind, TiffDescription::Kind::none);
     EXPECT_EQ(parse_tiff_description("<OME><unclosed").kind, TiffDescription::Kind::none);
