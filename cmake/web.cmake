@@ -1,4 +1,4 @@
-# The pages (web/) as files inside the library. npm bundles them when their sources change; without npm, isoatlas is built without pages.
+# Bundles the pages (web/) with npm and embeds them into the library; with ISOATLAS_WEB=OFF there are no pages.
 option(ISOATLAS_WEB "Bundle the web pages (needs npm)" ON)
 set(ISOATLAS_PAGES page viewer)  # page/template.h: page_template(), viewer_template()
 set(page_file atlas.html)

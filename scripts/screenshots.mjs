@@ -1,8 +1,8 @@
-// Pictures of pages as people see them: light, dark, on a phone, and the first object opened, beside each page as PNG. Needs Debian's Chromium.
+// Screenshots of pages: light, dark, on a phone, and with the first object opened; PNG files beside each page. Needs Debian's Chromium.
 //
 //     node scripts/screenshots.mjs build/release/web gallery/*.atlas.html
 //
-// The first argument is where the page was bundled: playwright-core is installed there. Says when each page first showed something.
+// The first argument is the folder of the bundles: playwright-core is installed there. Prints the time of the first paint.
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 

@@ -1,8 +1,8 @@
-// The moving picture of README.md: what a newcomer does in the viewer, on the demonstration volume. Needs Debian's Chromium and ffmpeg.
+// The animation of README.md: first steps in the viewer, on the demonstration volume. Needs Debian's Chromium and ffmpeg.
 //
 //     node scripts/viewer_animation.mjs build/dev/web build/dev/bin/isoatlas docs/images/viewer.webp
 //
-// The first argument is where the page was bundled: playwright-core is installed there.
+// The first argument is the folder of the bundles: playwright-core is installed there.
 import { execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -27,7 +27,7 @@ const tab = await browser.newPage({ viewport: { width: 1200, height: 680 }, colo
 await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
 let frames = 0;
 
-/** The same picture for some time, in seconds. */
+/** Repeats the current frame, for some seconds. */
 async function hold(seconds) {
   const shot = await tab.screenshot();
   for (let i = 0; i < Math.round(seconds * FRAMES_A_SECOND); ++i) {
@@ -52,7 +52,7 @@ await settled();
 await tab.waitForFunction(() => document.querySelectorAll(".objects img").length >= 2);
 await tab.waitForTimeout(3000);
 await hold(1.5);
-await press("}", 4, 0.6); // to the next values at which something happens
+await press("}", 4, 0.6); // to the next events
 await tab.getByRole("button", { name: /^Object 3/ }).first().click();
 await settled();
 await hold(1);
@@ -60,7 +60,7 @@ await tab.getByRole("button", { name: /^Object 4/ }).first().click({ modifiers: 
 await settled();
 await tab.keyboard.press("f");
 await hold(1);
-await tab.keyboard.press("c"); // cut open: one ball is hollow
+await tab.keyboard.press("c"); // clip: one ball is hollow
 await hold(1);
 await press("ArrowLeft", 8);
 await press("ArrowUp", 3);

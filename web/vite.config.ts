@@ -1,9 +1,9 @@
-// One file without references: scripts and styles are written into the page, so that it opens from disk and can be sent by mail.
+// Inlines scripts and styles: each page is a single file that opens from disk and can be mailed.
 import { defineConfig, type Plugin } from "vite";
 
-function intoOneFile(): Plugin {
+function inlineAssets(): Plugin {
   return {
-    name: "into-one-file",
+    name: "inline-assets",
     enforce: "post",
     generateBundle(_options, bundle) {
       const page = Object.values(bundle).find((file) => file.fileName.endsWith(".html"));
@@ -34,9 +34,9 @@ export default defineConfig({
     cssCodeSplit: false,
     rollupOptions: { input: `${process.env.PAGE ?? "atlas"}.html` },
   },
-  plugins: [intoOneFile()],
-  server: { host: "127.0.0.1" }, // of the tests: no name need be known
-  // Limits are for what hangs: a busy machine draws slowly. One file after the other: each has a browser that takes all processors.
+  plugins: [inlineAssets()],
+  server: { host: "127.0.0.1" }, // for the tests, without resolving a host name
+  // Generous limits, as software rendering is slow. No parallel files: each starts a browser that uses all processors.
   test: {
     include: ["tests/**/*.test.ts"],
     testTimeout: 240_000,

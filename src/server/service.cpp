@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
 constexpr int kAtOnce = 2;                                      ///< responses at a time
-constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/ask/surfaces.ts)
+constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< bytes while a response is made: per triangle, per voxel
 constexpr std::size_t kMaxObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel

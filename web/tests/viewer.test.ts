@@ -1,4 +1,4 @@
-// What a newcomer does, in a browser, on a store that `isoatlas view` serves. Skipped where there is no Chromium or no isoatlas.
+// First steps in the viewer, in a browser with `isoatlas view`. Skipped without Chromium or isoatlas.
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { canServe, meshes, Served } from "./viewer_harness";
@@ -34,7 +34,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.close();
   });
 
-  it("evolves one object, undoes it, and restores it from its link", async () => {
+  it("changes the isovalue of an object, undoes it, and restores it from its link", async () => {
     const { tab } = await open();
     await tab.getByRole("button", { name: /^Object 1/ }).click();
     const box = tab.getByRole("textbox", { name: "isovalue" });
@@ -56,7 +56,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     await other.tab.close();
   });
 
-  it("adds objects, each at its own isovalue, and takes them out", async () => {
+  it("adds and removes objects, each at its own isovalue", async () => {
     const { tab } = await open();
     await tab.getByRole("button", { name: /^Object 4/ }).click();
     await tab.getByRole("button", { name: /^Object 5/ }).click({ modifiers: ["Shift"] });
@@ -67,13 +67,13 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.close();
   });
 
-  it("shows a dark object as the wall around it, and finds objects in their tree", async () => {
+  it("shows a cavity as the wall around it, and finds objects in their tree", async () => {
     const { tab, problems } = await open();
     const seen = meshes(tab);
-    await tab.getByRole("button", { name: /^Dark object 1/ }).click();
+    await tab.getByRole("button", { name: /^Cavity 1/ }).click();
     await expect.poll(() => seen.some(({ asked }) => asked.has("contour"))).toBe(true);
     await tab.keyboard.press("s");
-    expect(await tab.locator(".save code").textContent()).toContain("--contour");
+    expect(await tab.locator(".export code").textContent()).toContain("--contour");
     await tab.keyboard.press("Escape");
     await tab.keyboard.press("t");
     await tab.locator(".tree .mark").nth(3).click();
@@ -92,11 +92,11 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.close();
   });
 
-  it("draws something, and says its keys", async () => {
+  it("draws something, and lists its keys", async () => {
     const { tab } = await open();
     await tab.waitForTimeout(500);
     const colours = await tab.evaluate(() => {
-      const canvas = document.querySelector(".stage canvas") as HTMLCanvasElement;
+      const canvas = document.querySelector(".viewport canvas") as HTMLCanvasElement;
       const copy = document.createElement("canvas");
       [copy.width, copy.height] = [64, 64];
       const context = copy.getContext("2d") as CanvasRenderingContext2D;
@@ -109,7 +109,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     await tab.close();
   });
 
-  it("opens in a browser once, with nothing secret in its address; then it is there to reload, in other tabs and by links", async () => {
+  it("opens in a browser once, without secrets in its address; then it can be reloaded, in other tabs and by links", async () => {
     const context = await served.browser.newContext({ viewport: { width: 1000, height: 700 } });
     await context.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
     const [tab, other] = [await context.newPage(), await context.newPage()];
@@ -134,7 +134,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     await context.close();
   });
 
-  it("says why when a browser was never let in, or has forgotten its key", async () => {
+  it("explains why a browser without a key is rejected", async () => {
     const tab = await served.browser.newPage();
     await tab.goto(served.origin);
     expect(await tab.getByRole("alert").textContent()).toContain("token");

@@ -1,5 +1,5 @@
-// A volume that `isoatlas view` serves, and a browser that opens the page: what the stories of the viewer share. Skipped where there is no
-// Chromium or no isoatlas.
+// Runs `isoatlas view` on a volume and a browser that opens the viewer; shared by the tests of the viewer. Skipped without
+// Chromium or isoatlas.
 import { webcrypto } from "node:crypto";
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
@@ -15,7 +15,7 @@ const SOFTWARE_DRAWING = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftsh
 
 export const canServe = browserFile !== undefined && existsSync(cli);
 
-/** An answer to a question for a mesh. */
+/** A response to a request for a mesh. */
 export interface AskedMesh {
   asked: URLSearchParams;
   triangles: number;
@@ -27,9 +27,9 @@ export class Served {
     readonly folder: string,
     /** http://127.0.0.1:PORT */
     readonly origin: string,
-    /** what a program carries */
+    /** bearer token of programs */
     readonly token: string,
-    /** of the store that is served, in the folder */
+    /** the served store, in the folder */
     readonly store: string,
     private readonly server: ChildProcess,
     readonly browser: Browser,
@@ -42,12 +42,12 @@ export class Served {
     return Served.begin(folder, name);
   }
 
-  /** The same without a store: it is built while the page is open. options: of the viewer. */
+  /** A volume without a store: it is built while the page is open. options: of the viewer. */
   static async building(phantom: string[], options: string[] = []): Promise<Served> {
     return Served.begin(...made(phantom), options);
   }
 
-  /** A volume that is there. */
+  /** An existing volume. */
   static async file(path: string): Promise<Served> {
     const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
     const name = basename(path).replace(/\..*/, "");
@@ -65,13 +65,13 @@ export class Served {
     return new Served(folder, new URL(address).origin, token, `${name}.atlas`, server, browser);
   }
 
-  /** One that opens the page once. */
+  /** An address that opens the page once. */
   async address(): Promise<string> {
     const answer = await fetch(`${this.origin}/api/address`, { headers: { Authorization: `Bearer ${this.token}` } });
     return ((await answer.json()) as { address: string }).address;
   }
 
-  /** Ends the server alone. */
+  /** Ends only the server. */
   end(): void {
     this.server.kill("SIGINT");
   }
@@ -82,27 +82,27 @@ export class Served {
     rmSync(this.folder, { recursive: true });
   }
 
-  /** What the command line prints. */
+  /** Output of the command line. */
   isoatlas(...words: string[]): string {
     return execFileSync(cli, words, { cwd: this.folder, encoding: "utf8" });
   }
 
-  /** A tab with the page, and what went wrong in it so far. The tour was seen before, unless this is the first time. */
+  /** A tab with the viewer, and its errors so far. firstTime: with the introduction. */
   async open(hash = "", options: BrowserContextOptions = {}, firstTime = false): Promise<{ tab: Tab; problems: string[] }> {
     const tab = await this.browser.newPage({ viewport: { width: 1000, height: 700 }, ...options });
     if (!firstTime) await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
     tab.setDefaultTimeout(120_000);
     const problems: string[] = [];
     tab.on("pageerror", (error) => problems.push(error.message));
-    const isOvertaken = (text: string): boolean => text.includes("409 (Conflict)"); // a newer question has ended it, as it should
-    tab.on("console", (message) => message.type() === "error" && !isOvertaken(message.text()) && problems.push(message.text()));
+    const isSuperseded = (text: string): boolean => text.includes("409 (Conflict)"); // a newer question has ended it, as it should
+    tab.on("console", (message) => message.type() === "error" && !isSuperseded(message.text()) && problems.push(message.text()));
     await tab.goto((await this.address()) + hash);
     await tab.waitForSelector(".objects [role=tab]");
     return { tab, problems };
   }
 }
 
-/** A folder with a phantom, and the name of its file without .nrrd. */
+/** Creates a folder with a phantom; returns it and the name of its file without .nrrd. */
 function made(phantom: string[]): [string, string] {
   const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
   const name = phantom[0] ?? "demo";
@@ -114,7 +114,7 @@ function build(folder: string, name: string): void {
   execFileSync(cli, ["build", `${name}.nrrd`, "-o", `${name}.atlas`, "--quiet"], { cwd: folder });
 }
 
-/** Mesh answers from now on. */
+/** Responses with meshes from now on. */
 export function meshes(tab: Tab): AskedMesh[] {
   const list: AskedMesh[] = [];
   tab.on("response", (answer) => {

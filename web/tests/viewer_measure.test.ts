@@ -1,12 +1,12 @@
-// Measures and matter, held against a ball of known size: in a browser, on a store that `isoatlas view` serves.
+// Measures and volume rendering of a ball of known size, in a browser with `isoatlas view`.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Api } from "../src/viewer/ask/api";
-import { march } from "../src/viewer/draw/compositing";
-import { PLACES, transferTable, type Bump } from "../src/viewer/ask/transfer";
-import { decodeVolume } from "../src/viewer/ask/wire_samples";
+import { Api } from "../src/viewer/api/api";
+import { march } from "../src/viewer/scene/compositing";
+import { PLACES, transferTable, type OpacityTent } from "../src/viewer/api/transfer_function";
+import { decodeVolume } from "../src/viewer/api/wire_samples";
 import { canServe, Served } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
 
@@ -36,10 +36,10 @@ function ballFile(path: string): void {
   writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
 }
 
-/** Red, green, blue and opacity in the middle of the picture, 0 to 255. */
+/** RGBA in the middle of the viewport, 0 to 255. */
 function middlePixel(tab: Tab): Promise<number[]> {
   return tab.evaluate(() => {
-    const canvas = document.querySelector<HTMLCanvasElement>(".stage > canvas")!;
+    const canvas = document.querySelector<HTMLCanvasElement>(".viewport > canvas")!;
     const copy = document.createElement("canvas");
     [copy.width, copy.height] = [1, 1];
     const pen = copy.getContext("2d")!;
@@ -63,12 +63,12 @@ describe.skipIf(!canServe)("a ball", () => {
   });
 
   async function middleOf(tab: Tab): Promise<[number, number]> {
-    const box = (await tab.locator(".stage > canvas").boundingBox())!;
+    const box = (await tab.locator(".viewport > canvas").boundingBox())!;
     return [box.x + box.width / 2, box.y + box.height / 2];
   }
   const text = (tab: Tab): Promise<string[]> => tab.locator(".measures li b").allTextContents();
 
-  it("is as wide as it is, clicked on both sides", async () => {
+  it("has its diameter, clicked on both sides", async () => {
     const { tab, problems } = await served.open(scene);
     await tab.locator(".objects h1").click();
     await tab.waitForTimeout(800);
@@ -92,7 +92,7 @@ describe.skipIf(!canServe)("a ball", () => {
     await tab.close();
   });
 
-  it("is measured with keys alone, angles too, and on a slice", async () => {
+  it("is measured by keys alone, angles too, and on a slice", async () => {
     const { tab, problems } = await served.open(`${scene}&slices=1&cross=6,20,20`);
     await tab.locator(".objects h1").click();
     for (const key of ["M", "e", ...Array<string>(14).fill("6"), "e", ...Array<string>(14).fill("8"), "e"]) await tab.keyboard.press(key);
@@ -104,51 +104,51 @@ describe.skipIf(!canServe)("a ball", () => {
     const sample = Math.min(box.width, box.height) / SIDE;
     for (const by of [-10, 10]) await tab.mouse.click(box.x + box.width / 2 + by * sample, box.y + box.height / 2);
     await expect.poll(() => text(tab)).toEqual(["90°", "7 mm", "10 mm"]);
-    await tab.getByRole("button", { name: "look from the left" }).press("Enter");
+    await tab.getByRole("button", { name: "view from the left" }).press("Enter");
     expect(problems).toEqual([]);
     await tab.close();
   });
 
-  /** The matter along a line through the middle, by the transfer function of the server. */
+  /** The medium along a line through the middle, by the transfer function of the server. */
   async function matterAlongX(factor: number): Promise<{ opacityTo: (end: number) => number; least: number }> {
     const api = new Api(served.token, served.origin);
-    const volume = decodeVolume(await (await api.ask("/api/volume", "volume")).arrayBuffer());
-    const { bumps } = (await (await api.ask("/api/transfer", "transfer")).json()) as { bumps: Bump[] };
+    const volume = decodeVolume(await (await api.request("/api/volume", "volume")).arrayBuffer());
+    const { tents } = (await (await api.request("/api/transfer", "transfer")).json()) as { tents: OpacityTent[] };
     expect(volume.size).toEqual([SIDE, SIDE, SIDE]);
-    const table = transferTable(bumps.map((bump) => ({ ...bump, density: factor * bump.density })), volume.low, volume.high);
+    const table = transferTable(tents.map((tent) => ({ ...tent, density: factor * tent.density })), volume.low, volume.high);
     const placeAt = (t: number): number => {
       const sample = t / SPACING;
       const [i, u] = [Math.min(Math.floor(sample), SIDE - 2), sample - Math.min(Math.floor(sample), SIDE - 2)];
       const byte = (k: number): number => volume.bytes[k + SIDE * (MIDDLE + SIDE * MIDDLE)] ?? 0;
       return (PLACES / 255) * ((1 - u) * byte(i) + u * byte(i + 1));
     };
-    return { opacityTo: (end) => march(table, placeAt, 0, end, 0.01)[3], least: Math.min(...bumps.map(({ low }) => low)) };
+    return { opacityTo: (end) => march(table, placeAt, 0, end, 0.01)[3], least: Math.min(...tents.map(({ low }) => low)) };
   }
   const middle = [MIDDLE, MIDDLE, MIDDLE].map((n) => n * SPACING);
   const alongX = `&flat=1&view=${middle[0]! - 40},${middle[1]},${middle[2]},${middle.join()}`;
 
-  it("swallows as much light as the integral through it says", async () => {
+  it("absorbs as much light as the integral along the ray", async () => {
     const factor = 0.0625;
     const expected = (await matterAlongX(factor)).opacityTo((SIDE - 1) * SPACING);
     expect(expected).toBeGreaterThan(0.2);
     expect(expected).toBeLessThan(0.95);
-    const { tab, problems } = await served.open(`#scene=&selected=-1&matter=${factor}${alongX}`);
+    const { tab, problems } = await served.open(`#scene=&selected=-1&volume=${factor}${alongX}`);
     const opacity = async (): Promise<number> => ((await middlePixel(tab))[3] ?? 0) / 255;
     await expect.poll(opacity).toBeGreaterThan(0);
     await tab.waitForTimeout(600);
     expect(Math.abs((await opacity()) - expected)).toBeLessThan(0.02);
-    expect(await tab.locator(".matter-bar").textContent()).toContain("41 × 41 × 41: every sample");
+    expect(await tab.locator(".volume-bar").textContent()).toContain("41 × 41 × 41: every sample");
     expect(problems).toEqual([]);
     await tab.close();
   });
 
-  /** The middle of the picture of a surface, when it no longer changes. */
+  /** The pixel in the middle with a surface, after convergence. */
   async function pixelOf(tau: number, colour: string, factor: number | null): Promise<number[]> {
     const { tab, problems } = await served.open(
-      `#scene=-1,${tau},1,1,${colour}&selected=0${alongX}${factor === null ? "" : `&matter=${factor}`}`,
+      `#scene=-1,${tau},1,1,${colour}&selected=0${alongX}${factor === null ? "" : `&volume=${factor}`}`,
     );
     await expect.poll(() => tab.locator(".scene .state").textContent()).toMatch(/triangles$/);
-    if (factor !== null) await expect.poll(() => tab.locator(".matter-bar").textContent()).toContain("every sample");
+    if (factor !== null) await expect.poll(() => tab.locator(".volume-bar").textContent()).toContain("every sample");
     let before: number[];
     let now: number[] = [];
     do {
@@ -161,7 +161,7 @@ describe.skipIf(!canServe)("a ball", () => {
     return now;
   }
 
-  it("hides matter behind its surface, and none in front: as much of a black and a white one is seen as matter lets through", async () => {
+  it("occludes the medium behind its surface, not in front: contrast of black and white equals the transmittance", async () => {
     const factor = 0.125;
     const { opacityTo, least } = await matterAlongX(factor);
     const before = (radius: number): number => opacityTo(Math.max(0, middle[0]! - radius));

@@ -3,13 +3,13 @@ import { fromHash, toHash } from "../src/viewer/state/address";
 import { History } from "../src/viewer/state/history";
 import { flag, number } from "../src/viewer/state/part";
 import { add, change, changeAll, isolate, nextEvent, NOTHING, remove, shownAt, type State } from "../src/viewer/state/state";
-import { roundLength } from "../src/viewer/draw/scale_bar";
-import { unfolded } from "../src/viewer/ask/wire";
+import { roundLength } from "../src/viewer/scene/scale_bar";
+import { decodeOctahedral } from "../src/viewer/api/wire";
 
 const two: State = add(isolate(NOTHING, 3, 10), 1, 20.5);
 
 describe("a scene", () => {
-  it("holds every object at its own isovalue", () => {
+  it("has every object at its own isovalue", () => {
     expect(two.shown.map(({ entry, tau }) => [entry, tau])).toEqual([
       [3, 10],
       [1, 20.5],
@@ -22,7 +22,7 @@ describe("a scene", () => {
   it("keeps an object's isovalue when it is isolated", () => {
     expect(isolate(change(two, 1, { tau: 7 }), 1, 20.5).shown).toEqual([shownAt(1, 7)]);
   });
-  it("is the same after a link", () => {
+  it("survives a link", () => {
     const seen = {
       ...change(two, 0, { opacity: 0.4, colour: "#12ab00", walls: "cavities" as const, visible: false }),
       view: [1, 2, 3, -4, 5.5, 6],
@@ -30,7 +30,7 @@ describe("a scene", () => {
     expect(fromHash(toHash(seen), 4)).toEqual(seen);
     expect(fromHash(toHash(NOTHING), 0)).toEqual(NOTHING);
   });
-  it("is not made of what is none", () => {
+  it("is not read from invalid text", () => {
     for (const hash of [
       "",
       "#",
@@ -51,20 +51,20 @@ describe("a scene", () => {
 
 describe("parts of a state", () => {
   const [lit, step] = [flag("lit", "light"), number("step", "step", (n) => n > 0)];
-  it("are linked, and what is as at first is not written", () => {
-    const state = step.in(lit.in(two, true), 0.25);
+  it("are part of links, except initial values", () => {
+    const state = step.with(lit.with(two, true), 0.25);
     expect([lit.of(state), step.of(state), lit.of(two), step.of(two)]).toEqual([true, 0.25, false, null]);
     expect(toHash(state)).toBe(`${toHash(two)}&lit=1&step=0.25`);
     expect(fromHash(toHash(state), 4)).toEqual(state);
-    expect(lit.in(step.in(state, null), false)).toEqual(two);
+    expect(lit.with(step.with(state, null), false)).toEqual(two);
   });
-  it("take only their words", () => {
+  it("reject invalid text", () => {
     expect(fromHash(`${toHash(two)}&lit=2&step=-1&other=1`, 4)).toEqual(two);
   });
 });
 
 describe("history", () => {
-  it("goes back and forth, a drag is one step, and every step has a name", () => {
+  it("undoes and redoes; a drag is one step, and every step has a name", () => {
     const history = new History(NOTHING);
     const seen: [number, boolean][] = [];
     history.listen((state, _, dragging) => seen.push([state.shown[0]?.tau ?? -1, dragging]));
@@ -74,13 +74,13 @@ describe("history", () => {
     expect(history.undoes).toBe("isovalue");
     expect(history.undo()).toBe(true);
     expect(history.now.shown[0]?.tau).toBe(1);
-    expect([history.undoes, history.redoes]).toEqual(["add to the scene", "isovalue"]);
+    expect([history.undoes, history.redoes]).toEqual(["add to scene", "isovalue"]);
     expect(history.redo()).toBe(true);
     expect(history.undo() && history.undo() && history.undo()).toBe(false);
     expect(history.now).toEqual(NOTHING);
     expect(seen).toEqual([[1, false], [2, true], [3, true], [4, true], [4, false], [1, false], [4, false], [1, false], [-1, false]]);
   });
-  it("keeps apart what is dragged one after the other, and does not count what changes nothing", () => {
+  it("separates consecutive drags, and ignores states without a change", () => {
     const history = new History(two);
     history.go(change(history.now, 0, { tau: 5 }), true);
     history.go(change(history.now, 0, { opacity: 0.5 }), true);
@@ -92,17 +92,17 @@ describe("history", () => {
     expect(history.undo() && history.undo() && history.undo()).toBe(false);
     expect(history.now).toEqual(two);
   });
-  it("says what it did to all, to one, and to the list", () => {
+  it("names changes of all objects, of one, and of the list", () => {
     const history = new History(two);
     history.go(changeAll(history.now, { tau: 8 }));
     expect(history.undoes).toBe("isovalue of all");
     history.go(remove(history.now, 0));
-    expect(history.undoes).toBe("remove from the scene");
+    expect(history.undoes).toBe("remove from scene");
   });
 });
 
 describe("events", () => {
-  it("lie above or below", () => {
+  it("are found above or below", () => {
     expect(nextEvent([5, null, 1, 9], 5, true)).toBe(9);
     expect(nextEvent([5, null, 1, 9], 5, false)).toBe(1);
     expect(nextEvent([5, null, 1, 9], 9, true)).toBeNull();
@@ -110,14 +110,14 @@ describe("events", () => {
   });
 });
 
-describe("normals", () => {
-  it("unfold to the sphere", () => {
-    expect(unfolded(0, 0)).toEqual([0, 0, 127]);
-    expect(unfolded(127, 0)).toEqual([127, 0, 0]);
-    expect(unfolded(0, -127)).toEqual([0, -127, 0]);
-    expect(unfolded(127, 127).map(Math.abs)).toEqual([0, 0, 127]);
+describe("octahedral normals", () => {
+  it("are decoded to unit vectors", () => {
+    expect(decodeOctahedral(0, 0)).toEqual([0, 0, 127]);
+    expect(decodeOctahedral(127, 0)).toEqual([127, 0, 0]);
+    expect(decodeOctahedral(0, -127)).toEqual([0, -127, 0]);
+    expect(decodeOctahedral(127, 127).map(Math.abs)).toEqual([0, 0, 127]);
     for (let a = -127; a <= 127; a += 5)
-      for (let b = -127; b <= 127; b += 5) expect(Math.abs(Math.hypot(...unfolded(a, b)) - 127)).toBeLessThan(1.1);
+      for (let b = -127; b <= 127; b += 5) expect(Math.abs(Math.hypot(...decodeOctahedral(a, b)) - 127)).toBeLessThan(1.1);
   });
 });
 

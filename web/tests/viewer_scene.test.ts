@@ -1,4 +1,4 @@
-// The scene, its isovalues, and what is taken away, in a browser; numbers are compared with the command line.
+// The scene, isovalues and exports, in a browser; numbers are compared with the command line.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
@@ -46,7 +46,7 @@ describe.skipIf(!canServe)("the scene", () => {
       .map(({ best_tau }, i) => `${i},${best_tau},1,1`)
       .join(";")}&selected=0${more}`;
 
-  it("moves the eye once for several objects that come one after the other, and not again for finer ones", async () => {
+  it("fits the view once for several objects that load one after the other, and not again for full surfaces", async () => {
     const tab = await served.browser.newPage({ viewport: { width: 1000, height: 700 } });
     await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
     const held: (() => Promise<void>)[] = [];
@@ -71,7 +71,7 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
-  it("compiles no shader while one steps, and asks for the cost before anything else, once", async () => {
+  it("compiles no shader during steps, and requests the estimate first, once", async () => {
     const tab = await served.browser.newPage({ viewport: { width: 1000, height: 700 } });
     await tab.addInitScript(() => {
       localStorage.setItem("isoatlas-tour", "seen");
@@ -111,7 +111,7 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
-  it("hides without forgetting, paints, fades, and undoes each by its name", async () => {
+  it("hides, paints and fades without reloading, and undoes each by its name", async () => {
     const { tab, problems } = await served.open(scene(2));
     await settled(tab);
     const seen = meshes(tab);
@@ -124,18 +124,18 @@ describe.skipIf(!canServe)("the scene", () => {
     await row.getByRole("slider", { name: "opacity" }).fill("0.5");
     await expect.poll(() => new URL(tab.url()).hash).toContain(",0.5,1,d55e00;");
     for (const step of ["opacity", "colour", "show or hide", "show or hide"])
-      await tab.getByRole("button", { name: `undo: ${step}`, exact: true }).click();
+      await tab.getByRole("button", { name: `Undo: ${step}`, exact: true }).click();
     await expect.poll(() => new URL(tab.url()).hash).toContain(`#scene=0,${listed[0]?.best_tau},1,1;`);
-    expect(await tab.getByRole("button", { name: "redo: show or hide" }).isEnabled()).toBe(true);
+    expect(await tab.getByRole("button", { name: "Redo: show or hide" }).isEnabled()).toBe(true);
     expect(seen).toEqual([]);
     expect(problems).toEqual([]);
     await tab.close();
   });
 
-  it("lets a click go through ghosts", async () => {
+  it("lets clicks pass through ghosts", async () => {
     const { tab } = await served.open(scene(3).replace("selected=0", "selected=1"));
     await settled(tab);
-    const canvas = tab.locator(".stage canvas").first();
+    const canvas = tab.locator(".viewport canvas").first();
     const { width, height } = (await canvas.boundingBox()) ?? { width: 0, height: 0 };
     const selected = () => tab.locator('.scene [aria-current="true"]').locator("b").textContent();
     await tab.keyboard.press("g");
@@ -177,13 +177,13 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
-  it("asks for coarse surfaces while it is dragged, for one whole one when it rests, and feeds back at once", async () => {
+  it("loads coarse surfaces during a drag, one full one at its end, and updates the isovalue immediately", async () => {
     const { tab } = await served.open(scene(1));
     await settled(tab);
     const asked: number[] = [];
     tab.on(
       "request",
-      (request) => request.url().includes("/api/surface") && asked.push(Number(new URL(request.url()).searchParams.get("most"))),
+      (request) => request.url().includes("/api/surface") && asked.push(Number(new URL(request.url()).searchParams.get("max"))),
     );
     const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
     const numbers = await slider.evaluate((input: HTMLInputElement) => {
@@ -202,13 +202,13 @@ describe.skipIf(!canServe)("the scene", () => {
     await settled(tab);
     expect(asked.filter((most) => most > 20_000).length).toBe(1);
     await expect.poll(() => tab.locator(".badge").textContent()).toContain("triangles");
-    await tab.getByRole("button", { name: "undo: isovalue" }).click();
+    await tab.getByRole("button", { name: "Undo: isovalue" }).click();
     await expect.poll(() => new URL(tab.url()).hash).toContain(`#scene=0,${listed[0]?.best_tau},`);
     await tab.close();
   });
 
   for (const [colorScheme, mark] of [["light", [0, 114, 178]], ["dark", [86, 180, 233]]] as const)
-    it(`draws the line of the isovalue where the histogram is pressed, ${colorScheme}`, async () => {
+    it(`draws the line of the isovalue where the histogram is clicked, ${colorScheme}`, async () => {
       const { tab, problems } = await served.open(scene(1), { colorScheme });
       await settled(tab);
       const box = await tab.locator(".drawn").boundingBox();
@@ -228,7 +228,7 @@ describe.skipIf(!canServe)("the scene", () => {
       await tab.close();
     });
 
-  it("steps by a delta of one's own, and plays to the end of its range", async () => {
+  it("steps by a given step, and plays to the end of the range", async () => {
     const { tab, problems } = await served.open(scene(1));
     await settled(tab);
     const box = tab.getByRole("textbox", { name: "isovalue" });
@@ -239,7 +239,7 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.keyboard.press("]");
     expect(Number(await box.inputValue())).toBeCloseTo(before + 2.5, 3);
     expect(new URL(tab.url()).hash).toContain("&step=2.5");
-    const top = Number(((await tab.locator(".object dd").allTextContents()).join(" ").match(/from (\S+) on/) ?? [])[1] ?? NaN);
+    const top = Number(((await tab.locator(".object dd").allTextContents()).join(" ").match(/from (\S+) downwards/) ?? [])[1] ?? NaN);
     await tab.getByRole("combobox", { name: "speed" }).selectOption("20");
     await box.fill(String(top - 9));
     await box.press("Enter");
@@ -257,15 +257,15 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
-  it("says what happens at the next event", async () => {
+  it("shows the next event", async () => {
     const { tab } = await served.open(scene(1));
     await settled(tab);
     await tab.keyboard.press("}");
-    await expect.poll(() => tab.locator(".said").textContent()).toMatch(/bject \d+ (appears|joins|opens).* at /);
+    await expect.poll(() => tab.locator(".message").textContent()).toMatch(/(Object|Cavity) \d+ (appears|merges|opens).* at /);
     await tab.close();
   });
 
-  it("is saved as a file and loaded again; what is wrong with a file is said", async () => {
+  it("is saved and loaded; invalid files are rejected with a reason", async () => {
     const { tab } = await served.open(scene(2, "&ghosts=1"));
     await settled(tab);
     const hash = new URL(tab.url()).hash;
@@ -275,14 +275,14 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.keyboard.press("Delete");
     await tab.keyboard.press("s");
     writeFileSync(join(served.folder, "bad.json"), readFileSync(file, "utf8").replace("isoatlas/scene/1", "isoatlas/scene/9"));
-    await tab.getByLabel("a scene to load").setInputFiles(join(served.folder, "bad.json"));
+    await tab.getByLabel("scene file to load").setInputFiles(join(served.folder, "bad.json"));
     await expect.poll(() => tab.getByRole("alert").textContent()).toContain('this viewer reads "isoatlas/scene/1"');
-    await tab.getByLabel("a scene to load").setInputFiles(file);
+    await tab.getByLabel("scene file to load").setInputFiles(file);
     await expect.poll(() => new URL(tab.url()).hash).toBe(hash);
     await tab.close();
   });
 
-  it("tells what is measured of an object, and gives its labels", async () => {
+  it("shows measures of an object, and saves its labels", async () => {
     const { id, best_tau } = listed[0] as Listed;
     const { tab } = await served.open(scene(1));
     await settled(tab);
@@ -298,29 +298,29 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
-  it("gives a table with a line for each object", async () => {
+  it("saves a table with a line for each object", async () => {
     const { tab } = await served.open(scene(1));
     await tab.keyboard.press("s");
     const file = await save(tab, () => tab.getByRole("button", { name: "Save the table of objects" }).click(), "objects.csv");
-    const bright = readFileSync(file, "utf8")
+    const objects = readFileSync(file, "utf8")
       .split("\r\n")
-      .filter((line) => line.includes(",bright,"));
-    expect(bright.map((line) => Number(line.split(",")[1]))).toEqual(listed.map(({ id }) => id));
+      .filter((line) => line.includes(",object,"));
+    expect(objects.map((line) => Number(line.split(",")[1]))).toEqual(listed.map(({ id }) => id));
     await tab.close();
   });
 
-  it("gives a picture of the size that is asked for, and an animation that moves", async () => {
+  it("saves an image of the requested size, and an animation with different frames", async () => {
     const { tab, problems } = await served.open(scene(2));
     await settled(tab);
     await tab.keyboard.press("s");
     await tab.getByRole("spinbutton", { name: "width" }).fill("320");
     await tab.getByRole("spinbutton", { name: "height" }).fill("200");
-    const picture = readFileSync(await save(tab, () => tab.getByRole("button", { name: "Save a picture" }).click(), "p.png"));
+    const picture = readFileSync(await save(tab, () => tab.getByRole("button", { name: "Save the image" }).click(), "p.png"));
     expect([picture.readUInt32BE(16), picture.readUInt32BE(20)]).toEqual([320, 200]);
     for (const what of ["turn", "tau"]) {
-      await tab.getByRole("combobox", { name: "what moves" }).selectOption(what);
+      await tab.getByRole("combobox", { name: "motion" }).selectOption(what);
       await tab.getByRole("spinbutton", { name: "frames", exact: true }).fill("5");
-      const bytes = readFileSync(await save(tab, () => tab.getByRole("button", { name: "Make the animation" }).click(), "a.png"));
+      const bytes = readFileSync(await save(tab, () => tab.getByRole("button", { name: "Save the animation" }).click(), "a.png"));
       const frames = await tab.evaluate(async (base64) => {
         const decoder = new ImageDecoder({ data: Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)), type: "image/png" });
         await decoder.tracks.ready;
@@ -347,7 +347,7 @@ describe.skipIf(!canServe)("the scene", () => {
       for (const key of ["ArrowLeft", "ArrowUp", "ArrowLeft"]) await tab.keyboard.press(key);
       if (flat) for (const key of ["o", "c"]) await tab.keyboard.press(key); // without perspective, and cut open
       await tab.keyboard.press("s");
-      const command = (await tab.locator(".save code").textContent()) ?? "";
+      const command = (await tab.locator(".export code").textContent()) ?? "";
       expect([command.includes("--perspective"), command.includes("--cut=")]).toEqual([!flat, flat]);
       const words = [...command.matchAll(/--\S+?='[^']*'|'[^']*'|\S+/g)].map(([word]) => word.replaceAll("'", ""));
       served.isoatlas(...words.slice(1), "--background", "transparent", "--quiet");
@@ -355,7 +355,7 @@ describe.skipIf(!canServe)("the scene", () => {
       await tab.getByRole("spinbutton", { name: "height" }).fill(String(words[words.indexOf("--size") + 1]?.split("x")[1]));
       for (const name of ["scale bar", "legend"]) await tab.getByRole("checkbox", { name }).uncheck();
       await tab.getByRole("combobox", { name: "background" }).selectOption("transparent");
-      const here = await save(tab, () => tab.getByRole("button", { name: "Save a picture" }).click(), "here.png");
+      const here = await save(tab, () => tab.getByRole("button", { name: "Save the image" }).click(), "here.png");
       const pictures = [here, join(served.folder, "scene.png")].map((file) => readFileSync(file).toString("base64"));
       const { both, either } = await tab.evaluate(overlap, pictures);
       expect(either).toBeGreaterThan(10_000);
@@ -365,7 +365,7 @@ describe.skipIf(!canServe)("the scene", () => {
   });
 });
 
-/** How many pixels are in both pictures, and in one of them, by their opacity. */
+/** Number of pixels that are opaque in both images, and in at least one. */
 async function overlap(pictures: string[]): Promise<{ both: number; either: number }> {
   const alphas = await Promise.all(
     pictures.map(async (base64) => {

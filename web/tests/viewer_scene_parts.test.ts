@@ -1,23 +1,24 @@
-// The parts of the scene and of what is taken away that need no browser.
+// Parts of scenes and exports, without a browser.
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { deflateSync } from "node:zlib";
 import { describe, expect, it } from "vitest";
-import { animatedPng, chunksOf } from "../src/viewer/save/apng";
-import { allText, bytesText } from "../src/viewer/evolve/badge";
-import type { Api } from "../src/viewer/ask/api";
+import { animatedPng, chunksOf } from "../src/viewer/export/apng";
+import { allText, bytesText } from "../src/viewer/panels/surface_estimate";
+import type { Api } from "../src/viewer/api/api";
 import { eventNear, eventsOf } from "../src/viewer/state/events";
-import { Latest } from "../src/viewer/ask/latest";
-import { factsOf } from "../src/viewer/inspect/measured";
+import { Latest } from "../src/viewer/api/latest";
+import { factsOf } from "../src/viewer/panels/object_measures";
 import { PALETTE } from "../src/viewer/state/palette";
-import { renderCommand, type Camera } from "../src/viewer/save/render_command";
-import { pieces } from "../src/viewer/ask/pieces";
-import { readScene, writeScene } from "../src/viewer/save/scene_file";
-import { noteOf } from "../src/viewer/inspect/scene_panel";
+import { renderCommand, type Camera } from "../src/viewer/export/render_command";
+import { countComponents } from "../src/viewer/api/count_components";
+import "../src/viewer/state/volume_state";
+import { readScene, writeScene } from "../src/viewer/export/scene_file";
+import { noteOf } from "../src/viewer/panels/scene_panel";
 import { add, change, isolate, NOTHING, shownAt, type State } from "../src/viewer/state/state";
-import { Surfaces } from "../src/viewer/ask/surfaces";
-import { cell, tableCsv } from "../src/viewer/save/table_csv";
-import type { Mesh } from "../src/viewer/ask/wire";
+import { Surfaces } from "../src/viewer/api/surfaces";
+import { cell, tableCsv } from "../src/viewer/export/table_csv";
+import type { Mesh } from "../src/viewer/api/wire";
 import { scene as page } from "./sample";
 
 const schemaFile = join(process.env.ISOATLAS_SCHEMAS ?? "nowhere", "scene.schema.json");
@@ -29,38 +30,38 @@ describe("surfaces", () => {
     tau: number;
     most: number;
     answer(mesh: Partial<Mesh>): void;
-    left: boolean;
+    aborted: boolean;
   }
-  function lanes(): { surfaces: Surfaces; asked: Asked[]; came: (number | null)[] } {
-    const [asked, came]: [Asked[], (number | null)[]] = [[], []];
+  function lanes(): { surfaces: Surfaces; asked: Asked[]; loaded: (number | null)[] } {
+    const [asked, loaded]: [Asked[], (number | null)[]] = [[], []];
     const api = {
-      surface: (_: string, tau: number, _which: null, most: number) =>
+      surface: (_: string, tau: number, _target: null, most: number) =>
         new Promise<Mesh>((resolve) =>
-          asked.push({ tau, most, answer: (mesh) => resolve({ triangles: 5, bytes: 9, coarse: false, ...mesh } as Mesh), left: false }),
+          asked.push({ tau, most, answer: (mesh) => resolve({ triangles: 5, bytes: 9, coarse: false, ...mesh } as Mesh), aborted: false }),
         ),
-      leave: () => asked.forEach((one) => (one.left = true)),
+      abort: () => asked.forEach((one) => (one.aborted = true)),
     } as unknown as Api;
     return {
       surfaces: new Surfaces(
         api,
-        (_, mesh, tau) => came.push(mesh ? tau : null),
+        (_, mesh, tau) => loaded.push(mesh ? tau : null),
         () => undefined,
       ),
       asked,
-      came,
+      loaded,
     };
   }
-  const wish = (tau: number) => ({ tau, which: null, walls: "all" as const });
+  const request = (tau: number) => ({ tau, target: null, walls: "all" as const });
   const rest = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
 
-  it("of a drag are asked for one at a time, coarse, the last one next; whole when it rests", async () => {
-    const { surfaces, asked, came } = lanes();
-    for (let tau = 1; tau <= 20; ++tau) surfaces.want(0, wish(tau), true);
+  it("load one at a time during a drag, coarse, then the last one; full at its end", async () => {
+    const { surfaces, asked, loaded } = lanes();
+    for (let tau = 1; tau <= 20; ++tau) surfaces.request(0, request(tau), true);
     expect(asked.map(({ tau }) => tau)).toEqual([1]);
     asked[0]?.answer({ coarse: true });
     await rest();
     expect(asked.map(({ tau }) => tau)).toEqual([1, 20]);
-    surfaces.want(0, wish(21), false);
+    surfaces.request(0, request(21), false);
     expect(asked.map(({ tau, most }) => [tau, most < 1e6])).toEqual([
       [1, true],
       [20, true],
@@ -72,81 +73,81 @@ describe("surfaces", () => {
     expect(asked[3]).toMatchObject({ tau: 21, most: 1e8 });
     asked[3]?.answer({ triangles: 99 });
     await surfaces.settled();
-    expect(came).toEqual([1, 21, 21]); // what rested ended what was dragged
-    expect(surfaces.arrivalOf(0)).toMatchObject({ of: "21 all", triangles: 99, coarse: false, waiting: false });
+    expect(loaded).toEqual([1, 21, 21]); // what rested ended what was dragged
+    expect(surfaces.loadStateOf(0)).toMatchObject({ key: "21 all", triangles: 99, coarse: false, waiting: false });
   });
-  it("are not asked for twice, and one that was small enough is whole", async () => {
+  it("are not loaded twice; a small one is complete at once", async () => {
     const { surfaces, asked } = lanes();
-    surfaces.want(0, wish(1), true);
+    surfaces.request(0, request(1), true);
     asked[0]?.answer({});
     await surfaces.settled();
-    surfaces.want(0, wish(1), false);
+    surfaces.request(0, request(1), false);
     expect(asked.length).toBe(1);
-    for (let i = 0; i < 3; ++i) surfaces.want(0, wish(2), false); // as when its colour changes meanwhile
+    for (let i = 0; i < 3; ++i) surfaces.request(0, request(2), false); // as when its colour changes meanwhile
     expect(asked.length).toBe(2);
   });
-  it("of a coarse one that rests only the whole one is asked for", async () => {
+  it("that are coarse are completed without a second coarse one", async () => {
     const { surfaces, asked } = lanes();
-    surfaces.want(0, wish(1), true);
+    surfaces.request(0, request(1), true);
     asked[0]?.answer({ coarse: true });
     await rest();
-    surfaces.want(0, wish(1), false);
+    surfaces.request(0, request(1), false);
     expect(asked.map(({ most }) => most)).toEqual([20_000, 1e8]);
-    surfaces.forget(0);
-    expect(asked[1]?.left).toBe(true);
+    surfaces.remove(0);
+    expect(asked[1]?.aborted).toBe(true);
   });
 });
 
-describe("what is said of a surface", () => {
-  const there = { of: "5 all", triangles: 1234, bytes: 9, coarse: true, walls: null, waiting: true, error: "" };
-  it("is what has come of it", () => {
+describe("the state of a surface", () => {
+  const there = { key: "5 all", triangles: 1234, bytes: 9, coarse: true, walls: null, waiting: true, error: "" };
+  it("is its load state in words", () => {
     const shown = shownAt(0, 5);
     expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
-    expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, on its way");
+    expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, loading");
     expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");
-    expect(noteOf(shown, { ...there, triangles: 0, error: "no" })).toBe("at 5, not there");
-    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, of: "5 cavities", walls: 2, coarse: false })).toBe(
+    expect(noteOf(shown, { ...there, triangles: 0, error: "no" })).toBe("at 5, does not exist");
+    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, key: "5 cavities", walls: 2, coarse: false })).toBe(
       "at 5, 2 cavities, 1,234 triangles",
     );
-    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, of: "5 cavities", triangles: 0 })).toBe("at 5, no cavities");
+    expect(noteOf({ ...shown, walls: "cavities" }, { ...there, key: "5 cavities", triangles: 0 })).toBe("at 5, no cavities");
   });
 });
 
-describe("walls", () => {
-  it("are counted by what hangs together", () => {
+describe("components of a mesh", () => {
+  it("are counted by connected triangles", () => {
     const corners = new Uint32Array([0, 1, 2, 2, 1, 3, 4, 5, 6, 9, 8, 7, 8, 7, 6]);
-    expect(pieces(corners)).toBe(2);
-    expect(pieces(new Uint32Array())).toBe(0);
+    expect(countComponents(corners)).toBe(2);
+    expect(countComponents(new Uint32Array())).toBe(0);
   });
 });
 
-describe("the latest question", () => {
-  it("is asked when the one before it is answered, and those between are not", async () => {
+describe("the latest request", () => {
+  it("follows the pending one; those in between are skipped", async () => {
     const asked: number[] = [];
     const answers: (() => void)[] = [];
     const latest = new Latest<number>((n) => new Promise((resolve) => (asked.push(n), answers.push(resolve))));
-    for (const n of [1, 2, 3, 3]) latest.want(n, String(n));
+    for (const n of [1, 2, 3, 3]) latest.request(n, String(n));
     answers[0]?.();
     await new Promise((resolve) => setTimeout(resolve));
-    latest.want(3, "3");
+    latest.request(3, "3");
     expect(asked).toEqual([1, 3]);
   });
 });
 
 describe("events", () => {
-  it("say in words what happens, the lowest first", () => {
+  it("are described, ascending", () => {
     const events = eventsOf(page);
     expect(events.map(({ tau }) => tau)).toEqual([...events.map(({ tau }) => tau)].sort((p, q) => p - q));
     expect(events.some(({ text }) => /^Object \d+ appears at /.test(text))).toBe(true);
-    expect(events.some(({ text }) => /joins object \d+ at 30/.test(text))).toBe(true);
+    expect(events.some(({ text }) => /merges into object \d+ at 30/.test(text))).toBe(true);
     const [first] = events;
     expect(eventNear(events, (tau) => tau, first?.tau ?? 0, 1)).toEqual(first);
     expect(eventNear(events, (tau) => tau, 1e6, 1)).toBeNull();
   });
 });
 
-describe("the badge", () => {
-  it("says what it costs", () => {
+describe("the estimate of a surface", () => {
+  it("has its size", () => {
     const preview = {
       tau: 3,
       objects: 1,
@@ -161,17 +162,17 @@ describe("the badge", () => {
   });
 });
 
-describe("what is measured", () => {
-  it("is told in units of the file", () => {
+describe("measures", () => {
+  it("are in units of the file", () => {
     const there = { id: 4, tunnels: 1, cavities: 0, voxels: [10, 12] as [number, number], area: 250, volume: 1234 };
     expect(factsOf(there, 4, 50, "mm")).toEqual([
       ["at 50", "1.23 cm³, 10 to 12 voxels"],
       ["area", "2.5 cm²"],
-      ["shape", "1 tunnel, no cavities"],
+      ["topology", "1 tunnel, no cavities"],
     ]);
     expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: about 1,230 voxels");
   });
-  it("is told in voxels and their faces where the file has no unit, and only as far as it is known", () => {
+  it("are in voxels and their faces where the file has no unit, as far as they are known", () => {
     const there = { id: 4, tunnels: 1, cavities: 0, voxels: [11, 11] as [number, number], area: 1234.4, volume: 11.2 };
     expect(factsOf(there, 4, 50, null).map(([, text]) => text)).toEqual(["11 voxels", "1,234 voxel faces", "1 tunnel, no cavities"]);
     expect(factsOf({ ...there, area: 1 }, 4, 50, null)[1]?.[1]).toBe("1 voxel face");
@@ -189,7 +190,7 @@ describe("the command line of a scene", () => {
     expect(command).toContain(`--object ${first?.id}@10 --object ${second?.id}@20.5 ${colours} --opacity 1 --opacity 0.5`);
     expect(command).toContain("--eye=-1,2,3 --target=0,0,0.5 --height 12.5 --perspective --size 640x480 --plain -o scene.png");
   });
-  it("goes by the order of the command line, leaves out what is hidden, and cuts", () => {
+  it("follows the order of the command line, omits hidden objects, and clips", () => {
     const all = add({ ...two, shown: two.shown.map((one, i) => ({ ...one, visible: i > 0 })) }, -1, 7);
     const cut = { normal: [-0.6, 0, 0.8], offset: -3 };
     expect(renderCommand(page, all.shown, { ...camera, flat: true, cut }, [9, 9], true)).toMatch(
@@ -199,11 +200,13 @@ describe("the command line of a scene", () => {
 });
 
 describe("a scene as a file", () => {
-  it("is the same after it was read", () => {
+  it("is the same after reading it", () => {
     expect(readScene(page, writeScene(page, two))).toEqual(two);
     expect(readScene(page, writeScene(page, NOTHING))).toEqual(NOTHING);
+    const old = writeScene(page, NOTHING).replace('"parts": {}', '"parts": { "matter": "2" }'); // its key before version 0.2
+    expect(readScene(page, old).parts).toEqual({ volume: "2" });
   });
-  it.skipIf(!existsSync(schemaFile))("has what its schema says, no more and no less", () => {
+  it.skipIf(!existsSync(schemaFile))("conforms to its schema", () => {
     const schema = JSON.parse(readFileSync(schemaFile, "utf8")) as {
       required: string[];
       properties: { shown: { items: { required: string[]; properties: object } } };
@@ -214,7 +217,7 @@ describe("a scene as a file", () => {
     for (const shown of file.shown) expect(Object.keys(shown)).toEqual(expect.arrayContaining(required));
     for (const shown of file.shown) expect(Object.keys(properties)).toEqual(expect.arrayContaining(Object.keys(shown)));
   });
-  it("is refused with where and what was expected", () => {
+  it("is rejected with the position and what was expected", () => {
     const good = JSON.parse(writeScene(page, two)) as Record<string, unknown> & { shown: Record<string, unknown>[] };
     const [first, second] = good.shown;
     const cases: [unknown, string][] = [
@@ -227,22 +230,22 @@ describe("a scene as a file", () => {
       [{ ...good, shown: [first, { ...second, colour: "red" }] }, "shown[1].colour"],
       [{ ...good, shown: [{ ...first, id: 1e9 }] }, "of another volume"],
       [{ ...good, shown: [{ ...first, entry: 400_000 }] }, "shown[0].entry is 400000"],
-      [{ ...good, shown: [first, first] }, "shown[1] is in the scene twice"],
+      [{ ...good, shown: [first, first] }, "shown[1] is a duplicate"],
       [{ ...good, shown: 7 }, "shown is 7; a list"],
       [{ ...good, selected: 2 }, "selected is 2"],
       [{ ...good, view: [1, 2] }, "view has 2 numbers"],
       [{ ...good, parts: { nothing: "1" } }, "parts.nothing"],
     ];
     for (const [file, says] of cases) expect(() => readScene(page, JSON.stringify(file)), says).toThrow(says);
-    expect(() => readScene(page, "{")).toThrow("This is no JSON");
+    expect(() => readScene(page, "{")).toThrow("This is not JSON");
   });
 });
 
 describe("the table", () => {
-  it("has a line for every object, and quotes what needs it", () => {
+  it("has a line for every object, and quotes where needed", () => {
     const lines = tableCsv(page, two).trimEnd().split("\r\n");
     expect(lines.length).toBe(page.entries.length + 1);
-    expect(lines[1]?.split(",").slice(0, 4)).toEqual(["Object 1", String(page.entries[0]?.id), "bright", String(page.entries[0]?.tau)]);
+    expect(lines[1]?.split(",").slice(0, 4)).toEqual(["Object 1", String(page.entries[0]?.id), "object", String(page.entries[0]?.tau)]);
     expect(lines[2]?.endsWith(",20.5")).toBe(true);
     expect(['a"b', "a,b", null, 3].map(cell)).toEqual(['"a""b"', '"a,b"', "", "3"]);
   });
@@ -266,7 +269,7 @@ describe("an animated PNG", () => {
       ]),
     );
   };
-  it("has every picture's own bytes, in order", () => {
+  it("contains the data of all frames in order", () => {
     const frames = [1, 2, 3].map((grey) => picture(2, grey));
     const chunks = chunksOf(animatedPng(frames, 12));
     expect(chunks.map(({ type }) => type)).toEqual(["IHDR", "acTL", "fcTL", "IDAT", "fcTL", "fdAT", "fcTL", "fdAT", "IEND"]);
@@ -275,9 +278,9 @@ describe("an animated PNG", () => {
     expect(chunks.filter(({ type }) => type === "fcTL" || type === "fdAT").map(({ bytes }) => bytes[3])).toEqual([0, 1, 2, 3, 4]);
     expect(Buffer.from(chunks[7]?.bytes.subarray(4) ?? [])).toEqual(Buffer.from(chunksOf(frames[2] as Uint8Array)[1]?.bytes ?? []));
   });
-  it("is not made of what does not fit", () => {
+  it("rejects frames of different size or type", () => {
     expect(() => animatedPng([picture(2, 1), picture(3, 1)], 12)).toThrow("size");
-    expect(() => animatedPng([new Uint8Array(20)], 12)).toThrow("no PNG");
+    expect(() => animatedPng([new Uint8Array(20)], 12)).toThrow("not a PNG");
   });
 });
 
@@ -324,7 +327,7 @@ describe("the palette", () => {
     ];
     return [116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)];
   };
-  it("is told apart by every kind of colour vision", () => {
+  it("is distinct for all kinds of colour vision", () => {
     for (const [eye, matrix] of Object.entries(eyes)) {
       const seen = PALETTE.map(([name, colour]) => ({ name, lab: lab(times(matrix, linear(colour))) }));
       for (const p of seen)

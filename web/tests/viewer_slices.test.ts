@@ -1,10 +1,10 @@
-// Slices, the crosshair, what holds a sample, the cut and where one looks from: in a browser, on a store that `isoatlas view` serves.
+// Slices, crosshair, locating objects, clipping and camera, in a browser with `isoatlas view`.
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Api } from "../src/viewer/ask/api";
+import { Api } from "../src/viewer/api/api";
 import { acrossAndDown, AXES, Grid, type AxisNumber } from "../src/viewer/state/grid";
 import type { Ruler } from "../src/viewer/state/ruler";
-import { SlicedMesh } from "../src/viewer/draw/plane_cut";
-import { decodeSlice } from "../src/viewer/ask/wire_samples";
+import { SlicedMesh } from "../src/viewer/scene/plane_cut";
+import { decodeSlice } from "../src/viewer/api/wire_samples";
 import { canServe, Served } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
 
@@ -21,14 +21,14 @@ describe.skipIf(!canServe)("slices", () => {
   });
   afterAll(() => served?.close());
 
-  /** How far the contour is from where neighbouring samples of the slice say that it passes between them: the farthest of all. */
+  /** Largest distance of the contour from the crossings of tau between neighbouring samples of the slice. */
   async function farthest(axis: AxisNumber, index: number, tau: number): Promise<{ crossings: number; distance: number }> {
     const page = await api.page();
     const mesh = await api.surface("all", tau, null, 10_000_000);
     const grid = new Grid(page);
     const [wide, high] = acrossAndDown(axis).map((other) => grid.rulers[other]) as [Ruler, Ruler];
     const pieces = new SlicedMesh(mesh, grid).cut(axis, index).map((length, i) => (i % 2 === 0 ? wide : high).sample(length));
-    const slice = decodeSlice(await (await api.ask(`/api/slice?axis=${axis}&index=${index}`, "slice")).arrayBuffer(), axis, index);
+    const slice = decodeSlice(await (await api.request(`/api/slice?axis=${axis}&index=${index}`, "slice")).arrayBuffer(), axis, index);
     const { columns, rows, samples } = slice;
     const near = (u: number, v: number): number => {
       let best = Infinity;
@@ -54,7 +54,7 @@ describe.skipIf(!canServe)("slices", () => {
     return { crossings, distance };
   }
 
-  it("show contours that pass where the samples say", async () => {
+  it("show contours at the crossings between samples", async () => {
     const { size } = new Grid(await api.page());
     for (const axis of AXES) {
       const { crossings, distance } = await farthest(axis, Math.floor(size[axis] / 2), 120.5);
@@ -63,7 +63,7 @@ describe.skipIf(!canServe)("slices", () => {
     }
   });
 
-  it("share a crosshair that keys, clicks and the wheel move, and that can be undone", async () => {
+  it("share a crosshair, moved by keys, clicks and the wheel, with undo", async () => {
     const { tab, problems } = await served.open();
     await tab.locator(".objects h1").click();
     await tab.keyboard.press("k");
@@ -80,7 +80,7 @@ describe.skipIf(!canServe)("slices", () => {
     await expect.poll(captions).toEqual(AXES.map((axis) => `${"xyz"[axis]} ${moved[axis]} of ${page.volume.size[axis]}`));
     const [across] = acrossAndDown(2);
     const said = await tab.locator(".at-crosshair").textContent();
-    const answer = (await (await api.ask(`/api/at?voxel=${moved.join()}`, "at")).json()) as { value: number };
+    const answer = (await (await api.request(`/api/at?voxel=${moved.join()}`, "at")).json()) as { value: number };
     expect(said).toContain(`sample ${moved.join(", ")}`);
     await expect.poll(async () => Number(await tab.locator(".at-crosshair .value").textContent())).toBeCloseTo(answer.value, 1);
     await tab.locator(".objects h1").click();
@@ -98,10 +98,10 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.close();
   });
 
-  it("select what holds a sample: the innermost, shown or not", async () => {
+  it("locate objects that contain a sample: the innermost, visible or not", async () => {
     const page = await api.page();
     const { size } = new Grid(page);
-    const inner = page.entries.findIndex(({ inside }, i) => inside >= 0 && page.branches[page.entries[i]!.branch]?.side === "bright");
+    const inner = page.entries.findIndex(({ inside }, i) => inside >= 0 && page.branches[page.entries[i]!.branch]?.side === "object");
     const { id, inside } = page.entries[inner]!;
     const voxel = [id % size[0], Math.floor(id / size[0]) % size[1], Math.floor(id / size[0] / size[1])];
     const { tab, problems } = await served.open(
@@ -118,15 +118,15 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.close();
   });
 
-  it("stand still, whatever is said below them", async () => {
+  it("keep their size when the text below changes", async () => {
     const { tab, problems } = await served.open();
     await tab.locator(".objects h1").click();
     await tab.keyboard.press("k");
-    await expect.poll(() => tab.locator(".slices .held").textContent()).not.toBe("");
+    await expect.poll(() => tab.locator(".slices .located").textContent()).not.toBe("");
     const heights = await tab.evaluate(() => {
       const slice = document.querySelector(".slices canvas")!;
       const height = (): number => slice.getBoundingClientRect().height;
-      const [held, said] = [document.querySelector(".slices .held")!, document.querySelector(".slices .at-crosshair")!];
+      const [held, said] = [document.querySelector(".slices .located")!, document.querySelector(".slices .at-crosshair")!];
       const before = height();
       held.replaceChildren();
       said.replaceChildren();
@@ -139,16 +139,16 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.close();
   });
 
-  it("stand in the picture, in the brightness one chooses, and a link restores all of it", async () => {
+  it("are shown in 3D with a grey range, and restored by a link", async () => {
     const { tab, problems } = await served.open();
     await tab.locator(".objects h1").click();
     for (const key of ["k", "K", "b", "o"]) await tab.keyboard.press(key);
-    await tab.getByRole("slider", { name: "value that is white" }).fill("500");
+    await tab.getByRole("slider", { name: "white value" }).fill("500");
     await expect.poll(() => hashOf(tab).has("grey")).toBe(true);
     const { hash } = new URL(tab.url());
     const other = await served.open(hash);
     await expect.poll(() => other.tab.locator(".slices").isVisible()).toBe(true);
-    expect(await other.tab.getByRole("slider", { name: "value that is white" }).inputValue()).toBe("500");
+    expect(await other.tab.getByRole("slider", { name: "white value" }).inputValue()).toBe("500");
     expect(["slices", "planes", "edges", "flat"].map((key) => hashOf(other.tab).get(key))).toEqual(["1", "1", "1", "1"]);
     for (let i = 0; i < 3; ++i) await other.tab.keyboard.press("K");
     expect(problems.concat(other.problems)).toEqual([]);
@@ -156,7 +156,7 @@ describe.skipIf(!canServe)("slices", () => {
     await other.tab.close();
   });
 
-  it("leave a volume that is cut where one says: by a slider, a key, and the handle", async () => {
+  it("allow clipping by slider, key and handle", async () => {
     const { tab, problems } = await served.open();
     await tab.locator(".objects h1").click();
     await tab.waitForTimeout(500);
@@ -164,14 +164,14 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.keyboard.press("c");
     const cut = (): number[] => (hashOf(tab).get("cut") ?? "").split(",").map(Number);
     await expect.poll(() => cut().length).toBe(4);
-    await tab.getByRole("button", { name: "cut along x" }).click();
+    await tab.getByRole("button", { name: "clip along x" }).click();
     await expect.poll(cut).toEqual([1, 0, 0, 0.5]);
     await tab.keyboard.press(">");
     await expect.poll(cut).toEqual([1, 0, 0, 0.48]);
     await tab.keyboard.press("Control+z");
     await expect.poll(cut).toEqual([1, 0, 0, 0.5]);
     await tab.keyboard.press("f");
-    const box = (await tab.locator(".stage > canvas").boundingBox())!;
+    const box = (await tab.locator(".viewport > canvas").boundingBox())!;
     const middle = [box.x + box.width / 2, box.y + box.height / 2] as const;
     await tab.waitForTimeout(300);
     await tab.mouse.move(...middle);
@@ -181,18 +181,18 @@ describe.skipIf(!canServe)("slices", () => {
     await expect.poll(() => Math.abs((cut()[3] ?? 0.5) - 0.5)).toBeGreaterThan(0.02);
     await tab.waitForTimeout(800);
     const share = cut()[3]!;
-    await tab.getByRole("button", { name: "keep the other half" }).click();
+    await tab.getByRole("button", { name: "flip the clipping plane" }).click();
     await expect.poll(cut).toEqual([-1, 0, 0, expect.closeTo(1 - share, 5)]);
-    await tab.getByRole("button", { name: "close the cut" }).click();
+    await tab.getByRole("button", { name: "remove the clipping plane" }).click();
     await expect.poll(() => hashOf(tab).has("cut")).toBe(false);
     expect(problems).toEqual([]);
     await tab.close();
   });
 
-  it("are looked at from a face of the cube, and turn by themselves until something is touched", async () => {
+  it("allow views by the orientation cube, and slow rotation until any input", async () => {
     const { tab, problems } = await served.open();
     await tab.waitForTimeout(500);
-    await tab.getByRole("button", { name: "look from the far end of z" }).click();
+    await tab.getByRole("button", { name: "view from the far end of z" }).click();
     const view = (): number[] => (hashOf(tab).get("view") ?? "").split(",").map(Number);
     await expect.poll(() => Math.abs(view()[0]! - view()[3]!) + Math.abs(view()[1]! - view()[4]!)).toBeLessThan(1);
     const before = view();
@@ -206,18 +206,18 @@ describe.skipIf(!canServe)("slices", () => {
     const calm = await served.open("", { reducedMotion: "reduce" });
     await calm.tab.waitForTimeout(800);
     await calm.tab.keyboard.press("T");
-    await expect.poll(() => calm.tab.locator(".said").textContent()).toContain("less motion");
+    await expect.poll(() => calm.tab.locator(".message").textContent()).toContain("less motion");
     expect(problems).toEqual([]);
     await tab.close();
     await calm.tab.close();
   });
 
-  it("take no more memory of the graphics after many steps", async () => {
+  it("need no more GPU memory after many steps", async () => {
     const { tab, problems } = await served.open(
       "#scene=0,120,1,1;1,130,0.5,1&selected=0&slices=1&planes=1&cut=1,0,0,0.5&edges=1&measure=0,0,0,9,9,9",
     );
     const held = (): Promise<string | undefined> =>
-      tab.evaluate(() => document.querySelector<HTMLCanvasElement>(".stage > canvas")?.dataset.held);
+      tab.evaluate(() => document.querySelector<HTMLCanvasElement>(".viewport > canvas")?.dataset.gpuMemory);
     const steps = async (count: number): Promise<void> => {
       for (let i = 0; i < count; ++i) await tab.keyboard.press(["]", "6", "K", "[", "8", "<", "K", "0", "ArrowLeft", ">"][i % 10]!);
       await expect.poll(() => tab.locator(".at-crosshair .value").textContent()).toMatch(/\d/); // the slices are there

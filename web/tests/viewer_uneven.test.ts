@@ -1,10 +1,10 @@
-// A volume whose samples have uneven steps: slices and measures are where its coordinates say.
+// A volume with uneven steps between samples: slices and measures follow its coordinates.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Api } from "../src/viewer/ask/api";
-import { SlicedMesh } from "../src/viewer/draw/plane_cut";
+import { Api } from "../src/viewer/api/api";
+import { SlicedMesh } from "../src/viewer/scene/plane_cut";
 import { AXES, Grid } from "../src/viewer/state/grid";
 import { canServe, Served } from "./viewer_harness";
 
@@ -13,7 +13,7 @@ const MIDDLE = SIDE / 2;
 const RADIUS = 10;
 const SAMPLES = 40;
 
-/** A VTK file of a ball: a value is 100 minus five times the distance from the middle, so that it is as large as RADIUS at 50. */
+/** A VTK file of a ball: values are 100 minus five times the distance from the middle; its radius is RADIUS at 50. */
 function ball(): string {
   const [x, y, z] = [1.5, 1, 0.7].map((power) => Array.from({ length: SAMPLES }, (_, i) => SIDE * (i / (SAMPLES - 1)) ** power)) as [
     number[],
@@ -30,7 +30,7 @@ function ball(): string {
   return `<VTKFile type="RectilinearGrid">${grid}</VTKFile>`;
 }
 
-describe.skipIf(!canServe)("a volume of uneven steps", () => {
+describe.skipIf(!canServe)("a volume with uneven steps", () => {
   const folder = mkdtempSync(join(tmpdir(), "isoatlas-uneven-"));
   let served: Served;
   let api: Api;
@@ -44,10 +44,10 @@ describe.skipIf(!canServe)("a volume of uneven steps", () => {
     rmSync(folder, { recursive: true });
   });
 
-  it("has its samples where the server says", async () => {
+  it("has its samples at the positions of the server", async () => {
     const grid = new Grid(await api.page());
     for (const voxel of [[0, 0, 0], [39, 39, 39], [1, 20, 7], [30, 2, 38]] as const) {
-      const { position } = (await (await api.ask(`/api/at?voxel=${voxel.join()}`, "at")).json()) as { position: number[] };
+      const { position } = (await (await api.request(`/api/at?voxel=${voxel.join()}`, "at")).json()) as { position: number[] };
       expect(grid.place(voxel)).toEqual(position.map((n) => expect.closeTo(n, 4)));
     }
   });
@@ -68,7 +68,7 @@ describe.skipIf(!canServe)("a volume of uneven steps", () => {
     }
   });
 
-  it("is looked at and measured like any other, and says what cannot be drawn", async () => {
+  it("can be sliced and measured, and explains that volume rendering is not available", async () => {
     const { tab, problems } = await served.open("#scene=0,50,1,1&selected=0&slices=1&planes=1&measure=5,15,15,25,15,15");
     const [area, size] = [4 * Math.PI * RADIUS ** 2, (4 / 3) * Math.PI * RADIUS ** 3];
     const facts = (): Promise<string[]> => tab.locator(".object .here dd").allTextContents();
@@ -93,7 +93,7 @@ describe.skipIf(!canServe)("a volume of uneven steps", () => {
 
     await tab.locator("h1").click();
     await tab.keyboard.press("v");
-    await expect.poll(() => tab.locator(".said").textContent()).toContain("uneven");
+    await expect.poll(() => tab.locator(".message").textContent()).toContain("uneven");
     expect(problems).toEqual([]);
     await tab.close();
   });

@@ -1,9 +1,9 @@
-// A page that is there before its store: it shows how far the build is, why it failed, and that the viewer has ended.
+// The page before its store is built: progress, errors, and loss of the connection.
 import { describe, expect, it } from "vitest";
 import { canServe, Served } from "./viewer_harness";
 
-describe.skipIf(!canServe)("the viewer before its store", () => {
-  it("shows how far the build is, then the atlas, without a reload", async () => {
+describe.skipIf(!canServe)("the viewer before its store is built", () => {
+  it("shows the progress of the build, then the atlas, without a reload", async () => {
     const slow = ["--threads", "1", "--memory", "90M"]; // enough to be seen
     const served = await Served.building(["noise", "--size", "144", "--quantise", "8"], slow);
     const tab = await served.browser.newPage();
@@ -23,7 +23,7 @@ describe.skipIf(!canServe)("the viewer before its store", () => {
     await served.close();
   });
 
-  it("says why a build has failed, and what to do", async () => {
+  it("shows why a build has failed, and what to do", async () => {
     const served = await Served.building(["demo"], ["--gaussian", "1e9"]);
     const tab = await served.browser.newPage();
     await tab.goto(await served.address());
@@ -33,11 +33,11 @@ describe.skipIf(!canServe)("the viewer before its store", () => {
     await served.close();
   });
 
-  it("says that it has ended, and keeps what it shows", async () => {
+  it("shows that the connection is lost, and keeps its content", async () => {
     const served = await Served.phantom("demo");
     const { tab } = await served.open();
     served.end();
-    await tab.getByText("The viewer has ended").waitFor();
+    await tab.getByText("isoatlas view has ended").waitFor();
     expect(await tab.locator(".objects li").count()).toBeGreaterThan(0);
     await served.close();
   });

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { detailsOf, messages, progressOf, waitingFor, type Build, type Question, type ServerState } from "../src/viewer/ask/server_state";
+import { detailsOf, messages, pendingText, progressOf } from "../src/viewer/api/server_state";
+import type { Build, PendingRequest, ServerState } from "../src/viewer/api/server_state";
 
 function streamOf(...pieces: string[]): ReadableStream<Uint8Array> {
   return new ReadableStream({
@@ -27,7 +28,7 @@ const building: Build = {
 };
 
 describe("messages of the server", () => {
-  it("are whole, however they come", async () => {
+  it("are parsed, however they are split", async () => {
     const text = 'event: state\ndata: {"state":"open","questions":[]}\n\n:\n\nevent: state\ndata: {"state":"building","questions":[]}\n\n';
     const wanted = ["open", "building"];
     expect((await heard(text)).map(({ state }) => state)).toEqual(wanted);
@@ -36,32 +37,32 @@ describe("messages of the server", () => {
   });
 });
 
-describe("a build in words", () => {
-  it("tells how far it is, never more than it is", () => {
+describe("the progress of a build", () => {
+  it("is rounded down", () => {
     expect(progressOf(building)).toBe("building 43 %");
     expect(progressOf({ ...building, phase: "" })).toBe("building");
-    expect(detailsOf(building)).toBe("growing the trees, 12 s left, 1.2 GB of memory");
+    expect(detailsOf(building)).toBe("Building merge trees, 12 s left, 1.2 GB of memory");
     expect(detailsOf({ ...building, phase: "pack", seconds_left: 600, voxels_per_second: 25e6, peak_memory: 0 })).toBe(
-      "writing the store, 10 min left, 25 million voxels a second",
+      "Writing the store, 10 min left, 25 million voxels per second",
     );
     expect(detailsOf({ ...building, phase: "new", seconds_left: null, peak_memory: 0 })).toBe("new");
   });
 });
 
-describe("what one waits for", () => {
-  it("is what is being made, or the first place in the queue", () => {
-    const at = (place: number, fraction = 0, line: Question["line"] = "surfaces"): Question => ({
+describe("pending requests", () => {
+  it("are described: what is processed, or the first position in the queue", () => {
+    const at = (place: number, fraction = 0, line: PendingRequest["line"] = "surfaces"): PendingRequest => ({
       client: "me/surface",
       line,
       place,
       fraction,
     });
-    expect(waitingFor([])).toBe("");
-    expect(waitingFor([at(0, 0.5)])).toBe("making a surface: 50 %");
-    expect(waitingFor([at(0, 0.5), at(0, 0.25), at(1)])).toBe("making 2 surfaces: 25 %");
-    expect(waitingFor([at(7), at(3)])).toBe("waiting for a turn: 3 in the queue");
-    expect(waitingFor([at(0, 0, "atlas")])).toBe("finding what stands out");
-    expect(waitingFor([at(0, 0, "samples"), at(0, 0.5)])).toBe("making a surface: 50 %");
-    expect(waitingFor([at(0, 0, "cards"), at(3, 0, "cards")])).toBe("");
+    expect(pendingText([])).toBe("");
+    expect(pendingText([at(0, 0.5)])).toBe("Extracting a surface: 50 %");
+    expect(pendingText([at(0, 0.5), at(0, 0.25), at(1)])).toBe("Extracting 2 surfaces: 25 %");
+    expect(pendingText([at(7), at(3)])).toBe("Queued: position 3");
+    expect(pendingText([at(0, 0, "atlas")])).toBe("Ranking objects");
+    expect(pendingText([at(0, 0, "samples"), at(0, 0.5)])).toBe("Extracting a surface: 50 %");
+    expect(pendingText([at(0, 0, "cards"), at(3, 0, "cards")])).toBe("");
   });
 });

@@ -1,21 +1,21 @@
-// All actions by group, to be found without knowing a key; and all keys, on '?'.
-import { html } from "../dom";
-import type { Action, Actions, Group } from "./desk/actions";
+// Menus of all actions by group, and the list of keys ('?').
+import { html } from "../shared/dom";
+import type { Action, Actions, Group } from "./context/actions";
 
-const GROUPS: Group[] = ["Objects", "Isovalue", "Scene", "Look", "Tools", "Save", "Help"];
+const GROUPS: Group[] = ["Objects", "Isovalue", "Scene", "View", "Tools", "Export", "Help"];
 const SIGNS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
-/** what is done without an action */
+/** interactions that are not actions */
 const GESTURES: [string, string][] = [
-  ["click", "a card, a line or a dot: show this object alone; in the picture: select"],
-  ["shift and click", "a card, a line or a dot: add this object, or take it out"],
-  ["Enter", "in the box: use this isovalue"],
+  ["click", "on a card, line or dot: isolate the object; in 3D: select it"],
+  ["shift and click", "on a card, line or dot: add or remove the object"],
+  ["Enter", "in the text field: apply the isovalue"],
 ];
 
 function signsOf({ keys }: Action): string {
   return (keys ?? []).map((key) => SIGNS[key] ?? key.replaceAll("+", " ")).join(", ");
 }
 
-/** A menu for every group that has actions; made anew when it is opened, so that it says what is on. */
+/** A menu for every group that has actions; rebuilt when opened, to show the current state of toggles. */
 export function menus(actions: Actions): HTMLElement {
   const bar = html("div", { class: "menus", role: "toolbar", "aria-label": "menus" });
   const close = (): void => bar.querySelectorAll("details[open]").forEach((menu) => menu.removeAttribute("open"));
@@ -39,7 +39,7 @@ export function menus(actions: Actions): HTMLElement {
   return bar;
 }
 
-/** Up and down in an open menu, round and round. */
+/** Moves the focus in an open menu, cyclically. */
 function walk(event: KeyboardEvent, open: HTMLElement | null): void {
   if (!open) return;
   const buttons = [...open.querySelectorAll("button")];
@@ -47,7 +47,7 @@ function walk(event: KeyboardEvent, open: HTMLElement | null): void {
   const to = event.key === "ArrowDown" ? at + 1 : at < 0 ? -1 : at - 1;
   buttons.at(to % buttons.length)?.focus();
   event.preventDefault();
-  event.stopPropagation(); // else the picture turns
+  event.stopPropagation(); // otherwise the camera turns
 }
 
 function buttonOf(action: Action, done: () => void): HTMLElement {
@@ -62,19 +62,19 @@ function buttonOf(action: Action, done: () => void): HTMLElement {
 
 export function help(actions: Actions): HTMLDialogElement {
   const lists = html("div", { class: "groups" });
-  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keys"), lists);
+  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keyboard shortcuts"), lists);
   dialog.append(html("button", { type: "button", click: () => dialog.close() }, "Close"));
   const show = (): void => {
     const keyed = (group: Group): [string, string][] =>
       actions.all.filter((action) => action.group === group && action.keys).map((action) => [signsOf(action), action.name]);
     const groups: [string, [string, string][]][] = [
       ...GROUPS.map((group): [string, [string, string][]] => [group, keyed(group)]),
-      ["Without a menu", GESTURES],
+      ["Mouse and text fields", GESTURES],
     ];
     lists.replaceChildren(...groups.filter(([, keys]) => keys.length > 0).map(([title, keys]) => keyList(title, keys)));
     dialog.showModal();
   };
-  actions.add({ group: "Help", name: "all keys", keys: ["?"], run: show });
+  actions.add({ group: "Help", name: "Keyboard shortcuts", keys: ["?"], run: show });
   return dialog;
 }
 

@@ -1,10 +1,10 @@
-// Four steps for the first time. It takes nothing away: the page works behind it, Escape closes it, and it comes again from the menu.
-import { html } from "../dom";
-import type { Desk } from "./desk/desk";
-import { recall, remember } from "./state/remembered";
+// Introduction in four steps, shown once. It does not block the page; Escape closes it, and the menu opens it again.
+import { html } from "../shared/dom";
+import type { ViewerContext } from "./context/viewer_context";
+import { recall, remember } from "./state/local_storage";
 
 interface Step {
-  /** what it is about */
+  /** element it describes */
   selector: string;
   title: string;
   text: string;
@@ -15,29 +15,29 @@ const STEPS: Step[] = [
     selector: ".side",
     title: "Objects, not thresholds",
     text:
-      "These objects stand out of the volume, the most important first, each at the isovalue that shows it best." +
-      " Click one to see it alone; with shift it is added.",
+      "The significant objects of the volume, the most important first, each at its best isovalue." +
+      " Click one to isolate it; shift-click adds it.",
   },
   {
     selector: ".axis",
     title: "Each object has its own isovalue",
     text:
-      "Drag along the histogram and the selected object grows or shrinks, the others stay." +
-      " Ticks are where objects begin or join: { and } go there, [ and ] go in steps.",
+      "Drag along the histogram to change the isovalue of the selected object; the others stay." +
+      " Ticks mark where objects appear or merge: { and } go to the next one, [ and ] change it in steps.",
   },
   {
     selector: ".inspector",
-    title: "What is shown, and what it is",
+    title: "Scene and selected object",
     text:
       "Hide an object, give it another colour, make it transparent, or make the others ghosts." +
-      " Below: what it contains and what it joins, as links.",
+      " Below: what it contains and what it merges into, as links.",
   },
   {
     selector: ".menus",
-    title: "Take it away",
+    title: "Export",
     text:
-      "Save has surfaces, labels, pictures, animations, tables, and the command line that draws this." +
-      " The address holds the whole view: copy it. Press ? for all keys.",
+      "Export surfaces, labels, images, animations, tables, and the command line that draws this view." +
+      " The address contains the whole view: copy it. Press ? for all keys.",
   },
 ];
 
@@ -49,18 +49,19 @@ export class Tour {
   private readonly next = html("button", { type: "button", class: "next", click: () => this.go(this.at + 1) });
   private at = 0;
 
-  constructor({ actions }: Desk) {
-    const close = html("button", { type: "button", class: "plain", "aria-label": "Close the tour", click: () => this.close() }, "×");
+  constructor({ actions }: ViewerContext) {
+    const label = "Close the introduction";
+    const close = html("button", { type: "button", class: "plain", "aria-label": label, click: () => this.close() }, "×");
     this.element.append(html("header", {}, this.title, close), this.text, html("div", { class: "line" }, this.back, this.next));
     document.addEventListener("keydown", (event) => event.key === "Escape" && this.close());
     const again = (): void => {
       this.go(0);
       this.title.focus();
     };
-    actions.add({ group: "Help", name: "tour of four steps", run: again });
+    actions.add({ group: "Help", name: "Introduction", run: again });
   }
 
-  /** Once in a browser. */
+  /** Once per browser. */
   begin(): void {
     if (recall("tour") === null) this.go(0);
   }

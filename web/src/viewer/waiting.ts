@@ -1,35 +1,35 @@
-// While there is nothing to show, or not yet: how far a build is, why it failed, what a question waits for, and that the server has gone.
-import { html } from "../dom";
-import type { Page } from "../page";
-import { type Api, Refusal } from "./ask/api";
-import { detailsOf, progressOf, waitingFor, type ServerState } from "./ask/server_state";
+// Progress of the build, errors, pending requests, and loss of the connection.
+import { html } from "../shared/dom";
+import type { Page } from "../shared/page";
+import { type Api, ServerError } from "./api/api";
+import { detailsOf, progressOf, pendingText, type ServerState } from "./api/server_state";
 
-const AGAIN = 2000;
-/** an answer that comes sooner needs no words */
-const SOON = 400;
+const RETRY_DELAY = 2000;
+/** no indicator for faster responses, in milliseconds */
+const BUSY_DELAY = 400;
 
-function lossOf(error: unknown): string {
-  if (!(error instanceof Refusal)) {
-    const again = "Start isoatlas view again and open its address; the part behind # shows the same there.";
-    return `The viewer has ended: nothing new can be shown. ${again}`;
+function connectionErrorText(error: unknown): string {
+  if (!(error instanceof ServerError)) {
+    const again = "Start it again and open its address; append the part behind # to restore this view.";
+    return `Connection lost: isoatlas view has ended. ${again}`;
   }
   if (error.status !== 403) return error.message;
-  const again = "Open a new address: isoatlas view prints one when it starts, and at Enter.";
-  return `The token of this page is wrong: it belongs to a viewer that has ended. ${again}`;
+  const again = "Open a new address: isoatlas view prints one when it starts, and when you press Enter.";
+  return `The token of this page is invalid: it belongs to an isoatlas view that has ended. ${again}`;
 }
 
-class Waiting {
+class LoadingCard {
   private readonly title = html("h1", {}, "Opening the volume");
-  private readonly bar = html("progress", { max: 1, "aria-label": "how much of the store is built" });
+  private readonly bar = html("progress", { max: 1, "aria-label": "progress of the build" });
   private readonly details = html("p", { role: "status" });
   private readonly card = html("div", { class: "waiting" }, this.title, this.bar, this.details);
   private readonly note = html("p", { class: "alert", role: "alert", hidden: true });
   private readonly busy = html("p", { class: "busy", hidden: true });
-  private soon = 0;
+  private busyTimer = 0;
 
   constructor(
     main: HTMLElement,
-    private readonly opened: () => void,
+    private readonly onOpen: () => void,
   ) {
     document.body.append(this.note, this.busy);
     main.append(this.card);
@@ -37,12 +37,12 @@ class Waiting {
 
   show({ state, build, error, questions }: ServerState): void {
     this.note.hidden = true;
-    this.wait(waitingFor(questions));
+    this.wait(pendingText(questions));
     if (state === "open") {
       this.title.textContent = "Opening the volume";
       this.bar.removeAttribute("value");
       this.details.textContent = "";
-      this.opened();
+      this.onOpen();
     } else if (build) {
       this.title.textContent = progressOf(build);
       if (build.phase === "") this.bar.removeAttribute("value");
@@ -50,7 +50,7 @@ class Waiting {
       this.bar.hidden = false;
       this.details.textContent = detailsOf(build);
     } else if (error) {
-      this.title.textContent = "The store could not be built";
+      this.title.textContent = "Building the store failed";
       this.bar.hidden = true;
       this.details.setAttribute("role", "alert");
       this.details.replaceChildren(error.message);
@@ -62,42 +62,42 @@ class Waiting {
     this.card.remove();
   }
 
-  /** The server does not answer, or refuses to. */
-  lose(error: unknown): void {
+  /** The connection failed, or the server rejected it. */
+  disconnected(error: unknown): void {
     this.wait("");
-    if (error instanceof Refusal) this.end();
+    if (error instanceof ServerError) this.end();
     this.note.hidden = false;
-    this.note.textContent = lossOf(error);
+    this.note.textContent = connectionErrorText(error);
   }
 
   private wait(text: string): void {
     this.busy.textContent = text;
     if (text === "") {
-      clearTimeout(this.soon);
-      this.soon = 0;
+      clearTimeout(this.busyTimer);
+      this.busyTimer = 0;
       this.busy.hidden = true;
-    } else if (this.soon === 0) {
-      this.soon = window.setTimeout(() => (this.busy.hidden = false), SOON);
+    } else if (this.busyTimer === 0) {
+      this.busyTimer = window.setTimeout(() => (this.busy.hidden = false), BUSY_DELAY);
     }
   }
 }
 
 /**
- * What there is to show, as soon as there is a store; shows until then how far it is. Listens on, so that the server knows that somebody is
- * here.
+ * The page, as soon as the store is open; shows the progress of the build until then. Keeps the event stream open, so
+ * that the server knows of this client.
  */
-export async function pageWhenThere(api: Api, main: HTMLElement): Promise<Page> {
-  let waiting: Waiting | undefined;
+export async function waitForPage(api: Api, main: HTMLElement): Promise<Page> {
+  let waiting: LoadingCard | undefined;
   await new Promise<void>((resolve) => {
-    const own = (waiting = new Waiting(main, resolve));
+    const own = (waiting = new LoadingCard(main, resolve));
     const listen = async (): Promise<void> => {
       try {
         for await (const state of api.events()) own.show(state);
-        own.lose(null);
+        own.disconnected(null);
       } catch (error) {
-        own.lose(error);
+        own.disconnected(error);
       }
-      setTimeout(() => void listen(), AGAIN);
+      setTimeout(() => void listen(), RETRY_DELAY);
     };
     void listen();
   });

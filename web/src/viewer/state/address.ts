@@ -1,4 +1,4 @@
-// A state as the part of an address behind '#', and back. What is as at first is not written.
+// State to and from the fragment of an address. Initial values are omitted.
 import { partNamed } from "./part";
 import type { Shown, State } from "./state";
 
@@ -16,7 +16,7 @@ function wordsOf({ entry, tau, opacity, visible, colour, walls }: Shown): string
   return words.join(",");
 }
 
-/** entries: how many there are. null: that is none of ours. */
+/** entries: number of valid entries. null: not a scene. */
 export function fromHash(hash: string, entries: number): State | null {
   const words = new URLSearchParams(hash.replace(/^#/, ""));
   const scene = words.get("scene");
@@ -33,7 +33,7 @@ export function fromHash(hash: string, entries: number): State | null {
     shown,
     selected: Number.isInteger(selected) && selected >= -1 && selected < shown.length ? selected : shown.length - 1,
     view: view.length === 6 && view.every(Number.isFinite) ? view : null,
-    parts: Object.fromEntries([...words].filter(([key, text]) => partNamed(key)?.takes(text))),
+    parts: Object.fromEntries([...words].flatMap(([key, text]) => (partNamed(key)?.accepts(text) ? [[partNamed(key)?.key, text]] : []))),
   };
 }
 

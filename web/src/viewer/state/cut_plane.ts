@@ -1,18 +1,18 @@
-// Where a volume is cut open: which direction goes first, and how much stays.
+// The clipping plane: its normal and the fraction of the volume that stays.
 import { cross, dot, type Triple } from "./grid";
 import { numbers } from "./part";
 
-/** A unit vector that points from what is cut away to what stays, and which share of the volume's extent along it stays. */
+/** A unit vector from the removed side to the side that stays, and the fraction of the volume's extent along it that stays. */
 export const CUT = numbers(
   "cut",
-  "the cut",
+  "clipping plane",
   4,
   ([x, y, z, share]) => Math.abs(Math.hypot(x!, y!, z!) - 1) < 1e-3 && share! >= 0 && share! <= 1,
 );
 
 export interface Plane {
   normal: Triple;
-  /** what stays: normal . place + constant >= 0 */
+  /** kept half-space: normal . place + constant >= 0 */
   constant: number;
 }
 
@@ -28,18 +28,18 @@ export function planeOf([x, y, z, share]: readonly number[], corners: readonly T
   return { normal, constant: share! * (high - low) - high };
 }
 
-/** The same cut after its plane has moved by a physical distance towards what stays. */
+/** The cut after moving its plane by a physical distance along the normal. */
 export function moved([x, y, z, share]: readonly number[], by: number, corners: readonly Triple[]): number[] {
   const [low, high] = extentAlong([x!, y!, z!], corners);
   return [x!, y!, z!, Math.min(Math.max(share! - by / (high - low || 1), 0), 1)];
 }
 
-/** The other half, where the plane is. */
+/** The opposite half-space of the same plane. */
 export function turned([x, y, z, share]: readonly number[]): number[] {
   return [-x! + 0, -y! + 0, -z! + 0, 1 - share!];
 }
 
-/** The plane in the box of the volume, corner after corner around it; empty: they do not meet. corners: bit a: the far end of axis a. */
+/** Polygon of the plane in the box of the volume, in order; empty: no intersection. corners: bit a: the far end of axis a. */
 export function outlineOf({ normal, constant }: Plane, corners: readonly Triple[]): Triple[] {
   const height = (i: number): number => dot(normal, corners[i]!) + constant;
   const points: Triple[] = [];

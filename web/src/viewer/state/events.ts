@@ -1,14 +1,14 @@
-// Where the objects that matter begin, and where they end in another one: what happens at an isovalue, in words.
-import { value } from "../../format";
-import { branchName, entriesOf } from "../../names";
-import { branchOf, type Page } from "../../page";
+// Events of the significant objects: appearances and merges, with their text.
+import { value } from "../../shared/format";
+import { branchName, entriesOf } from "../../shared/names";
+import { branchOf, type Page } from "../../shared/page";
 
 export interface Event {
   tau: number;
   text: string;
 }
 
-/** From the lowest on; all that happens at one isovalue is one event. */
+/** Ascending; several events at one isovalue are joined. */
 export function eventsOf(page: Page): Event[] {
   const texts = new Map<number, string[]>();
   const happens = (tau: number, text: string): void => void texts.set(tau, [...(texts.get(tau) ?? []), `${text} at ${value(tau)}`]);
@@ -23,13 +23,13 @@ export function eventsOf(page: Page): Event[] {
 function endOf(page: Page, b: number): string {
   const { parent, side } = branchOf(page, b);
   const into = parent >= 0 && entriesOf(page, parent).length > 0 ? branchName(page, parent).toLowerCase() : "";
-  if (into) return `joins ${into}`;
-  return side === "dark" ? "opens to the outside or joins another dark object" : "joins a larger object";
+  if (into) return `merges into ${into}`;
+  return side === "cavity" ? "opens to the outside or merges into another cavity" : "merges into a larger object";
 }
 
-/** The event at an isovalue that is nearest to it in a drawing; null: none within `reach` of it. */
-export function eventNear(events: readonly Event[], x: (tau: number) => number, at: number, reach: number): Event | null {
+/** The event nearest to an isovalue in a drawing; null: none within `reach`. */
+export function eventNear(events: readonly Event[], x: (tau: number) => number, at: number, maxDistance: number): Event | null {
   const away = (event: Event): number => Math.abs(x(event.tau) - at);
   const [nearest] = [...events].sort((p, q) => away(p) - away(q));
-  return nearest && away(nearest) <= reach ? nearest : null;
+  return nearest && away(nearest) <= maxDistance ? nearest : null;
 }

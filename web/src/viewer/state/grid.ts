@@ -1,5 +1,5 @@
-// Where samples lie in space: a sample's place is origin + direction x its lengths along the axes (ruler.ts).
-import type { Page } from "../../page";
+// Maps samples to space: position = origin + direction x lengths along the axes (ruler.ts).
+import type { Page } from "../../shared/page";
 import { Ruler } from "./ruler";
 
 export type Triple = [number, number, number];
@@ -10,7 +10,7 @@ export type Affine = [number[], number[], number[]];
 export const AXES: readonly AxisNumber[] = [0, 1, 2];
 export const AXIS_NAMES = ["x", "y", "z"] as const;
 
-/** The two other axes, the lower one first: columns and rows of a slice. */
+/** The two other axes, ascending: columns and rows of a slice. */
 export function acrossAndDown(axis: AxisNumber): [AxisNumber, AxisNumber] {
   return axis === 0 ? [1, 2] : axis === 1 ? [0, 2] : [0, 1];
 }
@@ -33,7 +33,7 @@ export class Grid {
   /** per axis: a unit vector along it */
   readonly directions: [Triple, Triple, Triple];
   readonly rulers: [Ruler, Ruler, Ruler];
-  /** per axis: how long a place lies along it, from the origin */
+  /** per axis: maps a position relative to the origin to its length along the axis */
   private readonly inverse: [Triple, Triple, Triple];
 
   constructor({ volume }: Page) {
@@ -48,7 +48,7 @@ export class Grid {
     this.inverse = [over(cross(b, c)), over(cross(c, a)), over(cross(a, b))];
   }
 
-  /** Of a sample, physical; numbers between samples are places between them. */
+  /** Physical position of a sample; fractional indices are interpolated. */
   place(sample: readonly number[]): Triple {
     const lengths = this.rulers.map((ruler, axis) => ruler.length(sample[axis] ?? 0));
     return AXES.map((row) => this.origin[row] + this.directions.reduce((sum, unit, axis) => sum + unit[row] * lengths[axis]!, 0)) as Triple;
@@ -59,7 +59,7 @@ export class Grid {
     return this.rulers.map((ruler, axis) => ruler.sample(dot(this.inverse[axis]!, from))) as Triple;
   }
 
-  /** The nearest sample inside of the volume. */
+  /** The nearest sample of the volume. */
   nearest(place: readonly number[]): Triple {
     return this.inside(this.sample(place));
   }
@@ -68,13 +68,13 @@ export class Grid {
     return AXES.map((axis) => Math.min(Math.max(Math.round(sample[axis] ?? 0), 0), this.size[axis] - 1)) as Triple;
   }
 
-  /** From steps of a mesh (origin + step x numbers) to lengths along the axes. */
+  /** Maps steps of a mesh (origin + step x numbers) to lengths along the axes. */
   fromSteps(origin: readonly number[], step: number): Affine {
     const from = AXES.map((row) => (origin[row] ?? 0) - this.origin[row]);
     return this.inverse.map((row) => [...row.map((n) => n * step), dot(row, from)]) as Affine;
   }
 
-  /** Of the box of samples, physical; bit a of a corner's number: the far end of axis a. */
+  /** Corners of the box of samples, physical; bit a of the index: the far end of axis a. */
   corners(): Triple[] {
     return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => this.place(AXES.map((axis) => (corner & (1 << axis) ? this.size[axis] - 1 : 0))));
   }

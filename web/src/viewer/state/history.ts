@@ -1,4 +1,4 @@
-// All states so far, and where among them one is. What lies between two states has a name.
+// Undo history: a list of states, the current one, and a name for each change.
 import { partNamed } from "./part";
 import { NOTHING, type Shown, type State } from "./state";
 
@@ -18,7 +18,7 @@ export class History {
     return this.states[this.at] ?? NOTHING;
   }
 
-  /** What undo and redo would take back and do again; empty: there is nothing. */
+  /** Names of the changes that undo and redo revert and repeat; empty: none. */
   get undoes(): string {
     return this.at > 0 ? nameOfChange(this.states[this.at - 1] as State, this.now) : "";
   }
@@ -26,7 +26,7 @@ export class History {
     return this.at + 1 < this.states.length ? nameOfChange(this.now, this.states[this.at + 1] as State) : "";
   }
 
-  /** transient: as while something is dragged; all of one drag, with the state in which it ends, is one step. */
+  /** transient: during a drag; all changes of one drag and its final state are one step. */
   go(state: State, transient = false): void {
     const before = this.now;
     const name = nameOfChange(before, state);
@@ -35,21 +35,21 @@ export class History {
     else this.states = [...this.states.slice(0, this.at + 1), state];
     this.at = this.states.length - 1;
     this.dragging = transient ? name || this.dragging : "";
-    this.tell(before, transient);
+    this.notify(before, transient);
   }
 
-  /** Makes the present state more exact; that is no step of its own. */
+  /** Replaces the current state without a new step. */
   amend(state: State): void {
     const before = this.now;
     this.states[this.at] = state;
-    this.tell(before, false);
+    this.notify(before, false);
   }
 
-  /** Changes what is never undone: it is the same in all states. */
-  everywhere(change: (state: State) => State): void {
+  /** Applies a change to all states: it cannot be undone. */
+  changeAll(change: (state: State) => State): void {
     const before = this.now;
     this.states = this.states.map(change);
-    this.tell(before, false);
+    this.notify(before, false);
   }
 
   undo(): boolean {
@@ -70,11 +70,11 @@ export class History {
     const before = this.now;
     this.at = to;
     this.dragging = "";
-    this.tell(before, false);
+    this.notify(before, false);
     return true;
   }
 
-  private tell(before: State, dragging: boolean): void {
+  private notify(before: State, dragging: boolean): void {
     for (const listener of this.listeners) listener(this.now, before, dragging);
   }
 }
@@ -87,7 +87,7 @@ const WORDS: Partial<Record<keyof Shown, string>> = {
   walls: "cavities only",
 };
 
-/** Empty: nothing a reader could tell. */
+/** Empty: no visible change. */
 export function nameOfChange(before: State, after: State): string {
   if (before.shown.length !== after.shown.length || before.shown.some((shown, i) => shown.entry !== after.shown[i]?.entry))
     return listChange(before, after);
@@ -104,6 +104,6 @@ export function nameOfChange(before: State, after: State): string {
 function listChange(before: State, after: State): string {
   const added = after.shown.filter(({ entry }) => !before.shown.some((shown) => shown.entry === entry)).length;
   const removed = before.shown.filter(({ entry }) => !after.shown.some((shown) => shown.entry === entry)).length;
-  if (added > 0) return removed > 0 ? "change of the scene" : "add to the scene";
-  return removed === 1 ? "remove from the scene" : "isolate";
+  if (added > 0) return removed > 0 ? "change scene" : "add to scene";
+  return removed === 1 ? "remove from scene" : "isolate";
 }

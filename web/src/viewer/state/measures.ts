@@ -1,11 +1,11 @@
-// Lengths and angles between places in space, as they are kept in a state.
+// Distances and angles between positions, as parts of a state.
 import { distance, dot, type Triple } from "./grid";
 import { numbersIn, Part, textOf } from "./part";
 
-/** two places: how far they are from each other; three: the angle at the second one */
+/** two positions: their distance; three: the angle at the second one */
 export type Measure = Triple[];
 
-const MOST = 100;
+const MAX = 100;
 
 function read(text: string): Measure[] | null {
   if (text === "") return [];
@@ -15,12 +15,12 @@ function read(text: string): Measure[] | null {
     if (list?.length !== 6 && list?.length !== 9) return null;
     measures.push(Array.from({ length: list.length / 3 }, (_, i) => list.slice(3 * i, 3 * i + 3) as Triple));
   }
-  return measures.length <= MOST ? measures : null;
+  return measures.length <= MAX ? measures : null;
 }
 
 export const MEASURES = new Part<Measure[]>(
   "measure",
-  "measures",
+  "measurements",
   [],
   (measures) => measures.map((places) => textOf(places.flat())).join(";"),
   read,
@@ -30,7 +30,7 @@ export function lengthOf(measure: Measure): number {
   return distance(measure[0] as Triple, measure[1] as Triple);
 }
 
-/** Degrees, 0 to 180; 0 where two places are the same. */
+/** Degrees, 0 to 180; 0 where two positions coincide. */
 export function angleOf([a, b, c]: Measure): number {
   const arm = (place: Triple): Triple => place.map((n, axis) => n - b![axis]!) as Triple;
   const [p, q] = [arm(a!), arm(c!)];
@@ -38,7 +38,7 @@ export function angleOf([a, b, c]: Measure): number {
   return lengths === 0 ? 0 : (Math.acos(Math.min(Math.max(dot(p, q) / lengths, -1), 1)) * 180) / Math.PI;
 }
 
-/** Points of an arc between the arms of an angle, a part of the shorter arm from its corner. */
+/** Points of an arc between the arms of an angle; part: its radius as a fraction of the shorter arm. */
 export function arcOf([a, b, c]: Measure, part = 0.3, pieces = 16): Triple[] {
   const arm = (place: Triple): Triple => place.map((n, axis) => n - b![axis]!) as Triple;
   const [p, q] = [arm(a!), arm(c!)];

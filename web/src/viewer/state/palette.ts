@@ -1,4 +1,4 @@
-// Colours that people with any kind of colour vision tell apart: those of the pictures of `isoatlas` (after Okabe and Ito, 2008).
+// Colours that are distinct for all kinds of colour vision, as in the pictures of `isoatlas` (after Okabe and Ito, 2008).
 export const PALETTE: readonly (readonly [name: string, colour: string])[] = [
   ["bone", "#e6d8ba"],
   ["sky blue", "#56b4e9"],

@@ -1,43 +1,43 @@
-// What a part of the viewer keeps in a state: one word of the address, under a name of its own. It is undone, linked and saved as the
-// rest.
+// A named part of the state: one parameter of the address. It takes part in undo, links and scene files.
 export interface HasParts {
   readonly parts: Readonly<Record<string, string>>;
 }
 
-const known = new Map<string, Part<unknown>>();
+const registry = new Map<string, Part<unknown>>();
 
 export class Part<T> {
   /**
-   * key: in the address; title: what a change of it is called, after "undo: ". read gives null for what is none of its words; first is
-   * never written.
+   * key: in the address; title: name of a change, after "undo: "; read: null for invalid text; initial: never
+   * written; oldKey: accepted in addresses and files of earlier versions.
    */
   constructor(
     readonly key: string,
     readonly title: string,
-    readonly first: T,
+    readonly initial: T,
     private readonly write: (value: T) => string,
     private readonly read: (text: string) => T | null,
+    oldKey = key,
   ) {
-    known.set(key, this as Part<unknown>);
+    for (const name of [key, oldKey]) registry.set(name, this as Part<unknown>);
   }
 
   of(state: HasParts): T {
     const text = state.parts[this.key];
-    return text === undefined ? this.first : (this.read(text) ?? this.first);
+    return text === undefined ? this.initial : (this.read(text) ?? this.initial);
   }
 
-  in<S extends HasParts>(state: S, value: T): S {
+  with<S extends HasParts>(state: S, value: T): S {
     const { [this.key]: _, ...others } = state.parts;
     const text = this.write(value);
-    return { ...state, parts: text === this.write(this.first) ? others : { ...others, [this.key]: text } };
+    return { ...state, parts: text === this.write(this.initial) ? others : { ...others, [this.key]: text } };
   }
 
-  takes(text: string): boolean {
+  accepts(text: string): boolean {
     return this.read(text) !== null;
   }
 }
 
-/** What is on or off, off at first. */
+/** A switch, initially off. */
 export function flag(key: string, title: string): Part<boolean> {
   return new Part(
     key,
@@ -48,25 +48,30 @@ export function flag(key: string, title: string): Part<boolean> {
   );
 }
 
-/** A number, null at first. */
-export function number(key: string, title: string, isGood: (n: number) => boolean = () => true): Part<number | null> {
+/** A number, initially null. */
+export function number(
+  key: string,
+  title: string,
+  isGood: (n: number) => boolean = () => true,
+  oldKey = key,
+): Part<number | null> {
   const read = (text: string): number | null =>
     text.trim() !== "" && Number.isFinite(Number(text)) && isGood(Number(text)) ? Number(text) : null;
-  return new Part<number | null>(key, title, null, (n) => (n === null ? "" : String(Number(n.toPrecision(7)))), read);
+  return new Part<number | null>(key, title, null, (n) => (n === null ? "" : String(Number(n.toPrecision(7)))), read, oldKey);
 }
 
-/** Numbers between commas, of up to seven digits. */
+/** Numbers separated by commas, with up to seven digits. */
 export function textOf(list: readonly number[]): string {
   return list.map((n) => Number(n.toPrecision(7))).join(",");
 }
 
-/** null: it is none of them. */
+/** null: invalid. */
 export function numbersIn(text: string): number[] | null {
   const list = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
   return list.every(Number.isFinite) ? list : null;
 }
 
-/** So many numbers, null at first. */
+/** A fixed number of numbers, initially null. */
 export function numbers(
   key: string,
   title: string,
@@ -80,6 +85,7 @@ export function numbers(
   return new Part<number[] | null>(key, title, null, (list) => (list === null ? "" : textOf(list)), read);
 }
 
+/** By its key, or its key of earlier versions. */
 export function partNamed(key: string): Part<unknown> | undefined {
-  return known.get(key);
+  return registry.get(key);
 }

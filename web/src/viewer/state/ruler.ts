@@ -1,6 +1,6 @@
-// Where the samples of an axis lie along it, in units of length from the first one: at equal steps, or where the file says.
+// Positions of samples along an axis, in units of length from the first one: at even steps, or as given by the file.
 
-/** An even picture of an axis: which of the samples that are there each of its texels shows, and between what lengths they lie. */
+/** Even texels along an axis: the nearest present sample of each, and the lengths at both ends. */
 export interface Texels {
   samples: Uint32Array;
   low: number;
@@ -8,13 +8,13 @@ export interface Texels {
 }
 
 /** for an axis of uneven steps */
-const MOST_TEXELS = 2048;
+const MAX_TEXELS = 2048;
 
 export class Ruler {
-  /** the least length between two samples */
+  /** the smallest step */
   readonly finest: number;
 
-  /** places: of every sample; null: they are even. */
+  /** places: positions of all samples; null: even steps. */
   constructor(
     readonly size: number,
     spacing: number,
@@ -25,7 +25,7 @@ export class Ruler {
     if (steps.length === 0) this.places = null;
   }
 
-  /** Of a sample; numbers between samples are places between them, and the outermost steps go on beyond the ends. */
+  /** Position of a sample; linear between samples, extrapolated by the outermost steps. */
   length(sample: number): number {
     const { places } = this;
     if (!places) return sample * this.finest;
@@ -33,7 +33,7 @@ export class Ruler {
     return places[i]! + (sample - i) * (places[i + 1]! - places[i]!);
   }
 
-  /** The other way. */
+  /** Inverse of length(). */
   sample(length: number): number {
     const { places } = this;
     if (!places) return length / this.finest;
@@ -46,12 +46,12 @@ export class Ruler {
     return low + (length - places[low]!) / (places[high]! - places[low]!);
   }
 
-  /** Of every step-th sample: each is seen as far as halfway to its neighbours. */
+  /** Of every step-th sample: each extends half-way to its neighbours. */
   texels(step: number): Texels {
     const count = Math.ceil(this.size / step);
     const [low, high] = [this.length(-step / 2), this.length((count - 0.5) * step)];
     if (!this.places) return { samples: Uint32Array.from({ length: count }, (_, i) => i), low, high };
-    const texels = Math.min(MOST_TEXELS, Math.ceil((high - low) / this.finest));
+    const texels = Math.min(MAX_TEXELS, Math.ceil((high - low) / this.finest));
     const nearest = (i: number): number => Math.round(this.sample(low + ((i + 0.5) / texels) * (high - low)) / step);
     return { samples: Uint32Array.from({ length: texels }, (_, i) => Math.min(Math.max(nearest(i), 0), count - 1)), low, high };
   }

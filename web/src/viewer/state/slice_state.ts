@@ -1,20 +1,20 @@
-// What slices keep in a state.
-import type { Page } from "../../page";
+// State of the slices.
+import type { Page } from "../../shared/page";
 import { AXES, type Triple } from "./grid";
 import { flag, numbers } from "./part";
 
 export const SLICES = flag("slices", "slices");
-export const PLANES = flag("planes", "slices in the picture");
+export const PLANES = flag("planes", "slices in 3D");
 /** the sample at the crosshair; null: the middle of the volume */
-export const CROSSHAIR = numbers("cross", "the crosshair", 3, (voxel) => voxel.every((n) => Number.isInteger(n) && n >= 0));
-/** values that are black and white; null: as the histogram says */
-export const GREY = numbers("grey", "brightness", 2, ([black, white]) => (black ?? 0) < (white ?? 0));
+export const CROSSHAIR = numbers("cross", "crosshair", 3, (voxel) => voxel.every((n) => Number.isInteger(n) && n >= 0));
+/** values shown as black and white; null: from the histogram */
+export const GREY = numbers("grey", "grey range", 2, ([black, white]) => (black ?? 0) < (white ?? 0));
 
 export function middleOf({ volume }: Page): Triple {
   return AXES.map((axis) => Math.floor((volume.size[axis] ?? 1) / 2)) as Triple;
 }
 
-/** Between which values all but a two-hundredth of the samples at each end lie. */
+/** The values between the 0.5 % and 99.5 % quantiles of the samples. */
 export function greyRange({ histogram, axis }: Pick<Page, "histogram" | "axis">): [number, number] {
   const { edges, counts } = histogram;
   const all = counts.reduce((sum, count) => sum + count, 0);

@@ -1,26 +1,26 @@
-// What is to be seen: a scene is a list of objects, each at its own isovalue. A state never changes; a change is another state.
+// The state of the viewer: a scene is a list of objects, each at its own isovalue. States are immutable.
 import type { HasParts } from "./part";
 
-/** all of its surface, or only the walls of its cavities */
-export type Walls = "all" | "cavities";
+/** the whole surface, or only the walls of cavities */
+export type ShellFilter = "all" | "cavities";
 
 export interface Shown {
-  /** which entry of the atlas; -1: all there is at the isovalue */
+  /** entry of the page; -1: the whole isosurface */
   entry: number;
   tau: number;
   /** 0 to 1 */
   opacity: number;
   visible: boolean;
-  /** #rrggbb; null: that of its entry */
+  /** #rrggbb; null: the colour of its entry */
   colour: string | null;
-  walls: Walls;
+  walls: ShellFilter;
 }
 
 export interface State extends HasParts {
   shown: Shown[];
-  /** which of them; -1: none */
+  /** index in shown; -1: none */
   selected: number;
-  /** where the camera stands and what it looks at, six numbers; null: all that is shown in the middle */
+  /** position and target of the camera, six numbers; null: fit to view */
   view: number[] | null;
 }
 
@@ -59,7 +59,7 @@ export function select(state: State, at: number): State {
   return at === state.selected ? state : { ...state, selected: at };
 }
 
-/** The events of the objects that matter, next to an isovalue: the closest value above (up) or below it at which one begins or ends. */
+/** The closest value above (up) or below an isovalue; null: none. */
 export function nextEvent(values: readonly (number | null)[], tau: number, up: boolean): number | null {
   const beyond = values.filter((value): value is number => value !== null && (up ? value > tau : value < tau));
   if (beyond.length === 0) return null;

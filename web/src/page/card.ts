@@ -1,0 +1,43 @@
+// A card for an object: its picture, its size, and the range of its isovalues.
+import { html } from "../shared/dom";
+import { value, volume } from "../shared/format";
+import { anchorOf, describe, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf } from "../shared/names";
+import { rangeBar } from "../shared/overview";
+import { branchOf, entryOf, type Page } from "../shared/page";
+import { turntable } from "../shared/turntable";
+
+export function card(page: Page, i: number, open: (i: number) => void): HTMLElement {
+  const entry = entryOf(page, i);
+  const title = html("button", { type: "button", class: "title" }, nameOf(page, i));
+  title.addEventListener("click", () => open(i));
+  const picture = entry.picture
+    ? turntable(entry.picture, `Picture of ${describe(page, i)}`)
+    : html("div", { class: "turntable missing" }, "no picture");
+  picture.addEventListener("click", () => open(i));
+  const isMain = branchOf(page, entry.branch).merges === null;
+  const notes = [isMain ? "the largest object" : "", placeOf(page, i)].filter(Boolean).join(", ");
+  const reason = reasonOf(page, i);
+  const facts = html(
+    "dl",
+    { class: "facts" },
+    html("dt", {}, "isovalue"),
+    html("dd", {}, value(entry.tau), reason ? html("span", { class: "why" }, ` (${reason})`) : null),
+    html("dt", {}, "exists"),
+    html("dd", {}, rangeOf(branchOf(page, entry.branch))),
+    html("dt", {}, "size"),
+    html("dd", {}, volume(entry.measure, page.volume.unit)),
+    html("dt", {}, "topology"),
+    html("dd", {}, shapeOf(page, i)),
+  );
+  const item = html(
+    "li",
+    { class: isCavity(page, i) ? "card cavity" : "card", id: anchorOf(page, i) },
+    picture,
+    html("h3", {}, title),
+    notes ? html("p", { class: "note" }, notes) : null,
+    rangeBar(page, i),
+    facts,
+  );
+  item.style.setProperty("--colour", entry.colour);
+  return item;
+}

@@ -1,0 +1,110 @@
+// The page from top to bottom.
+import { narrowScreens } from "../shared/axis";
+import { card } from "./card";
+import { chosenBranches, chosenEntries, firstChoice, type Choice } from "./choice";
+import { controls } from "./controls";
+import { curve } from "./curve";
+import { Detail } from "./detail";
+import { html } from "../shared/dom";
+import { count, value } from "../shared/format";
+import { glossary } from "./glossary";
+import { hiddenSentences } from "../shared/hidden_counts";
+import { isCavity } from "../shared/names";
+import { others } from "./others";
+import { overview } from "../shared/overview";
+import { readPage, type Page } from "../shared/page";
+import { spectrum } from "./spectrum";
+import "./page.css";
+
+function about(page: Page): HTMLElement {
+  const { volume } = page;
+  const spacing = volume.spacing && volume.unit ? `, voxels of ${volume.spacing.map(value).join(" × ")} ${volume.unit}` : "";
+  const unit = volume.valueUnit ? ` ${volume.valueUnit}` : "";
+  const range =
+    volume.low === volume.high ? `all of them ${value(volume.low)}${unit}` : `values ${value(volume.low)} to ${value(volume.high)}${unit}`;
+  const noise = volume.noise > 0 ? `, noise about ${value(Number(volume.noise.toPrecision(2)))}` : "";
+  return html(
+    "header",
+    { class: "about" },
+    html("h1", {}, volume.name),
+    html("p", {}, `${volume.size.join(" × ")} samples, ${volume.type}, ${range}${noise}${spacing}.`),
+    ...verdict(page).map((words) => html("p", {}, words)),
+  );
+}
+
+function verdict(page: Page): string[] {
+  if (page.volume.low === page.volume.high) return ["All samples have the same value: there are no objects at any isovalue."];
+  if (page.entries.length === 0) return ["No objects to show: all of them are below noise level."];
+  const others = page.branches.some((branch) => branch.standsOut && branch.merges !== null);
+  const noisy =
+    1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
+  if (!others && noisy)
+    return [
+      ...hiddenSentences(page),
+      "The noise is as strong as the contrast of the volume: this may be only noise, whatever the picture shows.",
+    ];
+  return others
+    ? hiddenSentences(page)
+    : [...hiddenSentences(page), "Only the largest object is significant: the pictures show it at several isovalues."];
+}
+
+function start(page: Page, main: HTMLElement): void {
+  document.title = `${page.volume.name} – atlas`;
+  const detail = new Detail(page);
+  const open = (i: number): void => detail.open(i);
+  const items = page.entries.map((_, i) => card(page, i, open));
+  const objectList = html("ol", { class: "cards" });
+  const cavityList = html("ol", { class: "cards" });
+  const cavityPart = html(
+    "section",
+    { class: "cavity-part" },
+    html("h2", {}, "Cavities"),
+    html(
+      "p",
+      { class: "note" },
+      "Enclosed regions of lower values: voids and pores inside an object. Each is shown as the surface around it.",
+    ),
+    cavityList,
+  );
+  const status = html("p", { class: "message", role: "status" });
+  const lanes = html("div", {});
+  const rest = html("div", {});
+  const counts = curve(page);
+  const show = (choice: Choice): void => {
+    const kept = chosenBranches(page, choice);
+    const entries = chosenEntries(page, choice);
+    objectList.replaceChildren(...entries.filter((i) => !isCavity(page, i)).map((i) => items[i] as HTMLElement));
+    cavityList.replaceChildren(...entries.filter((i) => isCavity(page, i)).map((i) => items[i] as HTMLElement));
+    cavityPart.hidden = cavityList.children.length === 0;
+    status.textContent = entries.length === items.length ? "" : `${count(entries.length)} of ${count(items.length)} pictures shown`;
+    lanes.replaceChildren(overview(page, kept, open));
+    const pictured = new Set(page.entries.map((entry) => entry.branch));
+    rest.replaceChildren(others(page, [...kept].filter((b) => !pictured.has(b))) ?? "");
+    counts?.mark([...kept].filter((b) => page.branches[b]?.side === "object").length);
+  };
+  main.append(about(page));
+  const constant = page.volume.low === page.volume.high;
+  if (items.length > 0 && !constant) {
+    show(firstChoice(page));
+    const { keep, filter } = controls(page, show);
+    main.append(
+      html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, lanes),
+      html("section", {}, html("h2", {}, "Objects"), filter, status, objectList),
+      cavityPart,
+      rest,
+    );
+  }
+  const last = html("footer", {}, `isoatlas ${page.version}, interpolant ${page.interpolant}. This page loads nothing from elsewhere.`);
+  main.append(spectrum(page) ?? "", constant ? "" : (counts?.panel ?? ""), glossary(), last, detail.dialog);
+  detail.openAt(location.hash);
+}
+
+const main = document.getElementById("atlas");
+const page = readPage(document.getElementById("atlas-data")?.textContent ?? "null");
+if (main && page) {
+  start(page, main);
+  matchMedia(narrowScreens).addEventListener("change", () => {
+    main.replaceChildren();
+    start(page, main);
+  });
+} else main?.append(html("p", {}, "This page has no data."));

@@ -1,0 +1,21 @@
+// How many objects and cavities the page leaves out, and why.
+import { count, plural } from "./format";
+import type { Page } from "./page";
+
+/** Sentences: how many objects and cavities there are, are shown, and are hidden, and why. */
+export function hiddenSentences(page: Page): string[] {
+  const sentences: string[] = [];
+  for (const side of ["object", "cavity"] as const) {
+    const { all, significant } = side === "object" ? page.found.objects : page.found.cavities;
+    const shown = new Set(page.entries.filter((e) => page.branches[e.branch]?.side === side).map((e) => e.branch)).size;
+    const name = side === "object" ? plural(all, "object") : plural(all, "cavity", "cavities");
+    if (all === 0) continue;
+    const how = side === "object" ? ` (shown with --top ${significant + 4})` : "";
+    const more = significant - shown;
+    const later = more > 0 ? ` ${count(more)} more ${more === 1 ? "is" : "are"} significant${how}.` : "";
+    const rest = all - Math.max(significant, shown);
+    const hidden = rest > 0 ? ` ${count(rest)} not shown: below noise level or very small.` : "";
+    sentences.push(`${name} in all, ${count(shown)} shown.${later}${hidden}`);
+  }
+  return sentences;
+}

@@ -1,0 +1,84 @@
+// Names and short descriptions of entries.
+import { plural, value, volume } from "./format";
+import { branchOf, entryOf, type Branch, type Page } from "./page";
+
+export function isCavity(page: Page, i: number): boolean {
+  return branchOf(page, entryOf(page, i).branch).side === "cavity";
+}
+
+/** Number among the entries of its side; of an object without an entry on the page: rank + 1. */
+export function numberOf(page: Page, i: number): number {
+  if (i >= page.entries.length) return branchOf(page, entryOf(page, i).branch).rank + 1;
+  const cavity = isCavity(page, i);
+  return page.entries.filter((_, k) => k <= i && isCavity(page, k) === cavity).length;
+}
+
+export function nameOf(page: Page, i: number): string {
+  if (i >= page.entries.length) return `Object of rank ${numberOf(page, i)}`;
+  return `${isCavity(page, i) ? "Cavity" : "Object"} ${numberOf(page, i)}`;
+}
+
+/** Id of its card and fragment of its address. */
+export function anchorOf(page: Page, i: number): string {
+  return `${isCavity(page, i) ? "cavity" : "object"}-${numberOf(page, i)}`;
+}
+
+/** The isovalues between its appearance and its merge. */
+export function rangeOf(branch: Branch): string {
+  const first = value(branch.appears);
+  if (branch.merges === null) return `from ${first} downwards, never merges`;
+  const ends = [branch.merges, branch.appears].sort((p, q) => p - q).map(value);
+  return ends.join(" to ");
+}
+
+export function shapeOf(page: Page, i: number): string {
+  const entry = entryOf(page, i);
+  const tunnels = plural(entry.tunnels, "tunnel");
+  return isCavity(page, i)
+    ? `${tunnels}, ${plural(entry.cavities, "object")} inside`
+    : `${tunnels}, ${plural(entry.cavities, "cavity", "cavities")}`;
+}
+
+export function describe(page: Page, i: number): string {
+  const entry = entryOf(page, i);
+  return `${nameOf(page, i)} at isovalue ${value(entry.tau)}: ${volume(entry.measure, page.volume.unit)}, ${shapeOf(page, i)}`;
+}
+
+const reasons: Record<string, string> = {
+  stable: "sharp edge",
+  outline: "outline",
+  outer: "sharp outer edge",
+  inner: "sharp wall of a cavity",
+  merge: "just before merging",
+  middle: "mid-range",
+};
+
+/** Reason for its isovalue, in a few words. */
+export function reasonOf(page: Page, i: number): string {
+  const { reason } = entryOf(page, i);
+  return isCavity(page, i) && reason === "outline" ? reasons.merge! : (reasons[reason] ?? "");
+}
+
+/** What contains it, in a few words; empty: no entry of this page. */
+export function placeOf(page: Page, i: number): string {
+  const entry = entryOf(page, i);
+  if (entry.inside >= 0) return `inside ${nameOf(page, entry.inside).toLowerCase()}`;
+  if (entry.around >= 0) return `a cavity of ${nameOf(page, entry.around).toLowerCase()}`;
+  return "";
+}
+
+/** Entries directly contained in this one. */
+export function contentsOf(page: Page, i: number): number[] {
+  return page.entries.flatMap((entry, k) => (k !== i && (entry.inside === i || entry.around === i) ? [k] : []));
+}
+
+/** All entries of a branch: the same object at several isovalues. */
+export function entriesOf(page: Page, branch: number): number[] {
+  return page.entries.flatMap((entry, k) => (entry.branch === branch ? [k] : []));
+}
+
+/** Name of a branch: that of its first entry. */
+export function branchName(page: Page, branch: number): string {
+  const [first] = entriesOf(page, branch);
+  return first === undefined ? `object with id ${branchOf(page, branch).id}` : nameOf(page, first);
+}

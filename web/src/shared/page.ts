@@ -1,0 +1,183 @@
+// Data of the page as `isoatlas` writes them: docs/schema/page.schema.json. Values are in units of the file.
+
+/** A turntable: square frames side by side in one image, a full turn starting at the front. */
+export interface Picture {
+  /** data: URI */
+  image: string;
+  frames: number;
+  /** pixels of a frame */
+  side: number;
+}
+
+export type Side = "object" | "cavity";
+
+/** A count over columns of isovalues: between min and max; without `min` it is `max` everywhere in the column. */
+export interface Count {
+  max: number[];
+  min?: number[];
+}
+
+/** Counts in the isovalues (edges[i], edges[i + 1]]. */
+export interface Shape {
+  edges: number[];
+  tunnels: Count;
+  cavities: Count;
+}
+
+export interface Counts {
+  objects: Count;
+  contours: Count;
+  tunnels: Count;
+  cavities: Count;
+}
+
+/** Of all objects, and of those that contain a significant one. */
+export interface Spectrum {
+  edges: number[];
+  all: Counts;
+  significant: Counts;
+}
+
+/** Tunnels that open in an object and are above the noise level. */
+export interface Tunnels {
+  /** false: pairs by the elder rule; the tunnel that opened last closes first */
+  exact: boolean;
+  /** their number */
+  significant: number;
+  /** the longest of them */
+  longest: { opens: number; closes: number }[];
+}
+
+/** A recommended isovalue of an object, and its reason. */
+export interface Advice {
+  tau: number;
+  why: string;
+  /** the entry of the cavity whose wall it shows, where there is one */
+  cavity?: number;
+}
+
+/** A branch of the branch decomposition, between appears and merges. Objects by rank, then cavities by rank. */
+export interface Branch {
+  side: Side;
+  id: number;
+  /** within its side, from 0 */
+  rank: number;
+  appears: number;
+  /** null: it never merges */
+  merges: number | null;
+  /** the branch it merges into; -1: none on this page */
+  parent: number;
+  /** contrast x size (hypervolume): defines the rank */
+  hypervolume: number;
+  /** just before it merges */
+  voxels: number;
+  measure: number;
+  /** objects that merge into it, including those that are not on this page */
+  joined: number;
+  standsOut: boolean;
+  shape?: Shape | null;
+  /** further recommended isovalues, without an entry */
+  isovalues?: Advice[];
+  tunnels?: Tunnels;
+}
+
+/** A branch at a recommended isovalue. */
+export interface Entry {
+  branch: number;
+  id: number;
+  tau: number;
+  /** isovalues between which its tunnels and cavities stay the same */
+  low: number;
+  high: number;
+  voxels: number;
+  /** physical volume, or voxels where the file has no unit */
+  measure: number;
+  tunnels: number;
+  /** of a cavity: objects inside it */
+  cavities: number;
+  /** the entry that contains it, -1: none */
+  inside: number;
+  /** of a cavity: the entry of the object that encloses it, -1: none */
+  around: number;
+  /** reason for this isovalue, as a key and as a sentence; empty: unknown */
+  reason: string;
+  why: string;
+  colour: string;
+  picture: Picture | null;
+  commands: { name: string; line: string }[];
+}
+
+/** counts[i] samples from edges[i] to edges[i + 1]. */
+export interface Histogram {
+  edges: number[];
+  counts: number[];
+}
+
+/** kept[i] objects have a hypervolume (contrast x size) of at least threshold[i], which descends. */
+export interface Curve {
+  threshold: number[];
+  kept: number[];
+  automaticThreshold: number;
+  automaticKept: number;
+}
+
+/** Number of all of them, and of those above the noise level that are not very small. */
+export interface Found {
+  all: number;
+  significant: number;
+}
+
+export interface Page {
+  schema: "isoatlas/page/3";
+  version: string;
+  volume: {
+    name: string;
+    size: number[];
+    type: string;
+    /** null: uneven steps between samples */
+    spacing: number[] | null;
+    /** of uneven steps: per axis the positions of its samples, relative to the first one */
+    coordinates?: number[][];
+    /** meaning of the axes of space: "LPS", "RAS", ..., "unknown" */
+    space: string;
+    /** of the first sample, physical */
+    origin: [number, number, number];
+    /** rows; column a: unit vector of axis a */
+    direction: [number, number, number][];
+    /** of lengths; null: unknown, measures are in voxels */
+    unit: string | null;
+    valueUnit: string | null;
+    low: number;
+    high: number;
+    noise: number;
+  };
+  interpolant: string;
+  found: { objects: Found; cavities: Found };
+  /** bend: null for a linear axis; else equal steps of asinh((value - low) / bend) */
+  axis: { low: number; high: number; bend: number | null };
+  histogram: Histogram;
+  spectrum: Spectrum | null;
+  curve: Curve;
+  branches: Branch[];
+  entries: Entry[];
+  /** entries that are not on the page, by number from entries.length on: viewer/api/catalogue.ts */
+  further?: (i: number) => Entry | undefined;
+}
+
+export function readPage(text: string): Page | null {
+  const page = JSON.parse(text) as Page | null;
+  if (page !== null && page.schema !== "isoatlas/page/3") throw new Error(`unsupported page: ${String(page.schema)}`);
+  return page;
+}
+
+export function entryOf(page: Page, i: number): Entry {
+  const entry = page.entries[i] ?? page.further?.(i);
+  if (!entry) throw new Error(`no entry ${i}`);
+  return entry;
+}
+
+export function branchOf(page: Page, b: number): Branch {
+  const branch = page.branches[b];
+  if (!branch) throw new Error(`no branch ${b}`);
+  return branch;
+}

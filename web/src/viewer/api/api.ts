@@ -1,0 +1,178 @@
+// Requests to `isoatlas view`: docs/server.md. A request supersedes the earlier one of the same channel.
+import { readPage, type Page, type Picture } from "../../shared/page";
+import type { BranchList } from "./catalogue";
+import { messages, type ServerState } from "./server_state";
+import type { ShellFilter } from "../state/state";
+import { decodeMesh, type Mesh } from "./wire";
+
+/** Target of a surface: the object that contains a voxel, the wall of a cavity, or the whole isosurface. */
+export type SurfaceTarget = { object: number } | { contour: number } | null;
+
+export interface Preview {
+  tau: number;
+  /** the requested one; null: no object with this id */
+  object?: ObjectAtIsovalue | null;
+  objects: number;
+  contours: number;
+  tunnels: number;
+  cavities: number;
+  /** at least, at most */
+  triangles: [number, number];
+  bytes: [number, number];
+}
+
+/** Topology of an object at an isovalue. */
+export interface ObjectAtIsovalue {
+  id: number;
+  tunnels: number;
+  cavities: number;
+  /** at least, at most */
+  voxels: [number, number];
+}
+
+/** Size of an object at an isovalue, in the unit of the file. */
+export interface Measures extends ObjectAtIsovalue {
+  area: number;
+  volume: number;
+}
+
+/** between polls for pending requests, in milliseconds */
+const PAUSE = 50;
+
+/** requests that give immediate feedback, sent before others */
+const PREVIEW_CHANNEL = "preview";
+
+/** An error response of the server. */
+export class ServerError extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+export class Api {
+  private readonly client = crypto.randomUUID();
+  private surfaces = 0;
+  private readonly channels = new Map<string, AbortController>();
+
+  constructor(
+    /** of this browser, or the token of a program */
+    private readonly token: string,
+    private readonly base = "",
+  ) {}
+
+  async page(): Promise<Page> {
+    const page = readPage(await (await this.request("/api/atlas", "atlas")).text());
+    if (page === null) throw new Error("The response of the server is not an atlas. Reload the page.");
+    return page;
+  }
+
+  /** The objects of highest rank, at most `top`. */
+  branches(top: number): Promise<BranchList> {
+    return this.request(`/api/branches?top=${top}`, "branches").then((response) => response.json() as Promise<BranchList>);
+  }
+
+  /** Number of objects that a selection keeps: state/selection.ts, selectionOptions(). */
+  async kept(selection: [string, number][]): Promise<number> {
+    const response = await this.request(`/api/branches?top=1${selection.map(([name, number]) => `&${name}=${number}`).join("")}`, "kept");
+    return ((await response.json()) as { kept: number }).kept;
+  }
+
+  /** null: nothing to draw. */
+  async card(of: { entry: number } | { branch: number }, frames: number): Promise<Picture | null> {
+    const response = await this.request(`/api/card?frames=${frames}${parameters(of)}`, "card");
+    return ((await response.json()) as { picture: Picture | null }).picture;
+  }
+
+  /** object: include this object; null: none. */
+  preview(tau: number, object: number | null): Promise<Preview> {
+    const path = `/api/preview?tau=${tau}${object === null ? "" : parameters({ object })}`;
+    return this.request(path, PREVIEW_CHANNEL).then((response) => response.json() as Promise<Preview>);
+  }
+
+  /** Of the objects that contain these voxels. */
+  async measures(tau: number, objects: number[]): Promise<Measures[]> {
+    const response = (await (await this.request(`/api/measures?tau=${tau}&object=${objects.join(",")}`, "measures")).json()) as {
+      objects: Measures[];
+    };
+    return response.objects;
+  }
+
+  /** maxTriangles: the mesh is simplified to fewer triangles if it has more. */
+  async surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all"): Promise<Mesh> {
+    ++this.surfaces;
+    try {
+      const response = await this.request(`/api/surface?tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}`, channel);
+      return await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
+    } finally {
+      --this.surfaces;
+    }
+  }
+
+  /** The file that `isoatlas extract` writes. */
+  async file(tau: number, target: SurfaceTarget, format: string, walls: ShellFilter = "all"): Promise<Blob> {
+    return (await this.request(`/api/surface?tau=${tau}${parameters(target)}${shell(walls)}&format=${format}`, "file")).blob();
+  }
+
+  /** The file that `isoatlas label` writes: of one object, or of all. */
+  async labels(tau: number, object: number | null, format: string): Promise<Blob> {
+    return (await this.request(`/api/label?tau=${tau}${object === null ? "" : `&object=${object}`}&format=${format}`, "file")).blob();
+  }
+
+  /** The state of the server and the pending requests of this page, on every change, until the connection ends. */
+  async *events(): AsyncGenerator<ServerState> {
+    const headers = { Authorization: `Bearer ${this.token}`, "X-Client": this.client };
+    const response = await fetch(`${this.base}/api/events`, { headers });
+    if (!response.ok || !response.body) throw new ServerError(response.status, await messageOf(response));
+    yield* messages(response.body);
+  }
+
+  /** Resolves when no surface is being loaded; low-priority requests wait for it. */
+  async idle(): Promise<void> {
+    do await new Promise((resolve) => setTimeout(resolve, PAUSE));
+    while (this.surfaces > 0);
+  }
+
+  /** Aborts the pending request of a channel. */
+  abort(channel: string): void {
+    this.channels.get(channel)?.abort();
+    this.channels.delete(channel);
+  }
+
+  async request(path: string, channel: string): Promise<Response> {
+    this.abort(channel);
+    const controller = new AbortController();
+    this.channels.set(channel, controller);
+    const headers = { Authorization: `Bearer ${this.token}`, "X-Client": `${this.client}/${channel}` };
+    const priority = channel === PREVIEW_CHANNEL ? "high" : "auto"; // browsers limit the number of parallel requests to a server
+    const response = await fetch(this.base + path, { headers, signal: controller.signal, priority });
+    if (!response.ok) throw new ServerError(response.status, await messageOf(response));
+    return response;
+  }
+}
+
+function shell(walls: ShellFilter): string {
+  return walls === "cavities" ? "&shell=inner" : "";
+}
+
+function parameters(target: SurfaceTarget | { entry: number } | { branch: number }): string {
+  return Object.entries(target ?? {})
+    .map(([name, id]) => `&${name}=${id}`)
+    .join("");
+}
+
+async function messageOf(response: Response): Promise<string> {
+  try {
+    const refusal = (await response.json()) as { error: { message: string } };
+    return refusal.error.message;
+  } catch {
+    return `HTTP status ${response.status}`;
+  }
+}
+
+/** A request that was superseded by a newer one is not a failure. */
+export function isSuperseded(error: unknown): boolean {
+  return (error instanceof DOMException && error.name === "AbortError") || (error instanceof ServerError && error.status === 409);
+}

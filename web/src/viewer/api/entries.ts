@@ -1,0 +1,45 @@
+// Entries of a scene: entry i of the page, or the whole isosurface (-1).
+import { isCavity, nameOf } from "../../shared/names";
+import { branchOf, entryOf, type Branch, type Page } from "../../shared/page";
+import type { SurfaceTarget } from "./api";
+import type { Shown } from "../state/state";
+
+export const EVERYTHING = -1;
+
+export function targetOf(page: Page, i: number): SurfaceTarget {
+  if (i === EVERYTHING) return null;
+  return isCavity(page, i) ? { contour: entryOf(page, i).id } : { object: entryOf(page, i).id };
+}
+
+export function titleOf(page: Page, i: number): string {
+  return i === EVERYTHING ? "Whole isosurface" : nameOf(page, i);
+}
+
+export function colourOf(page: Page, i: number): string {
+  return i === EVERYTHING ? "#999999" : entryOf(page, i).colour;
+}
+
+export function colourOfShown(page: Page, { entry, colour }: Shown): string {
+  return colour ?? colourOf(page, entry);
+}
+
+/** The best recommended isovalue. */
+export function bestOf(page: Page, i: number): number {
+  return i === EVERYTHING ? (page.axis.low + page.axis.high) / 2 : entryOf(page, i).tau;
+}
+
+/** The nearest isovalue on the axis. */
+export function within(page: Page, tau: number): number {
+  return Math.min(Math.max(tau, page.axis.low), page.axis.high);
+}
+
+export function branchOfShown(page: Page, i: number): Branch | null {
+  return i === EVERYTHING ? null : branchOf(page, entryOf(page, i).branch);
+}
+
+/** The isovalues between its appearance and its merge, ascending. */
+export function ownRange(page: Page, i: number): [number, number] {
+  const branch = branchOfShown(page, i);
+  if (!branch) return [page.axis.low, page.axis.high];
+  return [branch.merges ?? page.axis.low, branch.appears].sort((p, q) => p - q) as [number, number];
+}

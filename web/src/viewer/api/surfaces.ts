@@ -1,0 +1,136 @@
+// Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends.
+import { isSuperseded, type Api, type SurfaceTarget } from "./api";
+import { countComponents } from "./count_components";
+import type { ShellFilter } from "../state/state";
+import type { Mesh } from "./wire";
+
+/** triangles */
+const FULL = 100_000_000;
+const COARSE = 20_000;
+
+export interface SurfaceRequest {
+  tau: number;
+  target: SurfaceTarget;
+  walls: ShellFilter;
+}
+
+/** Load state of the surface of an object: what is loaded, whether more is on its way, or the error. */
+export interface LoadState {
+  /** keyOf() its request; empty: nothing is loaded yet */
+  key: string;
+  triangles: number;
+  bytes: number;
+  coarse: boolean;
+  /** of walls of cavities: their number; null: not counted */
+  walls: number | null;
+  waiting: boolean;
+  error: string;
+}
+
+const NONE: LoadState = { key: "", triangles: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
+
+class Channel {
+  key = "";
+  /** triangles of the pending request; 0: none is pending */
+  requested = 0;
+  /** the full surface follows without another request */
+  untilFull = false;
+  next: SurfaceRequest | null = null;
+  loadState = NONE;
+}
+
+/** Equal for requests that have the same surface as response. */
+export function keyOf({ tau, walls }: Pick<SurfaceRequest, "tau" | "walls">): string {
+  return `${tau} ${walls}`;
+}
+
+export class Surfaces {
+  private readonly channels = new Map<number, Channel>();
+  private readonly pending = new Set<Promise<void>>();
+
+  /** onMesh: null where there is no such surface. */
+  constructor(
+    private readonly api: Api,
+    private readonly onMesh: (entry: number, mesh: Mesh | null, tau: number) => void,
+    private readonly onUpdate: (entry: number) => void,
+  ) {}
+
+  loadStateOf(entry: number): LoadState {
+    return this.channels.get(entry)?.loadState ?? NONE;
+  }
+
+  /** While dragging: one coarse surface at a time, then that of the last request. Else the request supersedes older ones. */
+  request(entry: number, request: SurfaceRequest, dragging: boolean): void {
+    const channel = this.channels.get(entry) ?? new Channel();
+    this.channels.set(entry, channel);
+    const [key, { loadState }] = [keyOf(request), channel];
+    channel.next = null;
+    const isLoading = channel.requested > 0 && (dragging || channel.untilFull);
+    if (channel.key === key && (isLoading || (loadState.key === key && (dragging || !loadState.coarse)))) return;
+    if (dragging && channel.requested === COARSE) {
+      channel.next = request;
+      return;
+    }
+    const levels = dragging ? [COARSE] : loadState.key === key ? [FULL] : [COARSE, FULL];
+    channel.untilFull = !dragging;
+    channel.key = key;
+    this.track(this.load(entry, channel, request, levels));
+  }
+
+  remove(entry: number): void {
+    const channel = this.channels.get(entry);
+    if (!channel) return;
+    channel.key = "";
+    this.channels.delete(entry);
+    this.api.abort(channelName(entry));
+  }
+
+  /** Resolves when no request is pending. */
+  async settled(): Promise<void> {
+    while (this.pending.size > 0) await Promise.allSettled(this.pending);
+  }
+
+  private track(work: Promise<void>): void {
+    this.pending.add(work);
+    void work.finally(() => this.pending.delete(work));
+  }
+
+  /** levels: maximal numbers of triangles, loaded one after the other. */
+  private async load(entry: number, channel: Channel, request: SurfaceRequest, levels: number[]): Promise<void> {
+    const key = keyOf(request);
+    const isStale = (): boolean => channel.key !== key || this.channels.get(entry) !== channel;
+    try {
+      for (const maxTriangles of levels) {
+        channel.requested = maxTriangles;
+        channel.loadState = { ...channel.loadState, waiting: true };
+        this.onUpdate(entry);
+        const mesh = await this.api.surface(channelName(entry), request.tau, request.target, maxTriangles, request.walls);
+        if (isStale()) return;
+        channel.loadState = {
+          key,
+          triangles: mesh.triangles,
+          bytes: mesh.bytes,
+          coarse: mesh.coarse,
+          walls: request.walls === "cavities" && !mesh.coarse ? countComponents(mesh.corners) : null,
+          waiting: false,
+          error: "",
+        };
+        this.onMesh(entry, mesh, request.tau);
+        if (!mesh.coarse) break;
+      }
+    } catch (error) {
+      if (isStale() || isSuperseded(error)) return;
+      channel.loadState = { ...NONE, key, error: error instanceof Error ? error.message : String(error) };
+      this.onMesh(entry, null, request.tau);
+    }
+    channel.requested = 0;
+    this.onUpdate(entry);
+    const { next } = channel;
+    channel.next = null;
+    if (next) this.request(entry, next, true);
+  }
+}
+
+function channelName(entry: number): string {
+  return `surface ${entry}`;
+}

@@ -1,0 +1,99 @@
+// Exports to files and to the clipboard.
+import { isCavity } from "../../shared/names";
+import { entryOf } from "../../shared/page";
+import { renderOptions } from "../state/render_options";
+import { downloadBlob, selectedOf, type ViewerContext } from "../context/viewer_context";
+import { drawPicture, pngOf, type PictureOptions } from "./picture";
+import { renderCommand } from "./render_command";
+import { readScene, writeScene } from "./scene_file";
+import { EVERYTHING, titleOf, targetOf } from "../api/entries";
+import { tableCsv } from "./table_csv";
+import { isDarkPage } from "../context/theme";
+
+export const SURFACES = ["stl", "ply", "obj", "glb", "vtp"];
+export const LABELS = ["nrrd", "nii.gz", "nii", "tif"];
+
+export class Exporter {
+  constructor(private readonly context: ViewerContext) {}
+
+  /** The surface of the selected object. */
+  surface(format: string): Promise<void> {
+    const shown = selectedOf(this.context.history.now);
+    if (!shown) return this.nothingSelected();
+    const { api, page } = this.context;
+    return this.file(`${this.name}.${format}`, "writing the surface", () =>
+      api.file(shown.tau, targetOf(page, shown.entry), format, shown.walls),
+    );
+  }
+
+  /** 1 where the selected object is at its isovalue, 0 elsewhere; or the labels of all objects there, 1 is the largest. */
+  labels(format: string): Promise<void> {
+    const shown = selectedOf(this.context.history.now);
+    if (!shown) return this.nothingSelected();
+    const { api, page } = this.context;
+    const all = shown.entry === EVERYTHING || isCavity(page, shown.entry);
+    return this.file(`${this.name}.${format}`, "writing the labels", () =>
+      api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format),
+    );
+  }
+
+  picture(options: PictureOptions): Promise<void> {
+    return this.file(`${this.context.page.volume.name}.png`, "rendering the image", () => pngOf(drawPicture(this.context, options)));
+  }
+
+  table(): Promise<void> {
+    const text = tableCsv(this.context.page, this.context.history.now);
+    return this.file("objects.csv", "", () => Promise.resolve(new Blob([text], { type: "text/csv" })));
+  }
+
+  scene(): Promise<void> {
+    const text = writeScene(this.context.page, this.context.history.now);
+    const blob = new Blob([text], { type: "application/json" });
+    return this.file(`${this.context.page.volume.name}.scene.json`, "", () => Promise.resolve(blob));
+  }
+
+  /** Throws Error with the reason if the file is invalid. */
+  async load(file: File): Promise<void> {
+    this.context.history.go(readScene(this.context.page, await file.text()));
+    this.context.notify(`loaded ${file.name}`);
+  }
+
+  copy(text: string, what: string): Promise<void> {
+    return navigator.clipboard.writeText(text).then(
+      () => this.context.notify(`${what} copied to the clipboard`),
+      () => this.context.notify(`no access to the clipboard: ${text}`),
+    );
+  }
+
+  /** Link to this view, for this browser: it contains no token. */
+  link(): Promise<void> {
+    return this.copy(location.href, "the link");
+  }
+
+  command(): string {
+    const { page, history, viewport, scene } = this.context;
+    const camera = { view: viewport.rig.view, flat: viewport.rig.isFlat, height: viewport.rig.height, cut: viewport.clippedHalfSpace };
+    const size: [number, number] = [viewport.canvas.clientWidth, viewport.canvas.clientHeight];
+    return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), renderOptions(page, history.now));
+  }
+
+  private get name(): string {
+    const shown = selectedOf(this.context.history.now);
+    return shown ? titleOf(this.context.page, shown.entry).toLowerCase().replaceAll(" ", "-") : "";
+  }
+
+  private nothingSelected(): Promise<void> {
+    this.context.notify("select an object first");
+    return Promise.resolve();
+  }
+
+  private async file(name: string, meanwhile: string, make: () => Promise<Blob>): Promise<void> {
+    try {
+      if (meanwhile) this.context.notify(meanwhile);
+      downloadBlob(await make(), name);
+      this.context.notify(`${name} saved`);
+    } catch (error) {
+      this.context.reportError(error);
+    }
+  }
+}

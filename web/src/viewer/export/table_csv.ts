@@ -1,0 +1,55 @@
+// CSV table of the listed objects, one line each, with the isovalues in the scene.
+import { nameOf } from "../../shared/names";
+import { branchOf, entryOf, type Page } from "../../shared/page";
+import type { State } from "../state/state";
+
+const COLUMNS = [
+  "name",
+  "id",
+  "side",
+  "best_tau",
+  "appears",
+  "merges",
+  "voxels",
+  "volume",
+  "unit",
+  "tunnels",
+  "cavities",
+  "inside",
+  "cavity_of",
+  "shown_at",
+];
+
+/** Entries of the page and further objects of the scene. Volumes are in the unit of the file, or in voxels. */
+export function tableCsv(page: Page, state: State): string {
+  const further = state.shown.map(({ entry }) => entry).filter((i) => i >= page.entries.length);
+  const lines = [...page.entries.keys(), ...further].map((i) => {
+    const entry = entryOf(page, i);
+    const branch = branchOf(page, entry.branch);
+    const name = (k: number): string => (k >= 0 ? nameOf(page, k) : "");
+    const shown = state.shown.find((one) => one.entry === i);
+    const unit = page.volume.unit ? `${page.volume.unit}3` : "voxel";
+    return [
+      nameOf(page, i),
+      entry.id,
+      branch.side,
+      entry.tau,
+      branch.appears,
+      branch.merges,
+      entry.voxels,
+      entry.measure,
+      unit,
+      entry.tunnels,
+      entry.cavities,
+      name(entry.inside),
+      name(entry.around),
+      shown?.tau,
+    ];
+  });
+  return [COLUMNS, ...lines].map((line) => `${line.map(cell).join(",")}\r\n`).join("");
+}
+
+export function cell(what: string | number | null | undefined): string {
+  const text = String(what ?? "");
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}

@@ -1,0 +1,44 @@
+// Measures of an object at its current isovalue, computed by the server.
+import { area, count, plural, value, volume } from "../../shared/format";
+import { entryOf, type Page } from "../../shared/page";
+import { isSuperseded, type Measures } from "../api/api";
+import type { ViewerContext } from "../context/viewer_context";
+import { branchOfShown } from "../api/entries";
+import type { Shown } from "../state/state";
+
+/** Is it at the isovalue of its entry? Then its number of voxels is known exactly. */
+export function isMeasuredAtEntry(page: Page, { entry, tau }: Shown): boolean {
+  return branchOfShown(page, entry)?.side === "object" && entryOf(page, entry).tau === tau;
+}
+
+/** Empty for cavities, the whole isosurface, and objects that do not exist at this isovalue. */
+export async function measuredFacts({ api, page }: ViewerContext, shown: Shown): Promise<[name: string, text: string][]> {
+  if (branchOfShown(page, shown.entry)?.side !== "object") return [];
+  const { id, voxels } = entryOf(page, shown.entry);
+  try {
+    const [there] = await api.measures(shown.tau, [id]);
+    if (!there) return [];
+    return factsOf(isMeasuredAtEntry(page, shown) ? { ...there, voxels: [voxels, voxels] } : there, id, shown.tau, page.volume.unit);
+  } catch (error) {
+    return isSuperseded(error) ? [] : [[`at ${value(shown.tau)}`, "it does not exist"]];
+  }
+}
+
+/** id: the requested object. */
+export function factsOf(there: Measures, id: number, tau: number, unit: string | null): [name: string, text: string][] {
+  return [
+    [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit)}`],
+    ["area", area(there.area, unit)],
+    ["topology", `${plural(there.tunnels, "tunnel")}, ${plural(there.cavities, "cavity", "cavities")}`],
+  ];
+}
+
+/** relative width below which a range of voxels is shown */
+const MIN_RATIO = 0.8;
+
+/** Omits wide bounds of the number of voxels; without a unit, shows the enclosed volume. */
+function sizeOf({ voxels: [min, max], volume: enclosed }: Measures, unit: string | null): string {
+  const voxels = min === max ? plural(max, "voxel") : `${count(min)} to ${plural(max, "voxel")}`;
+  if (unit === null) return min === max ? voxels : `about ${plural(Number(enclosed.toPrecision(3)), "voxel")}`;
+  return min >= MIN_RATIO * max ? `${volume(enclosed, unit)}, ${voxels}` : volume(enclosed, unit);
+}

@@ -1,0 +1,45 @@
+// Filters and sorts the chosen objects. Numbers are those of entries (api/catalogue.ts).
+import { orders } from "../../shared/orders";
+import { isCavity, placeOf, reasonOf } from "../../shared/names";
+import { entryOf, type Page } from "../../shared/page";
+import { EVERYTHING, titleOf } from "../api/entries";
+import type { State } from "../state/state";
+
+export interface SearchOptions {
+  /** words, all of which must match */
+  text: string;
+  /** name in shared/orders.ts */
+  order: string;
+}
+
+export interface SearchResult {
+  objects: number[];
+  cavities: number[];
+  /** in the scene, but not among the chosen */
+  others: number[];
+}
+
+/** chosen: objects, without cavities. */
+export function find(page: Page, chosen: number[], shown: State["shown"], wanted: SearchOptions): SearchResult {
+  const cavities = page.entries.map((_, i) => i).filter((i) => isCavity(page, i));
+  const listed = new Set([...chosen, ...cavities, EVERYTHING]);
+  const others = shown.map(({ entry }) => entry).filter((i) => !listed.has(i));
+  const words = wanted.text.toLowerCase().split(/\s+/).filter((word) => word !== "");
+  const isMatch = (i: number): boolean => words.every((word) => isAbout(page, i, word));
+  const matching = (numbers: number[]): number[] => (words.length === 0 ? numbers : numbers.filter(isMatch));
+  const sorted = (numbers: number[]): number[] => sortedBy(page, matching(numbers), wanted.order);
+  return { objects: sorted(chosen), cavities: sorted(cavities), others: matching(others) };
+}
+
+/** A number matches titles that contain it and the id of the command line; other words match as substrings. */
+function isAbout(page: Page, i: number, word: string): boolean {
+  const texts = [titleOf(page, i), reasonOf(page, i), placeOf(page, i)].map((text) => text.toLowerCase());
+  if (/^\d+$/.test(word)) return texts[0]?.split(" ").includes(word) === true || entryOf(page, i).id === Number(word);
+  return texts.some((text) => text.includes(word));
+}
+
+function sortedBy(page: Page, numbers: number[], order: string): number[] {
+  const compare = orders.find(([name]) => name === order)?.[1];
+  if (!compare || order === "rank") return numbers;
+  return [...numbers].sort((p, q) => compare(page, entryOf(page, p), entryOf(page, q)));
+}
