@@ -8,7 +8,7 @@ endif()
 file(WRITE ${OUTPUT} "// Made from web/.
 #include \"page/template.h\"
 
-namespace isoatlas::page {
+namespace isoatlas {
 namespace {
 
 const char kPage[] = {
@@ -18,5 +18,5 @@ const char kPage[] = {
 
 std::string_view ${NAME}() { return {kPage, sizeof kPage - 1}; }
 
-}  // namespace isoatlas::page
+}  // namespace isoatlas
 ")

@@ -4,7 +4,7 @@
 #     scripts/gallery.sh FOLDER VOLUME...
 #     scripts/gallery.sh gallery ../shared/data/{tooth/tooth,engine/engine}.nrrd
 #
-# Without volumes: those of ../shared/data that the study of essential objects looked at. ISOATLAS is the program (build/release/bin/isoatlas).
+# Without volumes: those of ../shared/data that the study of significant objects looked at. ISOATLAS is the program (build/release/bin/isoatlas).
 # With Chromium installed, scripts/screenshots.mjs takes pictures of the pages.
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)

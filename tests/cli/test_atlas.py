@@ -59,7 +59,7 @@ class Atlas(harness.CliTest):
         self.run_ok("demo.nrrd", "-o", "counts.html", "--top", "1")
         page = self.page("counts.html")[1]
         intervals = self.run_json("spectrum", "counts.atlas", "--samples", "0")["intervals"]
-        for which in ("all", "essential"):
+        for which in ("all", "significant"):
             for name in ("objects", "contours", "tunnels", "cavities"):
                 count = page["spectrum"][which][name]
                 for k, (low, high) in enumerate(zip(page["spectrum"]["edges"], page["spectrum"]["edges"][1:])):
@@ -82,21 +82,21 @@ class Atlas(harness.CliTest):
         self.run_ok("demo.nrrd", "-o", "merge.html")
         branches = self.page("merge.html")[1]["branches"]
         for branch in branches:
-            if branch["side"] == "bright":
+            if branch["side"] == "object":
                 self.assertEqual(branch["merges"] is None, branch["parent"] == -1, branch["id"])
             if branch["parent"] >= 0:
                 other = branches[branch["parent"]]
                 self.assertEqual(other["side"], branch["side"])
-                bright = branch["side"] == "bright"
-                self.assertTrue(other["merges"] is None or (other["merges"] < branch["merges"] if bright else other["merges"] > branch["merges"]))
+                objects = branch["side"] == "object"
+                self.assertTrue(other["merges"] is None or (other["merges"] < branch["merges"] if objects else other["merges"] > branch["merges"]))
         self.assertGreater(branches[0]["joined"], 0)
 
     def test_commands_of_the_page_run(self):
         self.run_ok("atlas", "demo.nrrd", "--top", "2", "-o", "two words.html")
         page = self.page("two words.html")[1]
-        dark = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "cavity"]
-        self.assertEqual(len(page["entries"]) - len(dark), 2)
-        for command in page["entries"][1]["commands"] + dark[0]["commands"]:
+        cavities = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "cavity"]
+        self.assertEqual(len(page["entries"]) - len(cavities), 2)
+        for command in page["entries"][1]["commands"] + cavities[0]["commands"]:
             words = shlex.split(command["line"])
             self.assertEqual(words[0], "isoatlas")
             self.run_ok(*words[1:])
@@ -193,14 +193,14 @@ class Atlas(harness.CliTest):
         self.run_ok("phantom", "figure-plateau", "--noise", "0.02", "-o", "figure.nrrd")
         self.run_ok("figure.nrrd")
         page = self.page("figure.atlas.html")[1]
-        bright = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "bright"]
-        self.assertEqual(len({entry["branch"] for entry in bright}), 4)  # the four sticks
-        sizes = sorted((entry["voxels"], entry["tunnels"], entry["cavities"]) for entry in bright)
+        objects = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "object"]
+        self.assertEqual(len({entry["branch"] for entry in objects}), 4)  # the four sticks
+        sizes = sorted((entry["voxels"], entry["tunnels"], entry["cavities"]) for entry in objects)
         sticks, plates, joined, around = [(72, 0, 0)] * 3, [(288, 0, 0)] * 2, [(768, 1, 0)], [(2784, 0, 1)]
         self.assertEqual(sizes[:-1], sticks + plates + joined + around)  # the last one is the outline
-        (dark,) = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "cavity"]
-        self.assertEqual((dark["voxels"], dark["tunnels"], dark["cavities"]), (288, 0, 0))
-        self.assertEqual(page["entries"][dark["around"]]["cavities"], 1)
+        (cavities,) = [entry for entry in page["entries"] if page["branches"][entry["branch"]]["side"] == "cavity"]
+        self.assertEqual((cavities["voxels"], cavities["tunnels"], cavities["cavities"]), (288, 0, 0))
+        self.assertEqual(page["entries"][cavities["around"]]["cavities"], 1)
 
     def test_volumes_with_nothing_in_them(self):
         self.run_ok("flat.nrrd")

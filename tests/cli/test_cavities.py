@@ -22,7 +22,7 @@ class Dark(harness.CliTest):
         self.assertEqual(gzip.decompress((self.folder / "cavity.nii.gz").read_bytes())[352:].count(1), cavity["voxels"])
 
     def test_the_figure_with_noise(self):
-        """Exactly the objects of figure 12.1, bright and dark, when 2 % noise makes thousands."""
+        """Exactly the objects of figure 12.1, cavities too, when 2 % noise makes thousands."""
         self.run_ok("phantom", "figure-plateau", "--noise", "0.02", "-o", "noisy.nrrd")
         table = self.run_json("objects", "noisy.nrrd", "--both")
         self.assertGreater(table["branches"], 1000)

@@ -142,15 +142,15 @@ class Pictures(CliTest):
         self.assertLess(document["reads"]["cells_loaded"], 32 ** 3 / 3)
 
     def events_of(self, name, *selection, taus=("95", "5", "10")):
-        """What the labels of an evolution say: essential counts of every frame."""
+        """What the labels of an evolution say: significant counts of every frame."""
         document = self.run_json("animate", name, "--from", taus[0], "--to", taus[1], "--steps", taus[2], *selection, *self.small, "-o", "e.gif")
         self.assert_schema(document, "animate")
         return [frame["significant"] for frame in document["frames"]], document["frames"]
 
     def test_labels_of_a_noisy_evolution_are_those_of_the_clean_one(self):
         clean, frames = self.events_of("figure.nrrd")
-        for essential, frame in zip(clean, frames):  # nothing of the clean figure is noise
-            self.assertEqual(essential, {name: frame[name] for name in essential})
+        for significant, frame in zip(clean, frames):  # nothing of the clean figure is noise
+            self.assertEqual(significant, {name: frame[name] for name in significant})
         self.assertEqual([(e["appeared"], e["merged"]) for e in clean], [(0, 0)] + 3 * [(1, 0)] + 3 * [(0, 1)] + 3 * [(0, 0)])
         for seed in ("1", "2"):
             self.run_ok("phantom", "figure-plateau", "--noise", "0.02", "--seed", seed, "-o", "noisy.nrrd")

@@ -115,9 +115,9 @@ class Stores(harness.CliTest):
         found = self.run_json("objects", "noise.atlas", "--tau", "31")
         self.assertEqual(preview["objects"], found["object_count"])
         self.assertEqual(preview["contours"], found["contour_count"])
-        self.assertEqual(preview["active_cells"], {"least": found["active_cells"], "most": found["active_cells"]})
+        self.assertEqual(preview["active_cells"], {"min": found["active_cells"], "max": found["active_cells"]})
         voxels = sum(entry["voxels"] for entry in found["objects"])
-        self.assertEqual(preview["voxels"], {"least": voxels, "most": voxels})
+        self.assertEqual(preview["voxels"], {"min": voxels, "max": voxels})
         reads = self.run_json("extract", "noise.atlas", "--tau", "31", "-o", "x.ply")["reads"]
         for name in ("bytes", "extents", "bricks"):
             self.assertLessEqual(preview[name]["min"], reads[name])

@@ -37,7 +37,7 @@ Request question_of(std::string_view text) {
     question.client = "fuzz";
     if (text.starts_with('^')) question.token = "wrong", text.remove_prefix(1);
     if (const std::size_t looks = std::min(text.find_first_not_of('!'), text.size()); looks > 0) {
-        question.left = [left = looks]() mutable { return left == 0 || --left == 0; };
+        question.is_disconnected = [left = looks]() mutable { return left == 0 || --left == 0; };
         text.remove_prefix(looks);
     }
     const std::size_t mark = text.find('?');
@@ -61,11 +61,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static Service knowing("right", context);
     const Request question = question_of({reinterpret_cast<const char*>(data), size});
     std::optional<Service> fresh;  // what is given up may be what is found first
-    if (question.left) fresh.emplace("right", context);
+    if (question.is_disconnected) fresh.emplace("right", context);
     Service& service = fresh ? *fresh : knowing;
-    service.opening().open(small_atlas());
+    service.store_state().open(small_atlas());
     const Response answer = service.answer(question);
-    const bool given_up = answer.status == 409 && question.left;
+    const bool given_up = answer.status == 409 && question.is_disconnected;
     ISOATLAS_CHECK(given_up || answer.status == 200 || answer.status == 400 || answer.status == 403 || answer.status == 404);
     ISOATLAS_CHECK(answer.status == 403 || question.token == "right" || question.path == "/");
     ISOATLAS_CHECK(answer.status == 200 || answer.bytes.find("\"message\":\"") != std::string::npos);

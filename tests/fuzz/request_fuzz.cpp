@@ -11,6 +11,8 @@
 
 namespace {
 
+using namespace isoatlas;
+
 struct Reading {
     HeadReader reader;
     HeadReader::State state = HeadReader::State::more;

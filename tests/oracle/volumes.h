@@ -150,7 +150,7 @@ inline std::vector<std::pair<std::array<int, 3>, int>> turns(int rank) {
 }
 
 /// The volume seen along other axes: new axis a is old axis order[a], reversed when bit a of `mirror` is set.
-inline Grid turned(const Grid& grid, const std::array<int, 3>& order, int mirror) {
+inline Grid rotated(const Grid& grid, const std::array<int, 3>& order, int mirror) {
     Grid result{grid.rank, {grid.size[order[0]], grid.size[order[1]], grid.size[order[2]]}, {}};
     for (Index v = 0; v < grid.voxels(); ++v) {
         const std::array<Index, 3> p = result.voxel(v);

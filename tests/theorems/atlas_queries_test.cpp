@@ -225,14 +225,14 @@ RC_GTEST_FIXTURE_PROP(Stores, TellTogetherWhatTheyTellApart, ()) {
     const isoatlas::BranchHierarchy hierarchy(volume, analysis);
     for (const isoatlas::RankOptions& options : {isoatlas::RankOptions{.top = 3}, isoatlas::RankOptions{.top = 9, .gate = false}}) {
         const isoatlas::ObjectsAndCavities both = isoatlas::rank_both(volume, analysis, options);
-        RC_ASSERT(text(both.bright) == text(isoatlas::rank_objects(volume, analysis, options)));
-        RC_ASSERT(text(both.dark) == text(rank_cavities(volume, analysis, options)));
+        RC_ASSERT(text(both.objects) == text(isoatlas::rank_objects(volume, analysis, options)));
+        RC_ASSERT(text(both.cavities) == text(rank_cavities(volume, analysis, options)));
     }
     for (const std::string& path : {path_, bare}) {
         const Atlas atlas(path);
         const isoatlas::Overview found = isoatlas::overview_of(atlas, {});
-        RC_ASSERT(text(found.bright) == text(isoatlas::rank_objects(volume, analysis, {.top = 0})));
-        RC_ASSERT(text(found.dark) == text(rank_cavities(volume, analysis, {.top = 0})));
+        RC_ASSERT(text(found.objects) == text(isoatlas::rank_objects(volume, analysis, {.top = 0})));
+        RC_ASSERT(text(found.cavities) == text(rank_cavities(volume, analysis, {.top = 0})));
         RC_ASSERT(text(found.hierarchy, {}) == text(hierarchy, {}));
         RC_ASSERT(atlas.active(grid.value[0]).objects.size() == Atlas(path).active(grid.value[0]).objects.size());
     }

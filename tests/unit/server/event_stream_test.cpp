@@ -48,9 +48,9 @@ TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
     const auto stream = streams_.listen("me", {});
     EXPECT_TRUE(next(*stream)["questions"].empty());
     JobQueue& cards = queues_.of(QueueClass::cards);
-    const auto other = cards.take("you/card");
-    const auto slice = queues_.of(QueueClass::samples).take("me/slice");
-    std::thread asker([&] { EXPECT_THROW((void)cards.take("me/card"), Error); });
+    const auto other = cards.acquire("you/card");
+    const auto slice = queues_.of(QueueClass::samples).acquire("me/slice");
+    std::thread asker([&] { EXPECT_THROW((void)cards.acquire("me/card"), Error); });
     while (cards.waiting() < 1) std::this_thread::yield();
     nlohmann::json requests;
     while (requests.size() < 2) requests = next(*stream)["questions"];
@@ -67,7 +67,7 @@ TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
 
 TEST_F(EventStreamTest, TheLastStreamOfAClientTakesItsQuestionsAlong) {
     auto first = streams_.listen("me", {}), second = streams_.listen("me", {});
-    const auto job = queues_.of(QueueClass::trees).take("me/objects");
+    const auto job = queues_.of(QueueClass::trees).acquire("me/objects");
     first.reset();
     EXPECT_FALSE(job->is_cancelled());
     second.reset();

@@ -14,7 +14,7 @@ namespace {
 
 ErrorKind kind_of_refusal(JobQueue& queue, const std::string& client, const IsDisconnected& is_disconnected = {}) {
     try {
-        (void)queue.take(client, is_disconnected);
+        (void)queue.acquire(client, is_disconnected);
     } catch (const Error& error) {
         return error.kind();
     }
@@ -23,16 +23,16 @@ ErrorKind kind_of_refusal(JobQueue& queue, const std::string& client, const IsDi
 
 TEST(JobQueue, ANewerQuestionEndsAnOlderOne) {
     JobQueue queue(2, 10);
-    const auto first = queue.take("a");
+    const auto first = queue.acquire("a");
     EXPECT_FALSE(first->is_cancelled());
-    const auto second = queue.take("a");
+    const auto second = queue.acquire("a");
     EXPECT_TRUE(first->is_cancelled());
     EXPECT_FALSE(second->is_cancelled());
 }
 
 TEST(JobQueue, OthersAreNotEnded) {
     JobQueue queue(3, 10);
-    const auto a = queue.take("a"), b = queue.take("b"), nobody = queue.take("");
+    const auto a = queue.acquire("a"), b = queue.acquire("b"), nobody = queue.acquire("");
     EXPECT_FALSE(a->is_cancelled());
     EXPECT_FALSE(b->is_cancelled());
     EXPECT_FALSE(nobody->is_cancelled());
@@ -40,13 +40,13 @@ TEST(JobQueue, OthersAreNotEnded) {
 
 TEST(JobQueue, OneThatWaitsIsEnded) {
     JobQueue queue(1, 10);
-    auto holder = queue.take("a");
+    auto holder = queue.acquire("a");
     std::atomic<int> cancelled = 0, served = 0;
     std::vector<std::thread> askers;
     for (int i = 0; i < 4; ++i) {
         askers.emplace_back([&] {
             try {
-                const auto job = queue.take("b");
+                const auto job = queue.acquire("b");
                 ++served;
             } catch (const Error& error) {
                 cancelled += error.kind() == ErrorKind::cancelled;
@@ -66,7 +66,7 @@ TEST(JobQueue, NeverMoreAtOnceThanAllowed) {
     std::vector<std::thread> askers;
     for (int i = 0; i < 24; ++i) {
         askers.emplace_back([&] {
-            const auto job = queue.take("");
+            const auto job = queue.acquire("");
             const int now = ++running;
             for (int seen = max; now > seen && !max.compare_exchange_weak(seen, now);) {
             }
@@ -82,12 +82,12 @@ TEST(JobQueue, NeverMoreAtOnceThanAllowed) {
 
 TEST(JobQueue, ComeInTheOrderOfTheQuestions) {
     JobQueue queue(1, 100);
-    auto holder = queue.take("first");
+    auto holder = queue.acquire("first");
     std::vector<int> served;
     std::vector<std::thread> askers;
     for (int i = 0; i < 8; ++i) {
         askers.emplace_back([&queue, &served, i] {
-            const auto job = queue.take("client " + std::to_string(i));
+            const auto job = queue.acquire("client " + std::to_string(i));
             served.push_back(i);  // one at a time
         });
         while (queue.waiting() <= i) std::this_thread::yield();
@@ -99,7 +99,7 @@ TEST(JobQueue, ComeInTheOrderOfTheQuestions) {
 
 TEST(JobQueue, WhoHasLeftIsEnded) {
     JobQueue queue(1, 10);
-    auto holder = queue.take("a");
+    auto holder = queue.acquire("a");
     std::atomic<bool> gone = false;
     std::atomic<int> cancelled = 0;
     std::thread asker([&] { cancelled += kind_of_refusal(queue, "b", [&gone] { return gone.load(); }) == ErrorKind::cancelled; });
@@ -111,7 +111,7 @@ TEST(JobQueue, WhoHasLeftIsEnded) {
     const auto with_left = [&gone] { return gone.load(); };
     holder.reset();
     gone = false;
-    const auto job = queue.take("c", with_left);
+    const auto job = queue.acquire("c", with_left);
     EXPECT_FALSE(job->is_cancelled());
     gone = true;
     EXPECT_TRUE(job->is_cancelled());
@@ -119,7 +119,8 @@ TEST(JobQueue, WhoHasLeftIsEnded) {
 
 TEST(JobQueue, ALeavingClientEndsItsLanesAlone) {
     JobQueue queue(4, 10);
-    const auto a = queue.take("a/surface 1"), b = queue.take("a/file"), plain = queue.take("a"), other = queue.take("ab/surface 1");
+    const auto a = queue.acquire("a/surface 1"), b = queue.acquire("a/file"), plain = queue.acquire("a"),
+               other = queue.acquire("ab/surface 1");
     queue.leave("a");
     EXPECT_TRUE(a->is_cancelled());
     EXPECT_TRUE(b->is_cancelled());
@@ -129,14 +130,14 @@ TEST(JobQueue, ALeavingClientEndsItsLanesAlone) {
 
 TEST(JobQueue, ANewerQuestionKeepsThePlace) {
     JobQueue queue(1, 10);
-    auto holder = queue.take("holder");
+    auto holder = queue.acquire("holder");
     std::vector<std::string> served;
     std::atomic<int> ended = 0;
     std::vector<std::thread> askers;
     const auto ask = [&](const std::string& client, int waiting) {
         askers.emplace_back([&queue, &served, &ended, client] {
             try {
-                const auto job = queue.take(client);
+                const auto job = queue.acquire(client);
                 served.push_back(client);  // one at a time
             } catch (const Error&) {
                 ++ended;
@@ -158,7 +159,7 @@ TEST(JobQueue, ANewerQuestionKeepsThePlace) {
 TEST(JobQueue, TellWhatIsPending) {
     VersionCounter changes;
     JobQueue queue(1, 10, &changes);
-    const auto job = queue.take("a/one");
+    const auto job = queue.acquire("a/one");
     const std::uint64_t before = changes.count();
     job->report_progress(0.5);
     EXPECT_GT(changes.count(), before);
@@ -176,7 +177,7 @@ TEST(JobQueue, TooManyAreRefused) {
 
 TEST(JobQueue, TheEndIsTheEndOfAll) {
     JobQueue queue(2, 10);
-    const auto job = queue.take("a");
+    const auto job = queue.acquire("a");
     queue.end();
     EXPECT_TRUE(job->is_cancelled());
     EXPECT_EQ(kind_of_refusal(queue, "b"), ErrorKind::cancelled);

@@ -120,7 +120,7 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/surface", {{"tau", "nan"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"object", std::to_string(atlas_->info().extent.voxels())}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"object", "0"}}, 404},
-                                  {"/api/surface", {{"tau", "0.5"}, {"most", "0"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"max", "0"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"shell", "all"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"x", "1"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"object", "-1"}}, 400},
@@ -142,8 +142,8 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/card", {{"entry", "-1"}}, 400},
                                   {"/api/slice", {{"axis", "0"}}, 400},
                                   {"/api/slice", {{"axis", "0"}, {"index", "54"}}, 400},
-                                  {"/api/slice", {{"axis", "0"}, {"index", "0"}, {"most", "99999999999"}}, 400},
-                                  {"/api/volume", {{"most", "-1"}}, 400},
+                                  {"/api/slice", {{"axis", "0"}, {"index", "0"}, {"max", "99999999999"}}, 400},
+                                  {"/api/volume", {{"max", "-1"}}, 400},
                                   {"/api/at", {{"voxel", "0,0"}}, 400},
                                   {"/api/at", {{"voxel", "0,0,12"}}, 400},
                                   {"/api/at", {{"voxel", "0,0,0"}, {"object", "3@nan"}}, 400},
@@ -171,13 +171,13 @@ TEST_F(ServiceTest, SlicesAreSamples) {
             ASSERT_EQ(answer.bytes.compare(40 + width * (x + nx * z), width, sample, width), 0);
         }
     }
-    EXPECT_EQ(ask("/api/slice", {{"axis", "1"}, {"index", "5"}, {"most", std::to_string(nx * nz)}}).bytes, answer.bytes);
-    EXPECT_EQ(ask("/api/slice", {{"axis", "1"}, {"index", "5"}, {"most", std::to_string(nx * nz - 1)}}).bytes.size(),
+    EXPECT_EQ(ask("/api/slice", {{"axis", "1"}, {"index", "5"}, {"max", std::to_string(nx * nz)}}).bytes, answer.bytes);
+    EXPECT_EQ(ask("/api/slice", {{"axis", "1"}, {"index", "5"}, {"max", std::to_string(nx * nz - 1)}}).bytes.size(),
               40 + (nx + 1) / 2 * ((nz + 1) / 2) * width);
 }
 
 TEST_F(ServiceTest, VolumesAreMeansInABytePerValue) {
-    const Response answer = ask("/api/volume", {{"most", "2500"}});
+    const Response answer = ask("/api/volume", {{"max", "2500"}});
     const CoarseVolume coarse = atlas_->coarse(2500);
     ASSERT_EQ(answer.bytes.size(), 40 + coarse.mean.size());
     const auto [low, high] = atlas_->range();
@@ -219,8 +219,8 @@ TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
                                          "/api/transfer",
                                          "/api/../api/atlas",
                                          "//"};
-    const std::vector<std::string> names{"tau",  "object",      "most", "top", "entry", "branch", "keep",
-                                         "axis", "persistence", "",     "TAU", "index", "voxel",  "contour"};
+    const std::vector<std::string> names{"tau",  "object",      "max", "top", "entry", "branch", "keep",
+                                         "axis", "persistence", "",    "TAU", "index", "voxel",  "contour"};
     const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan",       "", "0", "1", "99999999999999999999",
                                           "1,2,3", "\xff\0x", "0.5;",  "7@0.5,9@-1"};
     for (int i = 0; i < 2000; ++i) {
