@@ -50,4 +50,5 @@
 #include "isoatlas/surface.h"
 #include "isoatlas/text.h"
 #include "isoatlas/verify.h"
+#include "isoatlas/version.h"
 #include "isoatlas/volume.h"

@@ -1,11 +1,17 @@
 // Internal access to an Atlas for the other files of this folder.
 #pragma once
 
-#include "bricks/stored_samples.h"
-#include "census/level_census.h"
-#include "isoatlas/atlas.h"
+#include <cstdint>
 
 namespace isoatlas {
+
+class Analysis;
+class Atlas;
+class Container;
+class StoredSamples;
+struct LevelCensus;
+struct LevelQuery;
+struct QueryCost;
 
 struct AtlasAccess {
     /// Loaded on first use.

@@ -14,6 +14,7 @@
 #include "base/lazy.h"
 #include "bricks/bricks_in_view.h"
 #include "bricks/stored_samples.h"
+#include "census/level_census.h"
 #include "codec/checksum.h"
 #include "critical/bodies.h"
 #include "levelset/cut_level.h"

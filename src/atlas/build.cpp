@@ -13,12 +13,14 @@
 #include "base/cancel.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "census/level_census.h"
 #include "codec/checksum.h"
 #include "field/gaussian.h"
 #include "field/volume_view.h"
 #include "formats/volume/load_samples.h"
 #include "isoatlas/error.h"
 #include "store/brick_writer.h"
+#include "store/container.h"
 #include "store/pack.h"
 
 namespace isoatlas {

@@ -4,6 +4,7 @@
 #include "base/check.h"
 #include "codec/checksum.h"
 #include "formats/volume/read_slabs.h"
+#include "isoatlas/atlas.h"
 #include "store/container.h"
 
 namespace isoatlas {

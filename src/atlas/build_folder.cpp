@@ -9,7 +9,9 @@
 #include "base/output_target.h"
 #include "base/temporary_name.h"
 #include "formats/common/file_access.h"
+#include "isoatlas/build.h"
 #include "isoatlas/error.h"
+#include "store/container.h"
 
 namespace isoatlas {
 namespace {

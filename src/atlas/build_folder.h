@@ -5,14 +5,17 @@
 // not touched, nor are foreign files in a marked one.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
 #include "base/file_system.h"
-#include "isoatlas/build.h"
-#include "store/container.h"
 
 namespace isoatlas {
+
+class Container;
+struct BuildState;
+struct Contents;
 
 class BuildFolder {
 public:

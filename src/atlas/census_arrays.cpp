@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "census/level_census.h"
+#include "store/container.h"
+#include "store/pack.h"
+
 namespace isoatlas {
 namespace {
 

@@ -8,11 +8,11 @@
 
 #include <vector>
 
-#include "census/level_census.h"
-#include "store/container.h"
-#include "store/pack.h"
-
 namespace isoatlas {
+
+class Container;
+struct LevelCensus;
+struct PackedArray;
 
 /// The census must live until the arrays are packed.
 [[nodiscard]] std::vector<PackedArray> census_arrays(const LevelCensus& census);

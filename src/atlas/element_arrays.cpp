@@ -14,6 +14,7 @@
 #include "critical/sort_codes.h"
 #include "field/order.h"
 #include "store/brick_reader.h"
+#include "store/pack.h"
 #include "store/typed_arrays.h"
 
 namespace isoatlas {

@@ -9,15 +9,19 @@
 // samples (decision 15).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/big_vector.h"
-#include "isoatlas/context.h"
-#include "isoatlas/volume.h"
-#include "store/container.h"
-#include "store/pack.h"
 
 namespace isoatlas {
+
+class Container;
+struct Context;
+struct PackedArray;
+struct VolumeInfo;
 
 /// values, codes: of all elements, descending; they must live until the arrays are packed. Id: of places. Cost: of noise a sort, 16 bytes
 /// an element while it runs and 8 until they are packed.

@@ -4,6 +4,8 @@
 #include <type_traits>
 
 #include "analysis/analysis_data.h"
+#include "store/container.h"
+#include "store/pack.h"
 
 namespace isoatlas {
 namespace {

@@ -8,15 +8,16 @@
 //   events/chi, contours, voxels  of the object just below the event: Euler characteristic, contours; voxels of the zone of the event
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "isoatlas/analysis.h"
-#include "store/container.h"
-#include "store/pack.h"
-
 namespace isoatlas {
+
+class Analysis;
+class Container;
+struct PackedArray;
 
 /// Events are stored of volumes with at most 2^22 critical elements, and at most one for three voxels: so the tree of a CT scan takes its
 /// share of 2 bytes a voxel, and noise takes none. Neither depends on the memory budget of the build.

@@ -4,6 +4,7 @@
 
 #include "atlas/access.h"
 #include "base/cancel.h"
+#include "bricks/stored_samples.h"
 #include "levelset/level_bricks.h"
 
 namespace isoatlas {

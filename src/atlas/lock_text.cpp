@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "isoatlas/build.h"
+
 namespace isoatlas {
 namespace {
 

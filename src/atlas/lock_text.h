@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "isoatlas/build.h"
-
 namespace isoatlas {
+
+struct BuildState;
 
 inline constexpr std::size_t kLockBytes = 512;  ///< sufficient to read
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "atlas/access.h"
+#include "bricks/stored_samples.h"
 #include "mesh/extract_level.h"
 
 namespace isoatlas {

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "isoatlas/cavities.h"
+#include "store/container.h"
+#include "store/pack.h"
+
 namespace isoatlas {
 namespace {
 

@@ -9,15 +9,16 @@
 //   isovalues/branch_top, cavity, tau, prominence, reason      int64, int64, float64, float64, uint8, per recommended isovalue
 #pragma once
 
-#include <functional>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
-#include "isoatlas/cavities.h"
-#include "isoatlas/objects.h"
-#include "store/container.h"
-#include "store/pack.h"
-
 namespace isoatlas {
+
+class Container;
+struct CavityTable;
+struct ObjectTable;
+struct PackedArray;
 
 /// The table is stored for at most this many critical elements: ranking needs all trees in memory, with random access. The bytes
 /// of a store must not depend on the memory budget of the build, so the limit is their number.

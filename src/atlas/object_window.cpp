@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bricks/stored_samples.h"
 #include "levelset/components.h"
 
 namespace isoatlas {

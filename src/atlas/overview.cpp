@@ -5,6 +5,9 @@
 #include "atlas/tree_arrays.h"
 #include "base/cancel.h"
 #include "features/rank.h"
+#include "field/volume_view.h"
+#include "isoatlas/atlas.h"
+#include "store/container.h"
 
 namespace isoatlas {
 namespace {

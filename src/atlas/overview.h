@@ -2,9 +2,13 @@
 // samples.
 #pragma once
 
-#include "isoatlas/atlas.h"
+#include "isoatlas/cavities.h"
+#include "isoatlas/objects.h"
+#include "isoatlas/simplify.h"
 
 namespace isoatlas {
+
+class Atlas;
 
 struct Overview {
     ObjectTable objects;  ///< all entries above the gate

@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "atlas/access.h"
+#include "bricks/stored_samples.h"
+#include "census/level_census.h"
+#include "isoatlas/atlas.h"
 
 namespace isoatlas {
 namespace {

@@ -2,6 +2,7 @@
 #include "atlas/access.h"
 #include "base/cancel.h"
 #include "bricks/brick_samples.h"
+#include "bricks/stored_samples.h"
 #include "codec/checksum.h"
 #include "formats/volume/read_slabs.h"
 #include "isoatlas/atlas.h"

@@ -10,6 +10,9 @@
 #include "atlas/tree_arrays.h"
 #include "features/hierarchy.h"
 #include "features/keep_entries.h"
+#include "field/volume_view.h"
+#include "isoatlas/atlas.h"
+#include "store/container.h"
 
 namespace isoatlas {
 namespace {

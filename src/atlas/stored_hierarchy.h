@@ -3,9 +3,13 @@
 
 #include <optional>
 
-#include "isoatlas/atlas.h"
-
 namespace isoatlas {
+
+class Atlas;
+class BranchHierarchy;
+struct Context;
+struct ObjectTable;
+struct Selection;
 
 /// Atlas::hierarchy(); nullopt when the store does not record which branches are significant. Cost: reads the trees; all samples, too,
 /// where it has no sums of zones, or the grid has uneven steps.

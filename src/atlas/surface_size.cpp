@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "isoatlas/surface.h"
 
 namespace isoatlas {
 namespace {

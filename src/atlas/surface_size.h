@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "isoatlas/context.h"
-#include "isoatlas/surface.h"
-
 namespace isoatlas {
+
+struct Context;
+struct Surface;
 
 /// Physical area of the surface, and the volume that it encloses (2D: length, area). The order of summation does not depend on threads.
 struct SurfaceSize {

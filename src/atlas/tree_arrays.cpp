@@ -7,6 +7,7 @@
 #include "analysis/analysis_data.h"
 #include "analysis/trees.h"
 #include "atlas/element_arrays.h"
+#include "store/pack.h"
 #include "store/typed_arrays.h"
 
 namespace isoatlas {

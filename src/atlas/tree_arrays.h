@@ -8,14 +8,17 @@
 // the engine needs them. Zones of voxels are not stored.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
-#include "field/volume_view.h"
-#include "isoatlas/analysis.h"
-#include "store/container.h"
-#include "store/pack.h"
-
 namespace isoatlas {
+
+class Analysis;
+class Container;
+struct Context;
+struct PackedArray;
+struct VolumeInfo;
+struct VolumeView;
 
 /// Of find_arcs(), and of count_voxels() (analysis/analyse.h). The analysis must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads);

@@ -5,12 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "features/hierarchy.h"
-#include "field/volume_view.h"
-#include "isoatlas/analysis.h"
+#include "features/zone_sums.h"
 #include "store/pack.h"
 
 namespace isoatlas {
+
+class Analysis;
+struct Context;
+struct VolumeView;
 
 struct ZonePhase {
     std::vector<PackedArray> arrays;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/sample_types.h"
+#include "levelset/high_bits.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>

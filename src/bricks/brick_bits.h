@@ -5,9 +5,10 @@
 #include <cstdint>
 
 #include "field/brick_grid.h"
-#include "levelset/high_bits.h"
 
 namespace isoatlas {
+
+class HighBits;
 
 inline constexpr std::int64_t kBrickRows = kBrickSize[1] * kBrickSize[2];
 

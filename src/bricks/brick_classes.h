@@ -6,6 +6,7 @@
 
 #include "bricks/brick_bits.h"
 #include "levelset/high_bits.h"
+#include "levelset/level_bricks.h"
 
 namespace isoatlas {
 

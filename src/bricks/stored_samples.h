@@ -12,9 +12,11 @@
 #include "bricks/brick_bits.h"
 #include "bricks/brick_cache.h"
 #include "levelset/tau_level.h"
-#include "store/brick_reader.h"
+#include "store/io_counters.h"
 
 namespace isoatlas {
+
+class Container;
 
 /// The classes of a store at one isovalue.
 struct StoredLevel {

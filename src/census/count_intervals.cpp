@@ -2,6 +2,11 @@
 
 #include <limits>
 
+#include "analysis/analysis_data.h"
+#include "isoatlas/error.h"
+#include "isoatlas/objects.h"
+#include "isoatlas/spectrum.h"
+
 namespace isoatlas {
 namespace {
 

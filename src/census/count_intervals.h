@@ -4,11 +4,14 @@
 
 #include <vector>
 
-#include "analysis/analysis_data.h"
-#include "isoatlas/objects.h"
-#include "isoatlas/spectrum.h"
-
 namespace isoatlas {
+
+class Analysis;
+struct ObjectEntry;
+struct ObjectTable;
+struct SpectrumInterval;
+template <class Id>
+struct AnalysisArrays;
 
 /// Per event: does its object belong to a branch of the table? Every branch counts once, regardless of its number of entries. Throws
 /// Error{input} when the table is not of these trees. Cost: O(events of these branches).

@@ -23,9 +23,13 @@
 #include <cstdint>
 #include <span>
 
-#include "analysis/object_tree.h"
+#include "features/zone_sums.h"
 
 namespace isoatlas {
+
+struct VolumeView;
+template <class Id>
+struct ObjectTree;
 
 /// Values are heights (analysis/object_tree.h).
 struct Branch {
@@ -49,12 +53,6 @@ struct BranchDecomposition {
     BigVector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
     BigVector<std::int64_t> highest;   ///< per event: event of the highest element of its object
     ObjectSums objects;
-    double lowest = 0;  ///< height of the lowest sample
-};
-
-/// Over the zone of each event.
-struct ZoneSums {
-    BigVector<double> height;
     double lowest = 0;  ///< height of the lowest sample
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "analysis/object_tree.h"
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
 #include "features/main_branch_isovalues.h"

@@ -7,6 +7,8 @@
 
 namespace isoatlas {
 
+struct CavityTable;
+
 template <class Id>
 struct CavityCandidates {
     SublevelTree<Id> sublevel;
@@ -24,5 +26,10 @@ struct CavityCandidates {
 template <class Id>
 [[nodiscard]] CavityCandidates<Id> make_cavity_candidates(const VolumeView& volume, const AnalysisArrays<Id>& arrays,
                                                           const NoiseModel& noise, const RankOptions& options, const Context& context);
+
+/// The table of given candidates. Cost: up to top queries at isovalues (isoatlas/active.h).
+template <class Id>
+[[nodiscard]] CavityTable cavity_table(const VolumeView& volume, const Analysis& analysis, const AnalysisArrays<Id>& arrays,
+                                       const CavityCandidates<Id>& side, const NoiseModel& noise, std::int64_t top);
 
 }  // namespace isoatlas

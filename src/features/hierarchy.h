@@ -23,9 +23,6 @@ struct BranchHierarchy::Data {
     [[nodiscard]] bool is_root(std::int64_t e) const { return parent[e] == e; }
 };
 
-/// analysis: with zones.
-[[nodiscard]] ZoneSums sum_zones(const VolumeView& volume, const Analysis& analysis);
-
 /// Of a grid with uniform steps. analysis: with voxel counts. tops: of the significant branches, ascending. Cost: O(events log events).
 [[nodiscard]] BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, const ZoneSums& zones,
                                            std::span<const std::int64_t> tops);

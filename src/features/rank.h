@@ -1,12 +1,12 @@
 // rank_objects(), rank_cavities() and rank_both() for samples that lie anywhere.
 #pragma once
 
-#include "features/cavity_candidates.h"
-#include "field/volume_view.h"
 #include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
+
+struct VolumeView;
 
 /// Cost: the sublevel tree (features/cavity_candidates.h), and four passes over samples and zones in order, one voxel after the other; 60
 /// bytes an event.
@@ -18,10 +18,5 @@ namespace isoatlas {
 
 [[nodiscard]] ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                            const Context& context);
-
-/// The table of given candidates. Cost: up to top queries at isovalues (isoatlas/active.h).
-template <class Id>
-[[nodiscard]] CavityTable cavity_table(const VolumeView& volume, const Analysis& analysis, const AnalysisArrays<Id>& arrays,
-                                       const CavityCandidates<Id>& side, const NoiseModel& noise, std::int64_t top);
 
 }  // namespace isoatlas

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/memory_limit.h"
+#include "features/cavity_candidates.h"
 #include "features/noise.h"
 #include "features/rank.h"
 #include "field/order.h"

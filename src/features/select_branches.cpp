@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/object_tree.h"
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
 

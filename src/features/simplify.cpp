@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "analysis/object_tree.h"
 #include "features/hierarchy.h"
 #include "features/noise.h"
 #include "features/select_branches.h"

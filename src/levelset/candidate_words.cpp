@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "levelset/level_bricks.h"
+
 namespace isoatlas {
 namespace {
 

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "levelset/level_bricks.h"
+#include "field/brick_grid.h"
 
 namespace isoatlas {
+
+struct LevelBricks;
 
 /// Some of the words of a row.
 struct WordSet {

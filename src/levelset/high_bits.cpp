@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "field/slab_work.h"
+#include "levelset/level_bricks.h"
 #include "levelset/threshold.h"
 
 namespace isoatlas {

@@ -5,6 +5,7 @@
 
 #include "formats/common/byte_writer.h"
 #include "isoatlas/shell_word.h"
+#include "isoatlas/version.h"
 #include "page/web_colour.h"
 
 namespace isoatlas {

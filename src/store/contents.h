@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "isoatlas/analysis.h"
+#include "isoatlas/interpolant.h"
 #include "isoatlas/volume.h"
 #include "store/fingerprint.h"
 

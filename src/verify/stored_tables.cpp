@@ -7,7 +7,9 @@
 #include "atlas/census_arrays.h"
 #include "atlas/tree_arrays.h"
 #include "atlas/zone_phase.h"
+#include "census/level_census.h"
 #include "store/brick_writer.h"
+#include "store/container.h"
 #include "verify/store_checks.h"
 
 namespace isoatlas {

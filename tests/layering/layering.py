@@ -25,7 +25,7 @@ LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for roo
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
-    "base": "array bounds context error output_file text",
+    "base": "array bounds context error output_file text version",
     "field": "filter interpolant isovalue samples_wanted shell volume",
     "tree": "criticality",
     "analysis": "active analysis",
@@ -185,6 +185,12 @@ def sources_of(root):
                 yield path
 
 
+def headers_in_cmake(root):
+    """library -> its public headers, from the CMakeLists.txt."""
+    text = (root / "CMakeLists.txt").read_text()
+    return {name: sorted(headers.split()) for name, headers in re.findall(r"^isoatlas_library\((\w+)[^)]*HEADERS([^)]*)\)", text, flags=re.M)}
+
+
 def libraries_in_cmake(root):
     """As LIBRARIES, from the CMakeLists.txt."""
     found = {}
@@ -220,6 +226,9 @@ def check(root):
         findings.append(f"tests/layering: PUBLIC names headers that are not there: {missing}")
     if libraries_in_cmake(root) != LIBRARIES:
         findings.append(f"CMakeLists.txt: the libraries are {libraries_in_cmake(root)}, this test knows {LIBRARIES}")
+    public = {library: sorted(name for name, room in OWNER.items() if LIBRARY_OF[room] == library) for library in LIBRARIES}
+    if headers_in_cmake(root) != public:
+        findings.append(f"CMakeLists.txt: the public headers are {headers_in_cmake(root)}, this test knows {public}")
     count = 0
     for path in sources_of(root):
         count += 1

@@ -16,6 +16,7 @@
 #include "oracle/difference.h"
 #include "oracle/stores.h"
 #include "store/brick_writer.h"
+#include "store/container.h"
 
 namespace oracle {
 namespace {

@@ -96,8 +96,7 @@ RC_GTEST_PROP(ExactHandles, DoNotDependOnHowTheVolumeLiesOrOnThreads, ()) {
     const Grid grid = *arbitrary_grid(4, 50);
     const Interpolant interpolant = *arbitrary_interpolant();
     const std::string expected = text(exact_pairs(grid, interpolant));
-    for (const auto& [order, mirror] : turns(grid.rank))
-        RC_ASSERT(text(exact_pairs(rotated(grid, order, mirror), interpolant)) == expected);
+    for (const auto& [order, mirror] : turns(grid.rank)) RC_ASSERT(text(exact_pairs(rotated(grid, order, mirror), interpolant)) == expected);
 }
 
 /// Pairs of one list that the other lacks; those of nearly no persistence do not count.

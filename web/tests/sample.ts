@@ -52,7 +52,7 @@ function counts(n: number): Counts {
 export function page(branches: Branch[], entries: Entry[]): Page {
   return {
     schema: "isoatlas/page/3",
-    version: "0.1.0",
+    version: "0.2.0",
     volume: {
       name: "scan",
       size: [10, 20, 30],

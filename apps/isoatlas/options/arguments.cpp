@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <isoatlas/version.h>
 #include <CLI/CLI.hpp>
 
 #include "options/options.h"

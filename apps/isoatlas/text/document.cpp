@@ -4,6 +4,8 @@
 #include <set>
 #include <vector>
 
+#include <isoatlas/version.h>
+
 #include "text/terminal.h"
 #include "text/values.h"
 

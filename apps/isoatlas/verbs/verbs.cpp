@@ -1,6 +1,7 @@
 #include "verbs/verbs.h"
 
 #include <fmt/format.h>
+#include <isoatlas/version.h>
 
 namespace isoatlas::cli {
 

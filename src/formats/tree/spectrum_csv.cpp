@@ -39,8 +39,8 @@ void put_advice(ByteWriter& out, const VolumeInfo& info, const Spectrum& spectru
 void write_spectrum_csv(AtomicFile& file, const VolumeInfo& info, const Spectrum& spectrum) {
     ByteWriter out(file);
     out.text(
-        "kind,tau_low,tau_high,objects,contours,tunnels,cavities,essential_objects,essential_contours,essential_tunnels,"
-        "essential_cavities,voxels_least,voxels_most,cells,facets,area,measure,object,reason,cavity\n");
+        "kind,tau_low,tau_high,objects,contours,tunnels,cavities,significant_objects,significant_contours,significant_tunnels,"
+        "significant_cavities,voxels_min,voxels_max,cells,facets,area,measure,object,reason,cavity\n");
     for (const SpectrumInterval& interval : spectrum.intervals) {
         out.text("interval");
         put_real(out, info.calibration.reported(interval.low));

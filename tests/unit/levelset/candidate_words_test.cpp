@@ -1,5 +1,6 @@
 // A word that is not busy holds no active cell, whatever the samples of divided bricks are; where bricks differ, words are busy.
 #include "levelset/candidate_words.h"
+#include "levelset/level_bricks.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -7,6 +7,7 @@
 
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
+#include "isoatlas/version.h"
 #include "unit/formats/common/external.h"
 #include "unit/formats/mesh/mesh_samples.h"
 
@@ -87,11 +88,11 @@ TEST_P(SaysInterpolant, glb_in_extras_of_every_node_and_of_the_asset) {
 TEST_P(SaysInterpolant, stl_in_its_80_bytes) {
     const auto header = [&] { return std::string(of_surface(".stl").substr(0, 80).c_str()); };
     const std::string height = trilinear() ? std::string(" tunnel_height ") + kReported : "";
-    EXPECT_EQ(header(), "isoatlas 0.1.0 tau 2 " + name() + height + " space unknown unit mm");
+    EXPECT_EQ(header(), "isoatlas " ISOATLAS_VERSION " tau 2 " + name() + height + " space unknown unit mm");
     surface_.reported_tau = -1.2345678901234567e-300;
     surface_.reported_tunnel_height = 9.8765432109876543e-300;
     surface_.space = "LPS";
-    EXPECT_EQ(header().rfind("isoatlas 0.1.0 tau -1.23456789", 0) == 0, !trilinear());
+    EXPECT_EQ(header().rfind("isoatlas " ISOATLAS_VERSION " tau -1.23456789", 0) == 0, !trilinear());
     expect_says(header(), " " + name() + " ", " tunnel_height 9.876543e-300 ");
 }
 

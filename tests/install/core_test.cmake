@@ -1,0 +1,30 @@
+# Run by CTest, as install_test.cmake: isoatlas::core alone, where no other package than oneTBB is found (only_tbb.cmake).
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+set(hidden -D CMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/only_tbb.cmake)
+
+run("configure the source tree" ${configure} ${hidden} -S ${SOURCE} -B ${WORK}/source -D ISOATLAS_LIBRARIES=core)
+refuse("configure all libraries" ${configure} ${hidden} -S ${SOURCE} -B ${WORK}/all)
+require("the refusal names a package and a way out" output MATCHES "isoatlas::formats needs ZLIB.*-DISOATLAS_LIBRARIES=core")
+
+foreach(component IN ITEMS core package)
+  run("install ${component}" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component ${component})
+endforeach()
+file(GLOB libraries RELATIVE ${prefix} ${prefix}/lib*/*.a ${prefix}/lib*/*/*.a)
+set(output "${libraries}")
+require("one library is installed" libraries MATCHES "^[^;]*libisoatlas_core.a$")
+run("configure the consumer" ${configure} ${hidden} -S ${CMAKE_CURRENT_LIST_DIR}/core -B ${WORK}/consumer)
+run("build the consumer" ${CMAKE_COMMAND} --build ${WORK}/consumer)
+run("the consumer" ${WORK}/consumer/core_consumer)
+require("the consumer found objects" output MATCHES "voxel [0-9]+: best at")
+find_program(LDD ldd)
+if(LDD)
+  run("ldd" ${LDD} ${WORK}/consumer/core_consumer)
+  require("oneTBB is linked" output MATCHES "libtbb")
+  require("nothing else is" NOT output MATCHES "hdf5|embree|webp|deflate|tiff|libz|pugixml|zstd|meshopt")
+endif()
+
+file(WRITE ${WORK}/other/CMakeLists.txt
+  "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nfind_package(isoatlas REQUIRED COMPONENTS store)\n")
+refuse("a component that is not installed" ${configure} ${hidden} -S ${WORK}/other -B ${WORK}/other/build)
+require("the refusal says why" output MATCHES "isoatlas::store needs")

@@ -1,0 +1,28 @@
+# run(NAME COMMAND...): the output of the command lands in `output`; a failure ends the test with it. refuse: the same for one that must fail.
+function(run name)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE errors WORKING_DIRECTORY ${WORK})
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${name} failed (${code})\n${text}\n${errors}")
+  endif()
+  set(output "${text}" PARENT_SCOPE)
+endfunction()
+
+function(refuse name)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE errors WORKING_DIRECTORY ${WORK})
+  if(code EQUAL 0)
+    message(FATAL_ERROR "${name}: not refused\n${text}")
+  endif()
+  string(REGEX REPLACE "[ \n]+" " " errors "${errors}")
+  set(output "${errors}" PARENT_SCOPE)
+endfunction()
+
+function(require condition_name)
+  if(NOT (${ARGN}))
+    message(FATAL_ERROR "${condition_name} does not hold\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+set(prefix ${WORK}/prefix)
+set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=Release)
