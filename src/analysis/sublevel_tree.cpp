@@ -7,6 +7,7 @@
 
 #include "analysis/trees.h"
 #include "base/bit_ranks.h"
+#include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
 #include "base/sample_types.h"
@@ -16,6 +17,7 @@
 #include "field/order.h"
 #include "field/slab_work.h"
 #include "tree/heavy_paths.h"
+#include "tree/predicates.h"
 #include "tree/split_tree.h"
 
 namespace isoatlas {
@@ -135,6 +137,7 @@ SublevelTree<Id> make_sublevel_tree(const GridView<T>& grid, const AnalysisArray
     for (std::size_t x = 0; x < n; ++x) height[n - x] = -arrays.value[x], memory.step();
     SublevelTree<Id> sublevel;
     sublevel.tree = sublevel_events(arrays, height, grid.extent.rank);
+    ISOATLAS_DCHECK(every_event_has_its_zone<Id>(sublevel.tree, height));
     sublevel.contours = count_contours(arrays.contours, sublevel.tree);
     sublevel.height.resize(sublevel.tree.size());
     for (std::size_t e = 0; e < sublevel.tree.size(); ++e) {

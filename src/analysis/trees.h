@@ -14,8 +14,8 @@ BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int thr
 template <class Id>
 void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, const Context& context);
 
-/// The same from value, code and contours.other, all else follows from them. Returns false when these are not a contour tree: a damaged
-/// store. Throws Error{cancelled}. Cost: O(n alpha).
+/// The same from value, code and contours.other, all else follows from them. Returns false when these are not the contour tree of a box: a
+/// damaged store. Throws Error{cancelled}. Cost: O(n alpha).
 template <class Id>
 [[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context);
 

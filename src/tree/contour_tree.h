@@ -41,8 +41,8 @@ struct ContourTree {
 template <class Id>
 ContourTree<Id> contour_tree(std::span<const Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
 
-/// Fills in degree and half_chi of a tree that has `other` only. Returns false when it is not a tree rooted at the last node, or a node has
-/// more arcs than an element can have. Cost: O(n).
+/// Fills in degree and half_chi of a tree that has `other` only. Returns false when it is not a tree rooted at the last node, a node has
+/// more arcs than an element can have, or not exactly one arc runs to the outside. Cost: O(n).
 template <class Id>
 [[nodiscard]] bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> delta_chi);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint8_t kMaxArcs = 2;  // above, and below
 
-/// Counts arcs above and below. Returns false when an id is out of range or an element has too many arcs.
+/// Counts arcs above and below. Returns false when an id is out of range, an element has too many arcs, or the outside not just one.
 template <class Id>
 bool count_arcs(ContourTree<Id>& tree) {
     const std::size_t nodes = tree.nodes();
@@ -25,7 +25,7 @@ bool count_arcs(ContourTree<Id>& tree) {
         below_upper = static_cast<std::uint8_t>(below_upper + 4);
         above_lower = static_cast<std::uint8_t>(above_lower + 1);
     }
-    return !tree.has_arc(nodes - 1);
+    return !tree.has_arc(nodes - 1) && (nodes == 1 || tree.above(nodes - 1) == 1);
 }
 
 }  // namespace

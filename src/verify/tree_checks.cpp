@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/union_find.h"
+#include "analysis/analysis_data.h"
+#include "analysis/trees.h"
+#include "tree/predicates.h"
+#include "tree/split_tree.h"
 #include "verify/checks.h"
 
 namespace isoatlas {
@@ -29,15 +32,20 @@ void check_children(const Analysis& analysis, const Event& event, Check& check) 
     if (event.objects_in != static_cast<std::int64_t>(event.children.size())) check.fail(event_name(event.id) + " miscounts its children");
 }
 
-void check_parent(const Analysis& analysis, const Event& event, Check& check) {
-    const bool last = event.id + 1 == analysis.event_count();
-    if (last != (event.parent == -1)) {
-        check.fail(event_name(event.id) + (last ? " is the last one but not a root" : " has no parent"));
-    } else if (!last && (event.parent <= event.id || event.parent >= analysis.event_count())) {
-        check.fail(event_name(event.id) + " has the impossible parent " + std::to_string(event.parent));
-    } else if (!last && !(analysis.event(event.parent).value < event.value)) {
-        check.fail(event_name(event.id) + " is not above its parent");
-    }
+/// What a predicate of trees (tree/predicates.h) finds in the arrays of an analysis.
+template <class Predicate>
+void check_arrays(const Analysis& analysis, Check& check, const Predicate& predicate) {
+    const Verdict verdict = analysis.data().visit([&](const auto& held) { return predicate(held.arrays); });
+    if (!verdict) check.fail(verdict.violation());
+}
+
+template <class Id>
+Verdict is_contour_tree_with_levels(const AnalysisArrays<Id>& arrays) {
+    if (Verdict verdict = is_contour_tree(arrays.contours); !verdict) return verdict;
+    const BigVector<Id> join = join_tree_of(arrays.contours);
+    const SplitTree<Id> split = split_tree_of(arrays.contours);
+    if (Verdict verdict = every_arc_has_one_contour<Id>(arrays.contours, join, split.parent); !verdict) return verdict;
+    return every_level_has_one_value<Id>(arrays.contours, arrays.level, arrays.value);
 }
 
 /// Euler number of closed surfaces of these genera; the High set below has half of it (no contribution of curves in 2D).
@@ -52,14 +60,15 @@ std::int64_t surface_chi(const std::vector<std::int64_t>& genera) {
 CheckResult join_tree_is_valid(const Analysis& analysis) {
     Check check("join_tree_is_valid");
     const std::int64_t count = analysis.event_count();
-    if (count == 0) check.fail("there are no events");
+    check_arrays(analysis, check,
+                 []<class Id>(const AnalysisArrays<Id>& arrays) { return every_event_has_its_zone<Id>(arrays.tree, arrays.value); });
+    if (!check.holds()) return check.result(std::to_string(count) + " events");
     std::int64_t children = 0;
     for (std::int64_t id = 0; id < count; ++id) {
         const Event event = analysis.event(id);
         if (event.id != id) check.fail(event_name(id) + " has the id " + std::to_string(event.id));
         children += event.objects_in;
         check_children(analysis, event, check);
-        check_parent(analysis, event, check);
         const double low = event.parent < 0 ? -INFINITY : analysis.event(event.parent).value;
         if (event.zone.tau_high != event.value || event.zone.tau_low != low)
             check.fail("the zone of " + event_name(id) + " is not between it and its parent");
@@ -100,6 +109,9 @@ CheckResult zones_partition_voxels(const Analysis& analysis, const Volume& volum
 CheckResult euler_sums_hold(const Analysis& analysis) {
     Check check("euler_sums_hold");
     const bool flat = analysis.extent().rank == 2;
+    if (!flat) {
+        check_arrays(analysis, check, [](const auto& arrays) { return euler_numbers_add_up(arrays.contours, delta_chis(arrays.code, 3)); });
+    }
     analysis.visit_object_contours([&](std::int64_t id, std::span<const GenusCount> genera) {
         const Event event = analysis.event(id);
         std::int64_t chi = event.delta_chi, voxels = event.zone.voxels, contours = 0, genus = 0;
@@ -129,7 +141,8 @@ CheckResult euler_sums_hold(const Analysis& analysis) {
 CheckResult contour_tree_is_a_tree(const Analysis& analysis) {
     Check check("contour_tree_is_a_tree");
     const std::int64_t elements = analysis.element_count(), arcs = analysis.contour_arc_count();
-    UnionFind<std::int64_t> joined(static_cast<std::size_t>(elements) + 1);
+    check_arrays(analysis, check, [](const auto& arrays) { return is_contour_tree_with_levels(arrays); });
+    if (!check.holds()) return check.result(std::to_string(arcs) + " arcs");
     std::int64_t to_outside = 0;
     for (std::int64_t id = 0; id < arcs; ++id) {
         const ContourArc arc = analysis.contour_arc(id);
@@ -144,8 +157,6 @@ CheckResult contour_tree_is_a_tree(const Analysis& analysis) {
             check.fail(name + " has other values than its ends");
         if (!(arc.value_low < arc.value_high)) check.fail(name + " has no length");
         if (arc.genus < 0) check.fail(name + " has a negative genus");
-        if (joined.find(arc.upper) == joined.find(arc.lower)) check.fail(name + " closes a cycle");
-        joined.join(arc.upper, arc.lower);
     }
     if (to_outside != 1) check.fail(std::to_string(to_outside) + " arcs run to the outside");
     return check.result(std::to_string(arcs) + " arcs");

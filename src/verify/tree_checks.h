@@ -1,4 +1,5 @@
-// Checks of an analysis against itself: what must hold for any volume, whatever its values. Each costs O(what it looks at).
+// Checks of an analysis against itself: what must hold for any volume, whatever its values. Each costs O(what it looks at). Of the arrays
+// the predicates of tree/predicates.h, of the accessors that they say the same.
 #pragma once
 
 #include "isoatlas/analysis.h"

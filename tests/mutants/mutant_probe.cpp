@@ -20,6 +20,7 @@
 #include "oracle/finer.h"
 #include "oracle/volumes.h"
 #include "server/request_head.h"
+#include "tree/predicates.h"
 
 namespace {
 
@@ -150,6 +151,21 @@ void check_requests() {
     std::exit(1);
 }
 
+/// The predicates that verify relies on find damaged trees.
+void check_predicates() {
+    using Ids = isoatlas::BigVector<std::uint32_t>;
+    isoatlas::ContourTree<std::uint32_t> contours;  // 0 - 1 - outside, and a cycle of 2 and 3
+    contours.other = Ids{1, 4, 3, 2, 4};
+    contours.degree = isoatlas::BigVector<std::uint8_t>{0 | 1 << 2, 1 | 1 << 2, 0 | 2 << 2, 2 | 0 << 2, 1 | 0 << 2};
+    isoatlas::CriticalityTree<std::uint32_t> events;  // event 0 is not above its parent
+    events.event_of_element = events.top = Ids{0, 1};
+    events.parent = Ids{1, 1};
+    const std::vector<double> values{5, 5};
+    if (!isoatlas::is_contour_tree(contours) && !isoatlas::every_event_has_its_zone<std::uint32_t>(events, values)) return;
+    std::puts("a damaged tree passes for a tree");
+    std::exit(1);
+}
+
 /// A build is another one with another distance of samples.
 void check_fingerprints() {
     isoatlas::VolumeInfo near, far;
@@ -165,6 +181,7 @@ int main() try {
     check_outputs();
     check_requests();
     check_fingerprints();
+    check_predicates();
     if (const std::string promise = mutants::broken_promise_of_readers(); !promise.empty()) {
         std::printf("does not hold: %s\n", promise.c_str());
         return 1;

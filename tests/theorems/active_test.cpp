@@ -56,7 +56,7 @@ void check_order(const ActiveObjects& active) {
     RC_ASSERT(next == active.contour_count);
 }
 
-RC_GTEST_PROP(ActiveObjectsOfTheTrees, AreThoseOfTheCut, ()) {
+void active_objects_of_the_trees_are_those_of_the_cut() {
     const Grid grid = *arbitrary_grid(7, 216);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const double height = *rc::gen::element(0.0, 0.0, 1.0);
@@ -99,7 +99,7 @@ std::map<Index, std::vector<Index>> groups_of(const Cut& upper, const Cut& lower
     return groups;
 }
 
-RC_GTEST_PROP(ActiveObjectsOfTheTrees, TellWhatChangesBetweenTwoIsovalues, ()) {
+void active_objects_show_what_changes_between_two_isovalues() {
     const Grid grid = *arbitrary_grid(6, 150);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const isoatlas::Volume volume = to_volume(grid);
@@ -131,7 +131,7 @@ RC_GTEST_PROP(ActiveObjectsOfTheTrees, TellWhatChangesBetweenTwoIsovalues, ()) {
 }
 
 // Going down from above everything meets the value of every event once, going up meets them in the other order.
-RC_GTEST_PROP(ActiveObjectsOfTheTrees, WalkFromEventToEvent, ()) {
+void active_objects_of_the_trees_walk_from_event_to_event() {
     const Grid grid = *arbitrary_grid(6, 120);
     const isoatlas::Analysis analysis = isoatlas::analyse(to_volume(grid));
     const ActiveIndex index(analysis);
@@ -149,6 +149,10 @@ RC_GTEST_PROP(ActiveObjectsOfTheTrees, WalkFromEventToEvent, ()) {
     while (const auto next = index.event_above(tau)) up.push_back(tau = *next);
     RC_ASSERT(up == std::vector<double>(expected.rbegin(), expected.rend()));
 }
+
+RC_GTEST_PROP(ActiveObjectsOfTheTrees, AreThoseOfTheCut, ()) { active_objects_of_the_trees_are_those_of_the_cut(); }
+RC_GTEST_PROP(ActiveObjectsOfTheTrees, ShowWhatChangesBetweenTwoIsovalues, ()) { active_objects_show_what_changes_between_two_isovalues(); }
+RC_GTEST_PROP(ActiveObjectsOfTheTrees, WalkFromEventToEvent, ()) { active_objects_of_the_trees_walk_from_event_to_event(); }
 
 }  // namespace
 }  // namespace oracle

@@ -93,7 +93,7 @@ isoatlas::Context one_thread() {
 void throw_dice() { isoatlas::seed_of_dice = *rc::gen::arbitrary<std::uint64_t>(); }
 
 // At every cut: T1, T2, and what elements, levels, events, zones and arcs say.
-RC_GTEST_PROP(AnyBodies, TreesEqualTheOracle, ()) {
+void any_bodies_trees_equal_the_oracle() {
     throw_dice();
     const Grid grid = *arbitrary_grid(6, 80);
     const Result expected = analyse(elements_of(grid, Interpolant::trilinear));
@@ -102,7 +102,7 @@ RC_GTEST_PROP(AnyBodies, TreesEqualTheOracle, ()) {
     RC_ASSERT(difference == "");
 }
 
-RC_GTEST_PROP(AnyBodies, CutsEqualTheOracle, ()) {
+void any_bodies_cuts_equal_the_oracle() {
     throw_dice();
     const Grid grid = *arbitrary_grid(4, 36);
     const Elements elements = elements_of(grid, Interpolant::trilinear);
@@ -114,7 +114,7 @@ RC_GTEST_PROP(AnyBodies, CutsEqualTheOracle, ()) {
     }
 }
 
-RC_GTEST_PROP(AnyBodies, TreeCutAndMeshAgree, ()) {
+void any_bodies_tree_cut_and_mesh_agree() {
     throw_dice();
     const isoatlas::Volume volume = to_volume(*arbitrary_grid(6, 100));
     for (const isoatlas::CheckResult& check :
@@ -130,6 +130,10 @@ TEST(AnyBodies, WereThrownAndDifferFromThoseOfTheInterpolant) {  // else this pr
     EXPECT_GT(isoatlas::bodies_thrown, 200);
     EXPECT_GT(isoatlas::bodies_moved, 100);
 }
+
+RC_GTEST_PROP(AnyBodies, TreesEqualTheOracle, ()) { any_bodies_trees_equal_the_oracle(); }
+RC_GTEST_PROP(AnyBodies, CutsEqualTheOracle, ()) { any_bodies_cuts_equal_the_oracle(); }
+RC_GTEST_PROP(AnyBodies, TreeCutAndMeshAgree, ()) { any_bodies_tree_cut_and_mesh_agree(); }
 
 }  // namespace
 }  // namespace oracle

@@ -95,7 +95,7 @@ void check_histogram(const Atlas& atlas, const Grid& grid) {
     RC_ASSERT_THROWS_AS((void)atlas.histogram(std::vector<double>{2, 1}), isoatlas::Error);
 }
 
-RC_GTEST_FIXTURE_PROP(Stores, ForeseeWhatAQueryFindsAndCosts, ()) {
+RC_GTEST_FIXTURE_PROP(Stores, EstimateWhatAQueryFindsAndCosts, ()) {
     const Grid grid = arbitrary_volume();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant()};
@@ -195,7 +195,7 @@ RC_GTEST_FIXTURE_PROP(Stores, SelectAsVolumesDo, ()) {
     }
 }
 
-RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfDarkObjects, ()) {
+RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfCavities, ()) {
     const Grid grid = arbitrary_volume();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     isoatlas::build_atlas(path_, volume);
@@ -215,7 +215,7 @@ void leave_tables_out(const std::string& from, const Volume& volume, const std::
     isoatlas::pack_store(to, store.contents(), arrays);
 }
 
-RC_GTEST_FIXTURE_PROP(Stores, TellTogetherWhatTheyTellApart, ()) {
+RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTablesTogetherAsApart, ()) {
     const Grid grid = arbitrary_volume();
     Volume volume = to_volume(grid, arbitrary_type(grid));
     volume.info.geometry = arbitrary_geometry(grid);
@@ -255,7 +255,7 @@ RC_GTEST_FIXTURE_PROP(Stores, HoldTheTableOfObjects, ()) {
     RC_ASSERT(text(atlas.objects(all)) == text(isoatlas::rank_objects(volume, analysis, all)));
 }
 
-TEST_F(Stores, TellTheObjectsFromTheTreesAlone) {
+TEST_F(Stores, FindTheObjectsFromTheTreesAlone) {
     const Volume volume = isoatlas::make_phantom("random-field", {.size = 40, .noise = 0.1, .quantise = 64});
     isoatlas::build_atlas(path_, volume);
     const Atlas atlas(path_);

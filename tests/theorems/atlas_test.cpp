@@ -143,7 +143,7 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {
     }
 }
 
-TEST_F(Stores, AnswerManyAtOnce) {
+TEST_F(Stores, AnswerManyQueriesAtOnce) {
     const Volume volume = isoatlas::make_phantom("random-field", {.size = 64, .noise = 0.1, .quantise = 64});
     isoatlas::build_atlas(path_, volume);
     std::vector<Surface> expected;
@@ -221,7 +221,7 @@ RC_GTEST_FIXTURE_PROP(Stores, ReadTheBricksNearTheSurfaceOnce, ()) {
     }
 }
 
-TEST_F(Stores, TheSameVolumeGivesTheSameBytes) {
+TEST_F(Stores, OfTheSameVolumeHaveTheSameBytes) {
     const Volume volume = isoatlas::make_phantom("noise", {.size = 40});
     std::string first;
     for (const int threads : {1, 2, 3}) {

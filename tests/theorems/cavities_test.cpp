@@ -50,7 +50,7 @@ Cavities cavities_at(const Elements& elements, double tau) {
     return cavities;
 }
 
-RC_GTEST_PROP(DarkObjects, AreLabelledAsLowComponents, ()) {
+void cavities_are_labelled_as_low_components() {
     const Grid grid = *arbitrary_grid(6, 120);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
@@ -101,7 +101,7 @@ std::multiset<std::pair<double, double>> lives_of(const Elements& elements) {
     return lives;
 }
 
-RC_GTEST_PROP(DarkObjects, LiveAsLongAsBruteForceSays, ()) {
+void cavities_live_as_long_as_brute_force_says() {
     Grid grid = *arbitrary_grid(6, 100);
     for (double& v : grid.value) v = std::floor(v);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
@@ -131,7 +131,7 @@ void check_isovalues(const CavityTable& table, const CavityEntry& entry, const E
     }
 }
 
-RC_GTEST_PROP(DarkObjects, AreWhatTheirBestIsovalueShows, ()) {
+void cavities_are_what_their_best_isovalue_shows() {
     const Grid grid = *arbitrary_grid(6, 100);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     Volume volume = to_volume(grid, arbitrary_type(grid));
@@ -173,7 +173,7 @@ RC_GTEST_PROP(DarkObjects, AreWhatTheirBestIsovalueShows, ()) {
 }
 
 // A hollow with a darker core is shown at two isovalues: one for the wall of each.
-TEST(DarkObjects, WithTwoBoundariesHaveTwoIsovalues) {
+TEST(Cavities, WithTwoBoundariesHaveTwoIsovalues) {
     constexpr Index n = 33;
     std::vector<float> samples;
     for (Index v = 0; v < n * n * n; ++v) {
@@ -192,6 +192,10 @@ TEST(DarkObjects, WithTwoBoundariesHaveTwoIsovalues) {
     EXPECT_TRUE(has(15, 45));
     EXPECT_TRUE(has(55, 95));
 }
+
+RC_GTEST_PROP(Cavities, AreLabelledAsLowComponents, ()) { cavities_are_labelled_as_low_components(); }
+RC_GTEST_PROP(Cavities, LiveAsLongAsBruteForceSays, ()) { cavities_live_as_long_as_brute_force_says(); }
+RC_GTEST_PROP(Cavities, AreWhatTheirBestIsovalueShows, ()) { cavities_are_what_their_best_isovalue_shows(); }
 
 }  // namespace
 }  // namespace oracle

@@ -9,7 +9,7 @@
 namespace oracle {
 namespace {
 
-RC_GTEST_PROP(Cut, EqualsTheOracle, ()) {
+void cut_equals_the_oracle() {
     const Grid grid = *arbitrary_grid();
     const isoatlas::CutOptions options{.interpolant = *arbitrary_interpolant(), .label = true};
     const Elements elements = elements_of(grid, options.interpolant);
@@ -19,7 +19,7 @@ RC_GTEST_PROP(Cut, EqualsTheOracle, ()) {
     RC_ASSERT(difference == "");
 }
 
-RC_GTEST_PROP(Cut, EqualsTheOracleAtEveryValue, ()) {
+void cut_equals_the_oracle_at_every_value() {
     const Grid grid = *arbitrary_grid(4, 24);
     const isoatlas::CutOptions options{.interpolant = *arbitrary_interpolant(), .label = true};
     const Elements elements = elements_of(grid, options.interpolant);
@@ -33,7 +33,7 @@ RC_GTEST_PROP(Cut, EqualsTheOracleAtEveryValue, ()) {
 }
 
 // Rows longer than a word of bits.
-RC_GTEST_PROP(Cut, EqualsTheOracleOnLongRows, ()) {
+void cut_equals_the_oracle_on_long_rows() {
     const Index n = *rc::gen::inRange<Index>(60, 135);
     std::vector<int> raw =
         *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(6 * n), rc::gen::resize(100, rc::gen::inRange(0, 10000)));
@@ -46,6 +46,10 @@ RC_GTEST_PROP(Cut, EqualsTheOracleOnLongRows, ()) {
     const std::string difference = compare_cut(elements, tau, isoatlas::cut(to_volume(grid), tau, options, arbitrary_context()));
     RC_ASSERT(difference == "");
 }
+
+RC_GTEST_PROP(Cut, EqualsTheOracle, ()) { cut_equals_the_oracle(); }
+RC_GTEST_PROP(Cut, EqualsTheOracleAtEveryValue, ()) { cut_equals_the_oracle_at_every_value(); }
+RC_GTEST_PROP(Cut, EqualsTheOracleOnLongRows, ()) { cut_equals_the_oracle_on_long_rows(); }
 
 }  // namespace
 }  // namespace oracle

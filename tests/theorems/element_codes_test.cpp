@@ -36,13 +36,13 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
     RC_ASSERT(std::ranges::equal(shuffled, codes) && std::ranges::equal(found, values));
 }
 
-RC_GTEST_PROP(ElementCodes, SayTheirValues, ()) {
+void element_codes_give_their_values() {
     const auto interpolant = *arbitrary_interpolant();
     const double height = interpolant == isoatlas::Interpolant::trilinear ? *rc::gen::element(0.0, 0.5, 3.0) : 0;
     check(*arbitrary_grid(7, 200), interpolant, isoatlas::ValueType::f64, height);
 }
 
-RC_GTEST_PROP(ElementCodes, OfIntegersSayTheirValues, ()) {
+void element_codes_of_integers_give_their_values() {
     Grid grid = *arbitrary_grid(7, 200);
     for (double& value : grid.value) value = std::round(value / 4) - 20;
     const auto type = *rc::gen::element(isoatlas::ValueType::i8, isoatlas::ValueType::i16, isoatlas::ValueType::f32);
@@ -50,7 +50,7 @@ RC_GTEST_PROP(ElementCodes, OfIntegersSayTheirValues, ()) {
 }
 
 /// Of whatever code or numbers: no element outside the volume is looked up.
-RC_GTEST_PROP(ElementCodes, OfNoElementHaveNoValue, ()) {
+void element_codes_of_no_element_have_no_value() {
     const isoatlas::Volume volume = to_volume(*arbitrary_grid(4, 60));
     const auto place = *rc::gen::inRange<std::int64_t>(0, volume.info.extent.voxels());
     const auto form = *rc::gen::arbitrary<std::uint16_t>();
@@ -60,6 +60,10 @@ RC_GTEST_PROP(ElementCodes, OfNoElementHaveNoValue, ()) {
     const auto [low, high] = std::ranges::minmax(volume.samples<double>());
     RC_ASSERT(std::isnan(value) || (value >= low && value <= high));
 }
+
+RC_GTEST_PROP(ElementCodes, GiveTheirValues, ()) { element_codes_give_their_values(); }
+RC_GTEST_PROP(ElementCodes, OfIntegersGiveTheirValues, ()) { element_codes_of_integers_give_their_values(); }
+RC_GTEST_PROP(ElementCodes, OfNoElementHaveNoValue, ()) { element_codes_of_no_element_have_no_value(); }
 
 }  // namespace
 }  // namespace oracle

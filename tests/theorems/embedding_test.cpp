@@ -56,7 +56,7 @@ double some_sample(const Volume& volume, std::mt19937_64& random) {
 const std::vector<Placement> kTwoPlacements{Placement::voxel, Placement::oblique};
 const std::vector<Placement> kAllPlacements{Placement::voxel, Placement::spaced, Placement::oblique};
 
-TEST(Embedding, WhiteNoise) {
+TEST(Surfaces, OfWhiteNoiseAreEmbedded) {
     repeat("white noise", [](std::mt19937_64& random, EmbeddingTally& tally) {
         for (const std::int64_t side : {10, 13, 16}) {
             const Volume noise = cube(side, [&](bool) { return uniform(random); });
@@ -67,7 +67,7 @@ TEST(Embedding, WhiteNoise) {
     });
 }
 
-TEST(Embedding, Checkerboards) {
+TEST(Surfaces, OfCheckerboardsAreEmbedded) {
     repeat("checkerboards", [](std::mt19937_64& random, EmbeddingTally& tally) {
         const Volume plain = cube(10, [](bool odd) { return odd; });
         EXPECT_EQ(embedding_fault(plain, {1, 0.5, 1e-4}, kAllPlacements, tally), "");
@@ -81,7 +81,7 @@ TEST(Embedding, Checkerboards) {
     });
 }
 
-TEST(Embedding, SmallIntegers) {
+TEST(Surfaces, OfSmallIntegersAreEmbedded) {
     repeat("small integers", [](std::mt19937_64& random, EmbeddingTally& tally) {
         const Volume four = cube(12, [&](bool) { return std::floor(4 * uniform(random)); });
         EXPECT_EQ(embedding_fault(four, {1, 2, 3, 1.5}, kTwoPlacements, tally), "");
@@ -91,7 +91,7 @@ TEST(Embedding, SmallIntegers) {
 }
 
 // Most hits lie close to voxels: long, thin triangles, and sheets close to each other.
-TEST(Embedding, HeavyTails) {
+TEST(Surfaces, OfHeavyTailsAreEmbedded) {
     repeat("heavy tails", [](std::mt19937_64& random, EmbeddingTally& tally) {
         const Volume wide = cube(10, [&](bool) { return std::exp(40 * (uniform(random) - 0.5)); });
         EXPECT_EQ(embedding_fault(wide, {1, 1.01}, kTwoPlacements, tally), "");
@@ -124,7 +124,7 @@ Volume around(const TunnelSample& tunnel, bool alone, std::mt19937_64& random) {
     return isoatlas::make_volume<double>(extent, samples);
 }
 
-TEST(Embedding, TunnelsOfEveryShapeAtEveryStage) {
+TEST(Surfaces, OfTunnelsOfEveryShapeAreEmbeddedAtEveryStage) {
     repeat("tunnels", [](std::mt19937_64& random, EmbeddingTally& tally) {
         for (int trial = 0; trial < 12 * 25; ++trial) {
             const int shape = trial % 6;
@@ -138,7 +138,7 @@ TEST(Embedding, TunnelsOfEveryShapeAtEveryStage) {
 }
 
 // Else the tests above would prove nothing.
-TEST(Embedding, BrokenSurfacesAreFound) {
+TEST(Surfaces, ThatAreBrokenAreFound) {
     std::mt19937_64 random(kSeed);
     isoatlas::Surface surface = isoatlas::extract(cube(6, [&](bool) { return uniform(random); }), 0.5);
     ASSERT_TRUE(find_crossings(surface.points, surface.triangles).none());

@@ -38,39 +38,39 @@ isoatlas::Context odd_context() {
         RC_ASSERT(difference == "");         \
     } while (false)
 
-RC_GTEST_PROP(Engine, Elements, ()) {
+void engine_finds_the_elements_of_the_oracle() {
     const Both both(*arbitrary_grid(), odd_context());
     EXPECT_SAME(compare_elements(both.expected, both.actual));
 }
 
-RC_GTEST_PROP(Engine, ContourArcsAndGenus, ()) {
+void engine_finds_the_contour_arcs_and_genera_of_the_oracle() {
     const Both both(*arbitrary_grid(), odd_context());
     EXPECT_SAME(compare_arcs(both.expected, both.actual));
 }
 
-RC_GTEST_PROP(Engine, Levels, ()) {
+void engine_finds_the_levels_of_the_oracle() {
     const Both both(*arbitrary_grid());
     EXPECT_SAME(compare_levels(both.expected, both.actual));
 }
 
 // Value, position, kind, parent, children, lows, chi, b1, b2, contour genera, zone interval and voxels of every event.
-RC_GTEST_PROP(Engine, Events, ()) {
+void engine_finds_the_events_of_the_oracle() {
     const Both both(*arbitrary_grid());
     EXPECT_SAME(compare_events(both.expected, both.actual));
 }
 
-RC_GTEST_PROP(Engine, ZoneOfEveryVoxel, ()) {
+void engine_finds_the_zone_of_every_voxel() {
     const Both both(*arbitrary_grid(), odd_context());
     EXPECT_SAME(compare_zones(both.expected, both.actual));
 }
 
-RC_GTEST_PROP(Engine, EverythingOnLargerVolumes, ()) {
+void engine_finds_everything_in_larger_volumes() {
     if (*rc::gen::inRange(0, 5) != 0) return;  // a fifth of the trials: each costs as much as ten small ones
     const Both both(*arbitrary_grid(7, 343), odd_context());
     EXPECT_SAME(compare(both.expected, both.actual));
 }
 
-RC_GTEST_PROP(Engine, EventTreeWithoutTiesIsTheFloodingTree, ()) {
+void engine_finds_the_flooding_tree_without_ties() {
     const Both both(without_ties(*arbitrary_grid()));
     if (has_ties(both.elements)) return;
     const Flooding flooding = flood(both.elements, both.expected.critical);
@@ -79,7 +79,7 @@ RC_GTEST_PROP(Engine, EventTreeWithoutTiesIsTheFloodingTree, ()) {
     for (Index v = 0; v < both.elements.grid.voxels(); ++v) RC_ASSERT(both.actual.zone(v) == flooding.label[v]);
 }
 
-RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
+void engine_finds_the_same_in_mirrored_and_transposed_volumes() {
     const Grid grid = *arbitrary_grid(7, 120);
     isoatlas::Context context;
     context.threads = 1;
@@ -91,7 +91,7 @@ RC_GTEST_PROP(Engine, LevelsAndEventsOfMirroredAndTransposedVolumes, ()) {
     }
 }
 
-TEST(Engine, NegativeZeroIsZero) {
+TEST(Engine, TakesNegativeZeroForZero) {
     for (const isoatlas::Interpolant interpolant : {isoatlas::Interpolant::faces, isoatlas::Interpolant::trilinear}) {
         const Grid grid{3, {3, 3, 2}, {-0.0, 0.0, -1, 1, -0.0, 1, 0.0, -1, -0.0, 1, -0.0, 0.0, -0.0, 1, -1, -0.0, 1, 0.0}};
         const isoatlas::Analysis analysis = isoatlas::analyse(to_volume(grid), {.interpolant = interpolant});
@@ -105,7 +105,7 @@ TEST(Engine, NegativeZeroIsZero) {
     }
 }
 
-RC_GTEST_PROP(Engine, WithoutZonesTheTreesAreTheSame, ()) {
+void engine_finds_the_same_trees_without_zones() {
     const Grid grid = *arbitrary_grid();
     const isoatlas::AnalysisOptions options{.interpolant = *arbitrary_interpolant(), .zones = false};
     const isoatlas::Analysis bare = isoatlas::analyse(to_volume(grid), options);
@@ -115,6 +115,16 @@ RC_GTEST_PROP(Engine, WithoutZonesTheTreesAreTheSame, ()) {
     RC_ASSERT(bare.event_count() == static_cast<Index>(expected.events.size()));
     RC_ASSERT_THROWS_AS(static_cast<void>(bare.zone(0)), isoatlas::Error);
 }
+
+RC_GTEST_PROP(Engine, FindsTheElementsOfTheOracle, ()) { engine_finds_the_elements_of_the_oracle(); }
+RC_GTEST_PROP(Engine, FindsTheContourArcsAndGeneraOfTheOracle, ()) { engine_finds_the_contour_arcs_and_genera_of_the_oracle(); }
+RC_GTEST_PROP(Engine, FindsTheLevelsOfTheOracle, ()) { engine_finds_the_levels_of_the_oracle(); }
+RC_GTEST_PROP(Engine, FindsTheEventsOfTheOracle, ()) { engine_finds_the_events_of_the_oracle(); }
+RC_GTEST_PROP(Engine, FindsTheZoneOfEveryVoxel, ()) { engine_finds_the_zone_of_every_voxel(); }
+RC_GTEST_PROP(Engine, FindsEverythingInLargerVolumes, ()) { engine_finds_everything_in_larger_volumes(); }
+RC_GTEST_PROP(Engine, FindsTheFloodingTreeWithoutTies, ()) { engine_finds_the_flooding_tree_without_ties(); }
+RC_GTEST_PROP(Engine, FindsTheSameLevelsAndEventsInMirroredVolumes, ()) { engine_finds_the_same_in_mirrored_and_transposed_volumes(); }
+RC_GTEST_PROP(Engine, FindsTheSameTreesWithoutZones, ()) { engine_finds_the_same_trees_without_zones(); }
 
 }  // namespace
 }  // namespace oracle

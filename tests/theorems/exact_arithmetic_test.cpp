@@ -66,7 +66,7 @@ Moved arbitrary_moved() {
     return moved;
 }
 
-RC_GTEST_PROP(ExactArithmetic, TreesLevelsAndEventsAreThoseOfTheOracle, ()) {
+void trees_levels_and_events_are_those_of_the_oracle() {
     const Moved moved = arbitrary_moved();
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Result expected = analyse(elements_of(moved.grid, interpolant));
@@ -96,7 +96,7 @@ Counts counts_of(const isoatlas::Cut& cut) {
 }
 
 // Samples one unit in the last place apart are the hard case: most saddles lie between two doubles there.
-RC_GTEST_PROP(ExactArithmetic, EveryIsovalueThereIsCutsAsInTheBase, ()) {
+void exact_arithmetic_every_isovalue_there_is_cuts_as_in_the_base() {
     const Moved moved = arbitrary_moved();
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Elements base = elements_of(moved.base, interpolant);
@@ -155,6 +155,9 @@ TEST(ExactArithmetic, AConstantChangesNoSurface) {
         }
     }
 }
+
+RC_GTEST_PROP(ExactArithmetic, TreesLevelsAndEventsAreThoseOfTheOracle, ()) { trees_levels_and_events_are_those_of_the_oracle(); }
+RC_GTEST_PROP(ExactArithmetic, EveryIsovalueThereIsCutsAsInTheBase, ()) { exact_arithmetic_every_isovalue_there_is_cuts_as_in_the_base(); }
 
 }  // namespace
 }  // namespace oracle

@@ -42,7 +42,7 @@ std::string text(const std::vector<HolePair>& pairs) {
     return out.str();
 }
 
-RC_GTEST_PROP(ExactHandles, EqualTheHomologyOfAWholeComplex, ()) {
+void exact_handles_equal_the_homology_of_a_whole_complex() {
     const Grid grid = *arbitrary_grid(6, 100);
     const std::vector<HolePair> expected = grid.rank == 2 ? std::vector<HolePair>() : hole_pairs(Elements(grid));
     RC_ASSERT(text(exact_pairs(grid, Interpolant::faces)) == text(expected));
@@ -77,7 +77,7 @@ double total(const std::vector<Handle>& handles) {
     return sum;
 }
 
-RC_GTEST_PROP(ExactHandles, OpenAndCloseWhereTheApproximateOnesDo, ()) {
+void exact_handles_open_and_close_where_the_approximate_ones_do() {
     const Grid grid = *arbitrary_grid(7, 150);
     const Volume volume = to_volume(grid);
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
@@ -92,11 +92,12 @@ RC_GTEST_PROP(ExactHandles, OpenAndCloseWhereTheApproximateOnesDo, ()) {
     for (std::size_t i = 1; i < exact.size(); ++i) RC_ASSERT(exact[i - 1].persistence() >= exact[i].persistence());
 }
 
-RC_GTEST_PROP(ExactHandles, DoNotDependOnHowTheVolumeLiesOrOnThreads, ()) {
+void handles_do_not_depend_on_how_the_volume_lies() {
     const Grid grid = *arbitrary_grid(4, 50);
     const Interpolant interpolant = *arbitrary_interpolant();
     const std::string expected = text(exact_pairs(grid, interpolant));
-    for (const auto& [order, mirror] : turns(grid.rank)) RC_ASSERT(text(exact_pairs(rotated(grid, order, mirror), interpolant)) == expected);
+    for (const auto& [order, mirror] : turns(grid.rank))
+        RC_ASSERT(text(exact_pairs(rotated(grid, order, mirror), interpolant)) == expected);
 }
 
 /// Pairs of one list that the other lacks; those of nearly no persistence do not count.
@@ -132,7 +133,7 @@ TEST(ExactHandles, OfTheTrilinearFunctionAreThoseOfItsFinerSamples) {
     EXPECT_GT(faces_differ, 30);
 }
 
-RC_GTEST_PROP(ExactHandles, OfOneObjectAreThoseThatCloseInIt, ()) {
+void exact_handles_of_one_object_are_those_that_close_in_it() {
     const Grid grid = *arbitrary_grid(6, 120);
     const Volume volume = to_volume(grid);
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
@@ -157,7 +158,7 @@ RC_GTEST_PROP(ExactHandles, OfOneObjectAreThoseThatCloseInIt, ()) {
     RC_ASSERT(found == expected);
 }
 
-TEST(ExactHandles, RefuseTooMany) {
+TEST(ExactHandles, RejectTooMany) {
     Grid grid{3, {5, 5, 5}, {}};
     for (Index v = 0; v < grid.voxels(); ++v) grid.value.push_back(static_cast<double>(v * 7919 % 104729 % 31));
     const Volume volume = to_volume(grid);
@@ -180,6 +181,11 @@ TEST(ExactHandles, AreFoundWhereTheyCostLittle) {
     EXPECT_FALSE(approximate.exact);
     EXPECT_EQ(pairs_of(approximate.handles), pairs_of(isoatlas::pair_handles(analysis, 0.1)));
 }
+
+RC_GTEST_PROP(ExactHandles, EqualTheHomologyOfAWholeComplex, ()) { exact_handles_equal_the_homology_of_a_whole_complex(); }
+RC_GTEST_PROP(ExactHandles, OpenAndCloseWhereTheApproximateOnesDo, ()) { exact_handles_open_and_close_where_the_approximate_ones_do(); }
+RC_GTEST_PROP(ExactHandles, DoNotDependOnHowTheVolumeLiesOrOnThreads, ()) { handles_do_not_depend_on_how_the_volume_lies(); }
+RC_GTEST_PROP(ExactHandles, OfOneObjectAreThoseThatCloseInIt, ()) { exact_handles_of_one_object_are_those_that_close_in_it(); }
 
 }  // namespace
 }  // namespace oracle

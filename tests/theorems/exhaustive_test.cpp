@@ -37,13 +37,13 @@ void check_all(int rank, std::array<Index, 3> size, int levels) {
     }
 }
 
-TEST(Exhaustive, TwoValued3x2x2) { check_all(3, {3, 2, 2}, 2); }
-TEST(Exhaustive, FourValued2x2x2) { check_all(3, {2, 2, 2}, 4); }
-TEST(Exhaustive, ThreeValued3x3x1) { check_all(3, {3, 3, 1}, 3); }
-TEST(Exhaustive, ThreeValued3x3InTwoDimensions) { check_all(2, {3, 3, 1}, 3); }
-TEST(Exhaustive, TwoValued4x4InTwoDimensions) { check_all(2, {4, 4, 1}, 2); }
+TEST(EngineEqualsTheOracle, OnEvery3x2x2VolumeOfTwoValues) { check_all(3, {3, 2, 2}, 2); }
+TEST(EngineEqualsTheOracle, OnEvery2x2x2VolumeOfFourValues) { check_all(3, {2, 2, 2}, 4); }
+TEST(EngineEqualsTheOracle, OnEvery3x3x1VolumeOfThreeValues) { check_all(3, {3, 3, 1}, 3); }
+TEST(EngineEqualsTheOracle, OnEvery3x3ImageOfThreeValues) { check_all(2, {3, 3, 1}, 3); }
+TEST(EngineEqualsTheOracle, OnEvery4x4ImageOfTwoValues) { check_all(2, {4, 4, 1}, 2); }
 
-TEST(Exhaustive, AllOrdersOfACell) {
+TEST(EngineEqualsTheOracle, OnAllOrdersOfACell) {
     Grid grid{3, {2, 2, 2}, std::vector<double>(8)};
     std::iota(grid.value.begin(), grid.value.end(), 0.0);
     do {

@@ -38,7 +38,7 @@ std::string broken_guarantee(const Volume& volume, int levels) {
     return "";
 }
 
-RC_GTEST_PROP(Interior, TreeCutAndMeshAgree, ()) {
+void interior_tree_cut_and_mesh_agree() {
     const Grid grid = *arbitrary_grid(6, 100);
     const std::string broken = broken_guarantee(to_volume(grid, isoatlas::ValueType::f64), 12);
     if (!broken.empty()) RC_FAIL(broken);
@@ -69,7 +69,7 @@ TEST(Interior, TreeCutAndMeshAgreeInNoise) {
     }
 }
 
-TEST(Interior, AllOrdersOfACell) {
+TEST(Interior, TreeCutAndMeshAgreeOnAllOrdersOfACell) {
     Grid grid{3, {2, 2, 2}, std::vector<double>(8)};
     std::iota(grid.value.begin(), grid.value.end(), 0.0);
     do {
@@ -90,8 +90,8 @@ void check_all(std::array<Index, 3> size, int levels) {
     }
 }
 
-TEST(Interior, FourValued2x2x2) { check_all({2, 2, 2}, 4); }
-TEST(Interior, TwoValued3x2x2) { check_all({3, 2, 2}, 2); }
+TEST(Interior, TreeCutAndMeshAgreeOnEvery2x2x2VolumeOfFourValues) { check_all({2, 2, 2}, 4); }
+TEST(Interior, TreeCutAndMeshAgreeOnEvery3x2x2VolumeOfTwoValues) { check_all({3, 2, 2}, 2); }
 
 struct Truth {
     Index isovalues = 0, faces_differ = 0;
@@ -176,12 +176,15 @@ TEST_F(Function, CutAtItsSaddlesAVolumeHasTheSameTopology) {
     EXPECT_GT(truth.faces_differ, 50000);
 }
 
-RC_GTEST_PROP(Interior, TurnedAndMirroredVolumesHaveTheSameChanges, ()) {
+void interior_turned_and_mirrored_volumes_have_the_same_changes() {
     const Grid grid = *arbitrary_grid(4, 40);
     const auto changes = [](const Grid& g) { return canonical_text(isoatlas::analyse(to_volume(g), {}, one_thread())); };
     const std::string expected = changes(grid);
     for (const auto& [order, mirror] : turns(grid.rank)) RC_ASSERT(changes(rotated(grid, order, mirror)) == expected);
 }
+
+RC_GTEST_PROP(Interior, TreeCutAndMeshAgree, ()) { interior_tree_cut_and_mesh_agree(); }
+RC_GTEST_PROP(Interior, TurnedAndMirroredVolumesHaveTheSameChanges, ()) { interior_turned_and_mirrored_volumes_have_the_same_changes(); }
 
 }  // namespace
 }  // namespace oracle

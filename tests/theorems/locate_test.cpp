@@ -13,7 +13,7 @@ namespace {
 using isoatlas::Locator;
 using isoatlas::Volume;
 
-RC_GTEST_FIXTURE_PROP(Stores, KnowWhatHoldsASample, ()) {
+RC_GTEST_FIXTURE_PROP(Stores, LocateTheObjectAndCavityOfEverySample, ()) {
     const Grid grid = *arbitrary_grid(6, 120);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
@@ -37,7 +37,7 @@ RC_GTEST_FIXTURE_PROP(Stores, KnowWhatHoldsASample, ()) {
     }
 }
 
-TEST_F(Stores, HaveNoHoldersOfWhatIsOutside) {
+TEST_F(Stores, LocateNothingOutsideTheVolume) {
     isoatlas::build_atlas(path_, isoatlas::make_volume({.rank = 3, .size = {4, 4, 4}}, isoatlas::ValueType::u8));
     const isoatlas::Atlas atlas(path_);
     EXPECT_THROW(Locator(atlas, -1), isoatlas::Error);

@@ -29,7 +29,7 @@ std::vector<std::array<int, 2>> ends_of(const Surface& surface) {
     return ends;
 }
 
-RC_GTEST_PROP(Mesh2d, CurvesAreTheContoursOfTheCut, ()) {
+void mesh2d_curves_are_the_contours_of_the_cut() {
     const Grid grid = arbitrary_image();
     const Elements elements(grid);
     isoatlas::Volume volume = to_volume(grid, arbitrary_type(grid));
@@ -69,7 +69,7 @@ RC_GTEST_PROP(Mesh2d, CurvesAreTheContoursOfTheCut, ()) {
     for (std::size_t i = 0; i < next.size(); ++i) RC_ASSERT(object_of[surface.contour[i]] == surface.object[i]);
 }
 
-RC_GTEST_PROP(Mesh2d, OpenCurvesEndAtTheBorder, ()) {
+void mesh2d_open_curves_end_at_the_border() {
     const Grid grid = arbitrary_image();
     const Elements elements(grid);
     isoatlas::ExtractOptions options;
@@ -86,6 +86,9 @@ RC_GTEST_PROP(Mesh2d, OpenCurvesEndAtTheBorder, ()) {
         RC_ASSERT(ends[i][0] + ends[i][1] == (on_border ? 1 : 2));
     }
 }
+
+RC_GTEST_PROP(Mesh2d, CurvesAreTheContoursOfTheCut, ()) { mesh2d_curves_are_the_contours_of_the_cut(); }
+RC_GTEST_PROP(Mesh2d, OpenCurvesEndAtTheBorder, ()) { mesh2d_open_curves_end_at_the_border(); }
 
 }  // namespace
 }  // namespace oracle

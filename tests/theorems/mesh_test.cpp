@@ -44,7 +44,7 @@ Grid arbitrary_grid_3d() {
     return grid;
 }
 
-RC_GTEST_PROP(Mesh, IsAClosedOrientedManifold, ()) {
+void mesh_is_a_closed_oriented_manifold() {
     Case c(arbitrary_grid_3d());
     c.volume.info.geometry = arbitrary_geometry(c.grid);
     const Surface surface = isoatlas::extract(c.volume, c.tau, c.arbitrary_style(), arbitrary_context());
@@ -60,7 +60,7 @@ RC_GTEST_PROP(Mesh, IsAClosedOrientedManifold, ()) {
 }
 
 // Components, Euler numbers and ids of the mesh are those of the cut.
-RC_GTEST_PROP(Mesh, PiecesAreTheContoursOfTheCut, ()) {
+void mesh_pieces_are_the_contours_of_the_cut() {
     const Case c(arbitrary_grid_3d());
     const Surface surface = isoatlas::extract(c.volume, c.tau, c.arbitrary_style(), arbitrary_context());
     const isoatlas::Cut cut = c.cut();
@@ -82,7 +82,7 @@ RC_GTEST_PROP(Mesh, PiecesAreTheContoursOfTheCut, ()) {
     RC_ASSERT(report.component_chi.size() == cut.contours.size());  // so every contour is connected
 }
 
-RC_GTEST_PROP(Mesh, OuterContoursEncloseCavitiesAreHollow, ()) {
+void mesh_outer_contours_enclose_cavities_are_hollow() {
     Case c(arbitrary_grid_3d());
     c.volume.info.geometry = arbitrary_geometry(c.grid);
     const Surface surface = isoatlas::extract(c.volume, c.tau, c.arbitrary_style());
@@ -121,7 +121,7 @@ Index chi_on_the_border(const Case& c) {
     return chi;
 }
 
-RC_GTEST_PROP(Mesh, OpenSurfacesEndAtTheBorderOfTheVolume, ()) {
+void mesh_open_surfaces_end_at_the_border_of_the_volume() {
     const Case c(arbitrary_grid_3d());
     isoatlas::ExtractOptions options = c.arbitrary_style();
     options.boundary = Boundary::open;
@@ -164,7 +164,7 @@ std::vector<std::array<isoatlas::Vec3, 3>> triangles_of(const Surface& surface, 
     return list;
 }
 
-RC_GTEST_PROP(Mesh, SelectionsAreSubsets, ()) {
+void mesh_selections_are_subsets() {
     const Case c(arbitrary_grid_3d());
     isoatlas::ExtractOptions options = c.arbitrary_style();
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
@@ -203,7 +203,7 @@ RC_GTEST_PROP(Mesh, SelectionsAreSubsets, ()) {
     RC_ASSERT(wall.object.empty() && wall.contour.empty());
 }
 
-RC_GTEST_PROP(Mesh, SameBytesForAnyThreadsAndSlabs, ()) {
+void mesh_has_the_same_bytes_for_any_threads_and_slabs() {
     Case c(*arbitrary_grid(7, 200));
     c.volume.info.geometry = arbitrary_geometry(c.grid);
     isoatlas::ExtractOptions options = c.arbitrary_style();
@@ -220,7 +220,7 @@ RC_GTEST_PROP(Mesh, SameBytesForAnyThreadsAndSlabs, ()) {
 }
 
 // Hits in the middle of edges and close to their ends; cells full of ambiguous faces.
-RC_GTEST_PROP(Mesh, NoTwoTrianglesCross, ()) {
+void mesh_no_two_triangles_cross() {
     const std::array<Index, 3> size{2, 2, *rc::gen::inRange<Index>(2, 4)};
     Grid grid{3, size, {}};
     const bool spread = *rc::gen::inRange(0, 2) == 1;
@@ -235,6 +235,14 @@ RC_GTEST_PROP(Mesh, NoTwoTrianglesCross, ()) {
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
     RC_ASSERT(count_crossings(isoatlas::extract(to_volume(grid), 0, options)) == 0);
 }
+
+RC_GTEST_PROP(Mesh, IsAClosedOrientedManifold, ()) { mesh_is_a_closed_oriented_manifold(); }
+RC_GTEST_PROP(Mesh, PiecesAreTheContoursOfTheCut, ()) { mesh_pieces_are_the_contours_of_the_cut(); }
+RC_GTEST_PROP(Mesh, OuterContoursEncloseCavitiesAreHollow, ()) { mesh_outer_contours_enclose_cavities_are_hollow(); }
+RC_GTEST_PROP(Mesh, OpenSurfacesEndAtTheBorderOfTheVolume, ()) { mesh_open_surfaces_end_at_the_border_of_the_volume(); }
+RC_GTEST_PROP(Mesh, SelectionsAreSubsets, ()) { mesh_selections_are_subsets(); }
+RC_GTEST_PROP(Mesh, HasTheSameBytesForAnyThreadsAndSlabs, ()) { mesh_has_the_same_bytes_for_any_threads_and_slabs(); }
+RC_GTEST_PROP(Mesh, NoTwoTrianglesCross, ()) { mesh_no_two_triangles_cross(); }
 
 }  // namespace
 }  // namespace oracle

@@ -33,7 +33,7 @@ std::pair<int, int> type_by_neighbours(const Elements& elements, Index v) {
     return elements.grid.rank == 2 ? std::pair{2, 2} : both == 1 ? std::pair{2, 1} : std::pair{1, 2};
 }
 
-RC_GTEST_PROP(Oracle, VerticesFollowTheOctahedralRule, ()) {
+void oracle_vertices_follow_the_octahedral_rule() {
     const Elements elements = arbitrary_elements(*arbitrary_grid());
     const Result result = analyse(elements);
     std::vector<std::pair<int, int>> found(static_cast<std::size_t>(elements.count()), {1, 1});
@@ -44,7 +44,7 @@ RC_GTEST_PROP(Oracle, VerticesFollowTheOctahedralRule, ()) {
     }
 }
 
-RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) {
+void oracle_levels_and_events_do_not_depend_on_numbering() {
     const Grid grid = *arbitrary_grid(5, 60);
     const auto [order, mirror] = *rc::gen::elementOf(turns(grid.rank));
     const Grid other = rotated(grid, order, mirror);
@@ -54,7 +54,7 @@ RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) {
 
 // Two vertices are in one object at a cut exactly when their labels climb to the same node: the dissertation's flooding gives the join
 // tree.
-RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) {
+void flooding_labels_give_the_objects_of_every_cut() {
     const Elements elements = arbitrary_elements(*arbitrary_grid(6, 60));
     const Result result = analyse(elements);
     const Flooding flooding = flood(elements, result.critical);
@@ -77,7 +77,7 @@ RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) {
     }
 }
 
-RC_GTEST_PROP(Flooding, WithoutTiesItsTreeIsTheEventTree, ()) {
+void flooding_without_ties_its_tree_is_the_event_tree() {
     const Elements elements = arbitrary_elements(without_ties(*arbitrary_grid(6, 80)));
     if (has_ties(elements)) return;  // two face points may share a value
     const Result result = analyse(elements);
@@ -86,6 +86,11 @@ RC_GTEST_PROP(Flooding, WithoutTiesItsTreeIsTheEventTree, ()) {
     for (std::size_t e = 0; e < result.events.size(); ++e) RC_ASSERT(result.events[e].parent == flooding.parent[e]);
     for (Index v = 0; v < elements.grid.voxels(); ++v) RC_ASSERT(result.zone[v] == flooding.label[v]);
 }
+
+RC_GTEST_PROP(Oracle, VerticesFollowTheOctahedralRule, ()) { oracle_vertices_follow_the_octahedral_rule(); }
+RC_GTEST_PROP(Oracle, LevelsAndEventsDoNotDependOnNumbering, ()) { oracle_levels_and_events_do_not_depend_on_numbering(); }
+RC_GTEST_PROP(Flooding, LabelsGiveTheObjectsOfEveryCut, ()) { flooding_labels_give_the_objects_of_every_cut(); }
+RC_GTEST_PROP(Flooding, WithoutTiesItsTreeIsTheEventTree, ()) { flooding_without_ties_its_tree_is_the_event_tree(); }
 
 }  // namespace
 }  // namespace oracle

@@ -74,7 +74,7 @@ void expect_same_arcs(const CriticalSet<Id>& set, const std::vector<std::uint16_
     RC_ASSERT(std::vector<Id>(actual.begin(), actual.end()) == expected_arcs(set));
 }
 
-RC_GTEST_PROP(Parts, OfSlabs, ()) {
+void trees_of_parts_cut_into_slabs_are_those_of_the_whole() {
     const Grid grid = *arbitrary_grid(7, 200);
     const CriticalSet<Id> set = critical_set(grid, *arbitrary_interpolant());
     for (const Index height : {1, 2, 3, 7}) {
@@ -88,7 +88,7 @@ RC_GTEST_PROP(Parts, OfSlabs, ()) {
     }
 }
 
-RC_GTEST_PROP(Parts, OfElementsAtRandom, ()) {
+void trees_of_parts_cut_at_random_are_those_of_the_whole() {
     const CriticalSet<Id> set = critical_set(*arbitrary_grid(7, 200), *arbitrary_interpolant());
     for (const int parts : {1, 2, 3, 5, 20}) {
         const auto raw = *rc::gen::container<std::vector<int>>(set.size(), rc::gen::resize(100, rc::gen::inRange(0, parts)));
@@ -97,7 +97,7 @@ RC_GTEST_PROP(Parts, OfElementsAtRandom, ()) {
 }
 
 // Runs of neighbouring ranks in one part: much can be removed, and what is removed spans parts.
-RC_GTEST_PROP(Parts, OfElementsInRuns, ()) {
+void trees_of_parts_cut_into_runs_are_those_of_the_whole() {
     const CriticalSet<Id> set = critical_set(*arbitrary_grid(7, 200), *arbitrary_interpolant());
     std::vector<std::uint16_t> part_of;
     while (part_of.size() < set.size()) {
@@ -107,6 +107,10 @@ RC_GTEST_PROP(Parts, OfElementsInRuns, ()) {
     part_of.resize(set.size());
     expect_same_arcs(set, part_of, 3);
 }
+
+RC_GTEST_PROP(TreesOfParts, CutIntoSlabsAreThoseOfTheWhole, ()) { trees_of_parts_cut_into_slabs_are_those_of_the_whole(); }
+RC_GTEST_PROP(TreesOfParts, CutAtRandomAreThoseOfTheWhole, ()) { trees_of_parts_cut_at_random_are_those_of_the_whole(); }
+RC_GTEST_PROP(TreesOfParts, CutIntoRunsAreThoseOfTheWhole, ()) { trees_of_parts_cut_into_runs_are_those_of_the_whole(); }
 
 }  // namespace
 }  // namespace oracle

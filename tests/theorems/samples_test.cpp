@@ -60,7 +60,7 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheMeansOfCubes, ()) {
     }
 }
 
-RC_GTEST_FIXTURE_PROP(Stores, KnowTheirVolume, ()) {
+RC_GTEST_FIXTURE_PROP(Stores, DescribeTheirVolume, ()) {
     const Grid grid = arbitrary_volume();
     Volume volume = to_volume(grid, arbitrary_type(grid));
     isoatlas::build_atlas(path_, volume);
@@ -77,7 +77,7 @@ RC_GTEST_FIXTURE_PROP(Stores, KnowTheirVolume, ()) {
     std::filesystem::remove(file);
 }
 
-TEST_F(Stores, RefuseBoxesThatStickOut) {
+TEST_F(Stores, RejectBoxesThatReachOutside) {
     isoatlas::build_atlas(path_, isoatlas::make_volume({.rank = 3, .size = {20, 9, 9}}, isoatlas::ValueType::f32));
     const isoatlas::Atlas atlas(path_);
     for (const isoatlas::SampleBox& box : {isoatlas::SampleBox{{0, 0, 0}, {0, 9, 9}}, {{-1, 0, 0}, {1, 1, 1}}, {{0, 0, 0}, {20, 9, 10}}})

@@ -50,7 +50,7 @@ SamplesWanted arbitrary_wish(const Volume& volume) {
     return wanted;
 }
 
-RC_GTEST_FIXTURE_PROP(Stores, GiveTheSamplesThatAreWanted, ()) {
+RC_GTEST_FIXTURE_PROP(Stores, GiveTheRequestedSamples, ()) {
     const Grid grid = arbitrary_volume();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     isoatlas::build_atlas(path_, volume);

@@ -95,7 +95,7 @@ SearchCost cost_of(const Grid& grid, const std::vector<File>& files, double tau)
     return cost;
 }
 
-RC_GTEST_PROP(SearchTables, AreThoseOfTheWrittenFiles, ()) {
+void search_tables_are_those_of_the_written_files() {
     const Grid grid = *arbitrary_grid();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
@@ -142,6 +142,8 @@ TEST(SearchTables, CountTheBricksThatAStoreReads) {
     }
     std::filesystem::remove(path);
 }
+
+RC_GTEST_PROP(SearchTables, AreThoseOfTheWrittenFiles, ()) { search_tables_are_those_of_the_written_files(); }
 
 }  // namespace
 }  // namespace oracle

@@ -110,7 +110,7 @@ Grid arbitrary_whole_grid(Index longest, Index max) {
     return grid;
 }
 
-RC_GTEST_PROP(Simplification, IsPruningOneByOne, ()) {
+void simplification_is_pruning_one_by_one() {
     const Grid grid = arbitrary_whole_grid(5, 80);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Volume volume = to_volume(grid);
@@ -157,7 +157,7 @@ RC_GTEST_PROP(Simplification, IsPruningOneByOne, ()) {
 }
 
 // A node's parent is the first kept event on the way down, and its object is what the full tree says just above that.
-RC_GTEST_PROP(Simplification, KeepsObjectsAsTheyAre, ()) {
+void simplification_keeps_objects_as_they_are() {
     const Grid grid = *arbitrary_grid(7, 200);
     const Volume volume = to_volume(grid);
     const Analysis analysis = isoatlas::analyse(volume);
@@ -185,7 +185,7 @@ RC_GTEST_PROP(Simplification, KeepsObjectsAsTheyAre, ()) {
     RC_ASSERT(all.hidden_voxels == 0);
 }
 
-RC_GTEST_PROP(Simplification, CurvesCountWhatIsKept, ()) {
+void simplification_curves_count_what_is_kept() {
     const Grid grid = arbitrary_whole_grid(7, 200);
     const Volume volume = to_volume(grid);
     const Analysis analysis = isoatlas::analyse(volume);
@@ -204,7 +204,7 @@ RC_GTEST_PROP(Simplification, CurvesCountWhatIsKept, ()) {
 }
 
 // The table with a selection lists the branches that the selection keeps.
-RC_GTEST_PROP(Simplification, IsWhatTheTableOfObjectsLists, ()) {
+void simplification_is_what_the_table_of_objects_lists() {
     const Grid grid = *arbitrary_grid(7, 200);
     Volume volume = to_volume(grid);
     volume.info.geometry = arbitrary_geometry(grid);
@@ -322,6 +322,11 @@ TEST(Simplification, ChangesOnlyNearTheThresholdOnRealVolumes) {
         }
     }
 }
+
+RC_GTEST_PROP(Simplification, IsPruningOneByOne, ()) { simplification_is_pruning_one_by_one(); }
+RC_GTEST_PROP(Simplification, KeepsObjectsAsTheyAre, ()) { simplification_keeps_objects_as_they_are(); }
+RC_GTEST_PROP(Simplification, CurvesCountWhatIsKept, ()) { simplification_curves_count_what_is_kept(); }
+RC_GTEST_PROP(Simplification, IsWhatTheTableOfObjectsLists, ()) { simplification_is_what_the_table_of_objects_lists(); }
 
 }  // namespace
 }  // namespace oracle

@@ -66,7 +66,7 @@ void check_intervals(const Spectrum& spectrum) {
     RC_ASSERT(spectrum.intervals.back().low == -kInfinity);
 }
 
-RC_GTEST_PROP(TheSpectrum, IsWhatACutFindsAtEveryIsovalue, ()) {
+void the_spectrum_is_what_a_cut_finds_at_every_isovalue() {
     const Grid grid = *arbitrary_grid(7, 160);
     const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
@@ -167,6 +167,8 @@ TEST(TheSpectrum, MeasuresABall) {
     }
     EXPECT_GT(measured, 10);
 }
+
+RC_GTEST_PROP(TheSpectrum, IsWhatACutFindsAtEveryIsovalue, ()) { the_spectrum_is_what_a_cut_finds_at_every_isovalue(); }
 
 }  // namespace
 }  // namespace oracle

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "analysis/analyse.h"
@@ -15,6 +17,7 @@
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
 #include "tree/merge_tree.h"
+#include "tree/predicates.h"
 #include "zones/count_voxels.h"
 
 namespace oracle {
@@ -94,22 +97,56 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
     }
 }
 
-RC_GTEST_PROP(StoredArcs, OfSmallVolumes, ()) {
+// What a damaged store may say: any tree of any elements. It is refused, or its trees have all properties of trees.
+void any_arcs_are_refused_or_give_trees() {
+    Arrays arrays;
+    const auto n = *rc::gen::inRange<Id>(1, 12);
+    const auto rank = *rc::gen::element(2, 3);
+    int chi = 0;
+    double value = 20;
+    for (Id i = 0; i < n; ++i) {
+        int h0 = *rc::gen::inRange(0, 3), l0 = *rc::gen::inRange(0, 3);
+        if (i + 1 == n && rank == 3 && std::abs(1 - chi) < 3) h0 = std::max(0, chi - 1), l0 = std::max(0, 1 - chi);  // of a box
+        chi += l0 - h0;
+        arrays.code.push_back(isoatlas::ElementCode::vertex(i, h0, l0, 0).bits);
+        arrays.value.push_back(value -= *rc::gen::inRange(0, 2));
+    }
+    std::vector<Id> order(n), inside{n};
+    std::iota(order.begin(), order.end(), Id{0});
+    arrays.contours.other.resize(n + 1);
+    arrays.contours.other[n] = n;
+    for (Id i = 0; i < n; ++i) {
+        std::swap(order[i], order[*rc::gen::inRange<Id>(i, n)]);
+        arrays.contours.other[order[i]] = inside[*rc::gen::inRange<std::size_t>(0, inside.size())];
+        inside.push_back(order[i]);
+    }
+    if (!isoatlas::restore_trees(arrays, rank, context_of(1, 0))) return;
+    RC_ASSERT(isoatlas::is_contour_tree(arrays.contours));
+    RC_ASSERT(isoatlas::every_level_has_one_value<Id>(arrays.contours, arrays.level, arrays.value));
+    RC_ASSERT(isoatlas::every_event_has_its_zone<Id>(arrays.tree, arrays.value));
+}
+
+void stored_arcs_give_the_trees_of_small_volumes_back() {
     check(*arbitrary_grid(7, 200), *arbitrary_interpolant(), isoatlas::ValueType::f64, {0, 1, 2, 3, 5});
 }
 
-RC_GTEST_PROP(StoredArcs, OfLargerVolumes, ()) {
+void stored_arcs_give_the_trees_of_larger_volumes_back() {
     if (*rc::gen::inRange(0, 20) != 0) return;  // they cost more
     check(*arbitrary_grid(14, 2000), *arbitrary_interpolant(), isoatlas::ValueType::f64, {2, 3, 4, 8});
 }
 
 // Values of few bits are counted instead of sorted.
-RC_GTEST_PROP(StoredArcs, OfIntegers, ()) {
+void stored_arcs_give_the_trees_of_integers_back() {
     Grid grid = *arbitrary_grid(7, 200);
     for (double& value : grid.value) value = std::round(value / 4) - 20;
     check(grid, *arbitrary_interpolant(), *rc::gen::element(isoatlas::ValueType::i8, isoatlas::ValueType::i16, isoatlas::ValueType::f32),
           {0, 2, 3});
 }
+
+RC_GTEST_PROP(StoredArcs, GiveTheTreesOfSmallVolumesBack, ()) { stored_arcs_give_the_trees_of_small_volumes_back(); }
+RC_GTEST_PROP(StoredArcs, GiveTheTreesOfLargerVolumesBack, ()) { stored_arcs_give_the_trees_of_larger_volumes_back(); }
+RC_GTEST_PROP(StoredArcs, GiveTheTreesOfIntegersBack, ()) { stored_arcs_give_the_trees_of_integers_back(); }
+RC_GTEST_PROP(StoredArcs, OfDamagedStoresAreRefusedOrGiveTrees, ()) { any_arcs_are_refused_or_give_trees(); }
 
 }  // namespace
 }  // namespace oracle

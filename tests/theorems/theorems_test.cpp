@@ -1,9 +1,11 @@
-// The theorems of docs/theory as statements about the engine's answers, checked against explicit cuts.
+// The theorems of docs/theory as statements about the engine's answers, checked against explicit cuts. T8 is in stability_test.cpp.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "isoatlas/simplify.h"
 #include "oracle/bodies.h"
 #include "oracle/compare.h"
 #include "oracle/volumes.h"
@@ -23,6 +25,8 @@ struct Subject {
     }
 };
 
+Subject any_subject() { return Subject(*arbitrary_grid()); }
+
 bool is_inside(double tau, double low, double high) { return low < tau && tau <= high; }
 
 template <class T>
@@ -32,8 +36,7 @@ std::vector<T> sorted(std::vector<T> list) {
 }
 
 // T1: #contours = #objects + #lows - 1.
-RC_GTEST_PROP(Theorem, T1_ContoursAreObjectsPlusLowsMinusOne, ()) {
-    const Subject subject(*arbitrary_grid());
+void contours_are_objects_and_lows_less_one(const Subject& subject) {
     subject.at_every_value([&](double tau, const Snapshot& s) {
         Index contours = 0, objects = 0;
         for (Index i = 0; i < subject.analysis.contour_arc_count(); ++i) {
@@ -50,8 +53,7 @@ RC_GTEST_PROP(Theorem, T1_ContoursAreObjectsPlusLowsMinusOne, ()) {
 }
 
 // T2: when an element passes, the Euler number of the High set changes by l0 - h0 (2D: saddles -1, extrema +1).
-RC_GTEST_PROP(Theorem, T2_EulerNumberOfEveryCutIsASumOverElements, ()) {
-    const Subject subject(*arbitrary_grid());
+void every_euler_number_is_a_sum_over_elements(const Subject& subject) {
     subject.at_every_value([&](double tau, const Snapshot& s) {
         Index chi = 0;
         for (Index i = 0; i < subject.analysis.element_count(); ++i) {
@@ -65,8 +67,7 @@ RC_GTEST_PROP(Theorem, T2_EulerNumberOfEveryCutIsASumOverElements, ()) {
 }
 
 // T3: in its zone an object has chi = sum of delta_chi over its subtree, b2 = contours - 1, b1 = 1 + b2 - chi = sum of the genera (3D).
-RC_GTEST_PROP(Theorem, T3_ObjectsAreSubtreeSums, ()) {
-    const Subject subject(*arbitrary_grid());
+void every_object_is_a_sum_over_its_subtree(const Subject& subject) {
     const isoatlas::Analysis& a = subject.analysis;
     std::vector<Index> chi(static_cast<std::size_t>(a.event_count())), genera(chi.size());
     a.visit_object_contours([&](Index event, std::span<const isoatlas::GenusCount> counts) {
@@ -92,8 +93,7 @@ RC_GTEST_PROP(Theorem, T3_ObjectsAreSubtreeSums, ()) {
 }
 
 // T4: the genus of every contour-tree arc is that of the explicit surface.
-RC_GTEST_PROP(Theorem, T4_GenusOfEveryContour, ()) {
-    const Subject subject(*arbitrary_grid());
+void every_arc_has_the_genus_of_its_contour(const Subject& subject) {
     subject.at_every_value([&](double tau, const Snapshot& s) {
         std::vector<Index> expected, actual;
         for (const Contour& c : s.contours) expected.push_back(c.genus);
@@ -106,8 +106,7 @@ RC_GTEST_PROP(Theorem, T4_GenusOfEveryContour, ()) {
 }
 
 // T5: sum of genera out - in = m - k - D, summed over the levels of an event (3D).
-RC_GTEST_PROP(Theorem, T5_GenusChangeOfAnEvent, ()) {
-    const Subject subject(*arbitrary_grid());
+void genera_change_by_contours_and_euler_number(const Subject& subject) {
     if (subject.elements.grid.rank != 3) return;
     const isoatlas::Analysis& a = subject.analysis;
     std::vector<Index> predicted(static_cast<std::size_t>(a.event_count()));
@@ -125,8 +124,7 @@ RC_GTEST_PROP(Theorem, T5_GenusChangeOfAnEvent, ()) {
 }
 
 // T6: climbing from the zones of two voxels down to tau meets the same event exactly when the voxels are in one object at tau.
-RC_GTEST_PROP(Theorem, T6_ClimbingFromAZoneFindsTheObject, ()) {
-    const Subject subject(*arbitrary_grid());
+void climbing_from_a_zone_finds_the_object(const Subject& subject) {
     const isoatlas::Analysis& a = subject.analysis;
     subject.at_every_value([&](double tau, const Snapshot& s) {
         std::vector<Index> event_of(s.objects.size(), -1);
@@ -142,6 +140,29 @@ RC_GTEST_PROP(Theorem, T6_ClimbingFromAZoneFindsTheObject, ()) {
         RC_ASSERT(std::adjacent_find(events.begin(), events.end()) == events.end());
     });
 }
+
+// T7: hypervolume, persistence and voxels grow towards the main branch.
+void sizes_grow_towards_the_main_branch() {
+    Grid grid = *arbitrary_grid();
+    for (double& value : grid.value) value = std::floor(value);  // sums are exact
+    const isoatlas::Volume volume = to_volume(grid);
+    const isoatlas::BranchHierarchy hierarchy(volume, isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()}));
+    for (const isoatlas::BranchInfo& branch : hierarchy.branches()) {
+        if (branch.parent < 0) continue;
+        const isoatlas::BranchInfo& parent = hierarchy.branches()[static_cast<std::size_t>(branch.parent)];
+        RC_ASSERT(parent.hypervolume >= branch.hypervolume);
+        RC_ASSERT(parent.persistence >= branch.persistence);
+        RC_ASSERT(parent.voxels >= branch.voxels);
+    }
+}
+
+RC_GTEST_PROP(Theorem, T1_ContoursAreAsManyAsObjectsAndLowComponentsLessOne, ()) { contours_are_objects_and_lows_less_one(any_subject()); }
+RC_GTEST_PROP(Theorem, T2_TheEulerNumberOfEveryCutIsASumOverElements, ()) { every_euler_number_is_a_sum_over_elements(any_subject()); }
+RC_GTEST_PROP(Theorem, T3_EveryObjectIsASumOverItsSubtree, ()) { every_object_is_a_sum_over_its_subtree(any_subject()); }
+RC_GTEST_PROP(Theorem, T4_EveryArcHasTheGenusOfItsContour, ()) { every_arc_has_the_genus_of_its_contour(any_subject()); }
+RC_GTEST_PROP(Theorem, T5_GeneraOfEventsChangeByContoursAndEulerNumber, ()) { genera_change_by_contours_and_euler_number(any_subject()); }
+RC_GTEST_PROP(Theorem, T6_ClimbingFromAZoneFindsTheObject, ()) { climbing_from_a_zone_finds_the_object(any_subject()); }
+RC_GTEST_PROP(Theorem, T7_SizesGrowTowardsTheMainBranch, ()) { sizes_grow_towards_the_main_branch(); }
 
 }  // namespace
 }  // namespace oracle

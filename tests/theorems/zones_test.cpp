@@ -50,7 +50,7 @@ void check_zones(const Volume& volume, const Context& context) {
     }
 }
 
-TEST(Zones, OfPhantoms) {
+TEST(Zones, OfPhantomsFollowFromTheirNeighbours) {
     for (const char* name :
          {"figure-plateau", "figure-smooth", "nested-shells", "gyroid", "checkerboard", "marschner-lobb", "random-field", "noise"}) {
         SCOPED_TRACE(name);
@@ -69,7 +69,7 @@ TEST(Zones, OfPhantoms) {
 }
 
 // Long paths whose values crowd at one end: the search by buckets must fall back.
-TEST(Zones, OfSkewedValues) {
+TEST(Zones, OfSkewedValuesFollowFromTheirNeighbours) {
     PhantomOptions options;
     options.size = 16;
     const Volume volume = make_phantom("noise", options);

@@ -109,6 +109,23 @@ TEST_F(Damaged, AWrongGenusIsFound) {
     EXPECT_FALSE(check.holds());
 }
 
+TEST_F(Damaged, AnArcToAnotherElementIsFound) {
+    arrays().contours.other[0] = arrays().contours.other[0] + 1;
+    EXPECT_FALSE(contour_tree_is_a_tree(analysis_).holds);
+}
+
+TEST_F(Damaged, AnElementInTheWrongLevelIsFound) {
+    arrays().level[1] = 0;
+    const CheckResult check = contour_tree_is_a_tree(analysis_);
+    EXPECT_FALSE(check.holds);
+    EXPECT_NE(check.detail.find("element 1 "), std::string::npos) << check.detail;
+}
+
+TEST_F(Damaged, AnElementOutsideTheZoneOfItsEventIsFound) {
+    arrays().tree.event_of_element.back() = 0;
+    EXPECT_FALSE(join_tree_is_valid(analysis_).holds);
+}
+
 TEST_F(Damaged, AWrongEventOfALevelIsFound) {
     auto& event_of_element = arrays().tree.event_of_element;
     std::swap(event_of_element.front(), event_of_element.back());
