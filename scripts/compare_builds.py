@@ -40,11 +40,11 @@ SCHEMAS = {
     "dark-objects/1": ("cavities/1", {}, {}),
     "info/1": ("info/2", {"least": "min", "most": "max"}, {}),
     "spectrum/1": ("spectrum/2", {"essential": "significant", "least": "min", "most": "max"}, {}),
-    "page/2": ("page/3", {"essential": "significant", "standingOut": "significant", "least": "min", "most": "max", "bright": "objects",
+    "page/2": ("page/3", {"essential": "significant", "standingOut": "significant", "standsOut": "significant", "least": "min", "most": "max", "bright": "objects",
                           "dark": "cavities"}, {"objects": "found"}),
 }
 COLUMNS = {**{f"essential_{what}": f"significant_{what}" for what in ("objects", "contours", "tunnels", "cavities")},
-           "voxels_least": "voxels_min", "voxels_most": "voxels_max", "steady": "stable"}
+           "voxels_least": "min_voxels", "voxels_most": "max_voxels", "steady": "stable"}
 COMMANDS = {b" --dark": b" --cavities", b" -o dark-": b" -o cavity-"}  # in the commands that a page shows
 OPTIONS = {("objects", "--cavities"): "--dark", ("label", "--cavities"): "--dark"}  # verb, option now -> option before
 

@@ -118,7 +118,7 @@ void measure(Arguments arguments) {
         phases.end();
     } else {
         const std::array<double, 2> range = range_of(volume);
-        scene.volume = {.volume = &volume, .bumps = propose_transfer(table, volume.info, range), .range = range};
+        scene.volume = {.volume = &volume, .tents = propose_transfer(table, volume.info, range), .range = range};
     }
     const isoatlas::View view = isoatlas::view_from(30, 20);
     const isoatlas::Camera camera = fit_camera(scene, view, arguments.options);
@@ -131,9 +131,9 @@ void measure(Arguments arguments) {
         phases.end();
     }
     write(arguments.picture, image.rgba.data(), image.rgba.size());
-    ordered_json bumps = ordered_json::array();
-    for (const isoatlas::OpacityTent& bump : scene.volume.bumps) {
-        bumps.push_back({{"low", bump.low},
+    ordered_json tents = ordered_json::array();
+    for (const isoatlas::OpacityTent& bump : scene.volume.tents) {
+        tents.push_back({{"low", bump.low},
                          {"high", bump.high},
                          {"ramp", bump.ramp},
                          {"density", bump.density},
@@ -148,7 +148,7 @@ void measure(Arguments arguments) {
                               {"origin", info.geometry.origin},
                               {"direction", info.geometry.direction},
                               {"triangles", arguments.surface ? scene.objects[0].surface.triangles.size() : 0},
-                              {"bumps", bumps},
+                              {"bumps", tents},
                               {"camera", {{"target", camera.target}, {"toward", view.toward}, {"up", view.up}, {"height", camera.height}}}};
     std::puts(result.dump().c_str());
 }

@@ -46,6 +46,7 @@
 #include "isoatlas/server.h"
 #include "isoatlas/shell_word.h"
 #include "isoatlas/simplify.h"
+#include "isoatlas/sink.h"
 #include "isoatlas/spectrum.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/text.h"

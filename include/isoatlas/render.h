@@ -73,7 +73,7 @@ struct TransferCurve {
 /// and curves add up.
 struct SceneVolume {
     const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
-    std::vector<OpacityTent> bumps{};
+    std::vector<OpacityTent> tents{};
     std::vector<TransferCurve> curves{};
     std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; unset: computed
     bool shadows = false;                          ///< single scattering of the key light: the medium and opaque surfaces cast shadows

@@ -17,6 +17,8 @@
 
 namespace isoatlas {
 
+class Sink;
+
 /// Stored values.
 struct BranchInfo {
     std::int64_t id;         ///< index of the highest voxel of the object just before it merges
@@ -92,6 +94,7 @@ private:
 /// The format follows the name: .csv, .svg (plots), .json (docs/schema/curves). Written to a temporary name and renamed. Throws Error:
 /// usage (unknown extension), resource.
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves);
+void write_curves(Sink& sink, const VolumeInfo& info, const std::vector<SelectionCurve>& curves);
 
 /// Input of a file of a simplified tree; all of the same volume.
 struct SimplifiedTree {
@@ -104,6 +107,7 @@ struct SimplifiedTree {
 /// .vtu (points and lines, TTK array names). Values are reported values. Written to a temporary name and renamed. Throws Error: usage
 /// (unknown extension), resource.
 void write_simplified_tree(const std::string& path, const SimplifiedTree& tree);
+void write_simplified_tree(Sink& sink, const SimplifiedTree& tree);
 /// The same JSON document on a stream.
 void write_simplified_tree_json(std::ostream& out, const SimplifiedTree& tree);
 

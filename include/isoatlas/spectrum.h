@@ -18,6 +18,8 @@
 
 namespace isoatlas {
 
+class Sink;
+
 class Atlas;
 
 struct LevelCounts {
@@ -81,6 +83,7 @@ struct SpectrumOptions {
 /// (docs/schema/spectrum). Values are reported values. Written to a temporary name and renamed. Throws Error: usage (unknown extension),
 /// resource.
 void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum);
+void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum);
 /// The same JSON document on a stream.
 void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum);
 

@@ -17,6 +17,8 @@
 
 namespace isoatlas {
 
+class Sink;
+
 struct Surface {
     Array<std::array<double, 3>> points;
     Array<std::array<float, 3>> normals;  ///< unit length, per point; empty when not requested
@@ -80,6 +82,8 @@ struct SurfaceReport {
 /// Returns warnings for the user (STL keeps no ids, float32 cannot separate points, ...). Throws Error: usage (unknown extension),
 /// resource.
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface);
+/// The same into a sink (isoatlas/sink.h).
+std::vector<std::string> write_surface(Sink& sink, const Surface& surface);
 
 /// Reads back what write_surface writes, and the usual variants of the same formats from other tools. STL points are merged when
 /// bit-equal. Throws Error: input, unsupported.

@@ -1,4 +1,4 @@
-// Foreign bytes as text: headers, units and file names need not be UTF-8, and what isoatlas shows or writes always is.
+// Foreign bytes as text: headers, units and file names need not be UTF-8, and what isoatlas shows or writes always is. Similar words.
 #pragma once
 
 #include <cstddef>
@@ -19,5 +19,8 @@ namespace isoatlas {
 [[nodiscard]] std::string shown_name(std::string_view name);
 /// The longest beginning of UTF-8 text that has at most so many bytes and cuts no character.
 [[nodiscard]] std::string_view utf8_prefix(std::string_view text, std::size_t max);
+
+/// Bytes to insert, remove or replace to turn one word into the other (Wagner & Fischer 1974). Cost: the product of their lengths.
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace isoatlas

@@ -22,9 +22,8 @@ struct AnalysisArrays {
     ContourTree<Id> contours;  ///< n + 1 nodes, the last is the outside
     CriticalityTree<Id> tree;
     EventMeasures<Id> measures;
-    BigVector<Id> element_voxels;  ///< per element (zones/count_voxels.h); only in analyses that are stored
-    BigVector<Id> voxels;          ///< per event, of its zone; empty without zones
-    BigVector<Id> zone;            ///< per voxel; empty without zones; its basin until there are zones (analysis/analyse.h)
+    BigVector<Id> voxels;  ///< per event, of its zone; empty without zones
+    BigVector<Id> zone;    ///< per voxel; empty without zones
 };
 
 /// Compressed lists: the items of i are item[first[i]] .. item[first[i + 1]].

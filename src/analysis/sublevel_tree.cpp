@@ -10,6 +10,7 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
+#include "base/phase.h"
 #include "base/sample_types.h"
 #include "critical/elements_with_extrema.h"
 #include "critical/grid_scan.h"
@@ -103,7 +104,7 @@ void label_zones(const GridView<T>& grid, const HeavyPathDecomposition<Id, Compa
                  const Context& context) {
     using Value = ComparisonValue<T>;
     const std::int64_t slice = grid.extent.slice();
-    for_each_slab(context, {"sublevel zones", 0, 1}, {grid.extent.size[2], slice}, [&](const Slab& slab) {
+    for_each_slab(context, only_phase("sublevel zones"), {grid.extent.size[2], slice}, [&](const Slab& slab) {
         std::vector<Value> height(kBlock);
         std::vector<Id> minimum(kBlock);
         std::vector<std::uint32_t> scratch(kBlock);

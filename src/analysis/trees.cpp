@@ -93,10 +93,10 @@ bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context)
 }
 
 template <class Id>
-void add_up_voxels(AnalysisArrays<Id>& arrays) {
+void add_up_voxels(std::span<const Id> element_voxels, AnalysisArrays<Id>& arrays) {
     arrays.voxels.assign(arrays.tree.size(), Id{0});
-    for (std::size_t i = 0; i < arrays.element_voxels.size(); ++i) {
-        arrays.voxels[arrays.tree.event_of_element[i]] += arrays.element_voxels[i];
+    for (std::size_t i = 0; i < element_voxels.size(); ++i) {
+        arrays.voxels[arrays.tree.event_of_element[i]] += element_voxels[i];
     }
 }
 
@@ -104,7 +104,7 @@ void add_up_voxels(AnalysisArrays<Id>& arrays) {
     template BigVector<Id> make_arcs(CriticalSet<Id>, AnalysisArrays<Id>&, int);    \
     template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, const Context&); \
     template bool restore_trees(AnalysisArrays<Id>&, int, const Context&);          \
-    template void add_up_voxels(AnalysisArrays<Id>&);
+    template void add_up_voxels(std::span<const Id>, AnalysisArrays<Id>&);
 ISOATLAS_TREES(std::uint32_t)
 ISOATLAS_TREES(std::uint64_t)
 #undef ISOATLAS_TREES

@@ -22,8 +22,8 @@ template <class Id>
 /// Per element: change of the Euler characteristic.
 [[nodiscard]] BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank);
 
-/// Voxels of the zones of events, from those of the elements.
+/// Voxels of the zones of events, from those of the elements (zones/count_voxels.h).
 template <class Id>
-void add_up_voxels(AnalysisArrays<Id>& arrays);
+void add_up_voxels(std::span<const Id> element_voxels, AnalysisArrays<Id>& arrays);
 
 }  // namespace isoatlas

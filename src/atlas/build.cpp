@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "analysis/analyse.h"
 #include "atlas/build_fingerprint.h"
 #include "atlas/build_folder.h"
 #include "atlas/census_arrays.h"
@@ -13,6 +12,7 @@
 #include "base/cancel.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "base/phase.h"
 #include "census/level_census.h"
 #include "codec/checksum.h"
 #include "field/gaussian.h"
@@ -26,7 +26,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kPhases = 8;  // read, the five of analyse(), objects, pack
+/// Those of analyse() in the middle.
+constexpr PhasePlan<8> kBuildPhases{{"read", "classify", "basins", "sort", "trees", "zones", "objects", "pack"}};
 constexpr const char* kTrees = "trees";
 constexpr const char* kZones = "zones";
 
@@ -35,7 +36,7 @@ Context shifted(const Context& context, int by, const Extent& extent) {
     Context part = context;
     if (!context.progress) return part;
     part.progress = [&context, by, voxels = extent.voxels()](const Progress& progress) {
-        context.progress({progress.phase, progress.phase_index + by, kPhases, progress.fraction, voxels});
+        context.progress({progress.phase, progress.phase_index + by, kBuildPhases.count(), progress.fraction, voxels});
     };
     return part;
 }
@@ -78,7 +79,7 @@ void report_packing(std::vector<PackedArray>& arrays, const Context& context) {
                 stop_if_cancelled(context);
                 put(bytes);
                 *done += static_cast<double>(bytes.size());
-                context.report("pack", 7, kPhases, total > 0 ? *done / total : 1);
+                report(context, kBuildPhases["pack"], total > 0 ? *done / total : 1);
             });
         };
     }
@@ -113,27 +114,27 @@ public:
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
 
     BuildReport run(const VolumeView& volume, const AnalysisOptions& options, const Contents& contents) {
-        std::optional<Analysis> analysis;
+        std::optional<ContourArcs> arcs;
         std::unique_ptr<Container> trees = finished(kTrees, contents);
         if (trees) {
             report_.resumed.emplace_back(kTrees);
         } else {
-            analysis = find_arcs(volume, options, shifted(context_, 1, volume.info->extent));
-            pack_store(folder_.file(kTrees), contents, tree_arrays(*analysis, *volume.info, context_.threads));
+            arcs = compute_arcs(volume, options, shifted(context_, 1, volume.info->extent));
+            pack_store(folder_.file(kTrees), contents, tree_arrays(*arcs, *volume.info, context_.threads));
             trees = std::make_unique<Container>(folder_.file(kTrees));
         }
         std::unique_ptr<Container> zones = finished(kZones, contents);
         if (zones) {
             report_.resumed.emplace_back(kZones);
         } else {
-            if (!analysis) analysis = arcs_of(*trees, volume.bytes, context_);
+            if (!arcs) arcs = arcs_of(*trees, volume.bytes, context_);
             const Context part = shifted(context_, 1, volume.info->extent);
-            const auto done = [this](double fraction) { context_.report("objects", 6, kPhases, fraction); };
-            const std::unique_ptr<ZonePhase> made = zone_phase(*analysis, volume, context_, part, done);
+            const auto done = [this](double fraction) { report(context_, kBuildPhases["objects"], fraction); };
+            const std::unique_ptr<ZonePhase> made = zone_phase(std::move(*arcs), volume, context_, part, done);
             pack_store(folder_.file(kZones), contents, made->arrays);
             zones = std::make_unique<Container>(folder_.file(kZones));
         }
-        analysis.reset();
+        arcs.reset();
         trim_memory_pool();
         pack(volume, contents, {trees.get(), zones.get()});
         return report_;

@@ -1,6 +1,7 @@
 // Sample queries of a store: boxes, downsampled volumes, and comparison with a file.
 #include "atlas/access.h"
 #include "base/cancel.h"
+#include "base/phase.h"
 #include "bricks/brick_samples.h"
 #include "bricks/stored_samples.h"
 #include "codec/checksum.h"
@@ -86,7 +87,7 @@ CoarseVolume Atlas::coarse(std::int64_t max, const Context& context) const {
     const std::int64_t layers = samples.grid().size[2];
     for (std::int64_t layer = 0; layer < layers; ++layer) {
         stop_if_cancelled(context);
-        context.report("read", 0, 1, static_cast<double>(layer) / static_cast<double>(layers));
+        report(context, only_phase("read"), static_cast<double>(layer) / static_cast<double>(layers));
         samples.read_means(result.step, layer, result.mean, context, spent);
     }
     AtlasAccess::count(*this, spent, 0, nullptr);

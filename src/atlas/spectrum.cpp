@@ -12,6 +12,7 @@
 #include "atlas/tree_arrays.h"
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/phase.h"
 #include "census/count_intervals.h"
 #include "isoatlas/active.h"
 #include "isoatlas/navigator.h"
@@ -100,13 +101,16 @@ ExtractOptions bare(Interpolant interpolant, double tunnel_height) {
     return options;
 }
 
+/// The counts come first.
+constexpr PhasePlan<2> kSpectrumPhases{{"counts", "surfaces"}};
+
 /// measure(tau): SpectrumSize.
 template <class Measure>
 std::vector<SpectrumSize> measure_all(const std::vector<double>& taus, const Context& context, const Measure& measure) {
     std::vector<SpectrumSize> sizes;
     for (const double tau : taus) {
         stop_if_cancelled(context);
-        context.report("surfaces", 1, 2, static_cast<double>(sizes.size()) / static_cast<double>(taus.size()));
+        report(context, kSpectrumPhases["surfaces"], static_cast<double>(sizes.size()) / static_cast<double>(taus.size()));
         sizes.push_back(measure(tau));
     }
     return sizes;

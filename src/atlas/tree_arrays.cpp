@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/analyse.h"
 #include "analysis/analysis_data.h"
 #include "analysis/trees.h"
 #include "atlas/element_arrays.h"
@@ -18,7 +17,7 @@ constexpr const char* kVoxels = "elements/voxels";
 
 /// Checks the input of the trees: values in order.
 template <class Id>
-void check(const AnalysisArrays<Id>& a, const Container& store) {
+void check(const ArcArrays<Id>& a, const Container& store) {
     const std::size_t n = a.value.size();
     if (n == 0) contradiction(store, "there are no critical elements");
     if (a.code.size() != n) contradiction(store, "arrays of the same things have different lengths");
@@ -28,45 +27,49 @@ void check(const AnalysisArrays<Id>& a, const Container& store) {
 }
 
 template <class Id>
-std::unique_ptr<IndexedArrays<Id>> read_arcs(const Container& store, const std::byte* samples, const Context& context) {
-    auto result = std::make_unique<IndexedArrays<Id>>();
-    AnalysisArrays<Id>& arrays = result->arrays;
+ArcArrays<Id> read_arcs(const Container& store, const std::byte* samples, const Context& context) {
+    ArcArrays<Id> arrays;
     read_elements<Id>(store, samples, context, arrays.code, arrays.value);
     read_array(store, kTowardsOutside, type_name<Id>(), arrays.contours.other);
     check(arrays, store);
-    return result;
+    return arrays;
 }
 
 /// With voxel counts.
 Analysis with_trees(const Container& store, const std::byte* samples, const Context& context) {
-    Analysis analysis = arcs_of(store, samples, context);
-    analysis.data().visit([&]<class Id>(IndexedArrays<Id>& held) {
-        AnalysisArrays<Id>& arrays = held.arrays;
+    ContourArcs arcs = arcs_of(store, samples, context);
+    auto data = std::make_unique<Analysis::Data>();
+    data->extent = arcs.extent, data->interpolant = arcs.interpolant, data->tunnel_height = arcs.tunnel_height;
+    const auto restore = [&]<class Id>(ArcArrays<Id>& held) {
+        auto whole = std::make_unique<IndexedArrays<Id>>();
+        AnalysisArrays<Id>& arrays = whole->arrays;
+        arrays.value = std::move(held.value), arrays.code = std::move(held.code), arrays.contours = std::move(held.contours);
         if (!restore_trees(arrays, store.contents().volume.extent.rank, context)) contradiction(store, "the contour tree is not a tree");
-        read_array(store, kVoxels, type_name<Id>(), arrays.element_voxels);
-        if (arrays.element_voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
-        add_up_voxels(arrays);
-        release(arrays.element_voxels);
-    });
-    return analysis;
+        BigVector<Id> voxels;
+        read_array(store, kVoxels, type_name<Id>(), voxels);
+        if (voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
+        add_up_voxels<Id>(voxels, arrays);
+        data->arrays = std::move(whole);
+    };
+    std::visit(restore, arcs.arrays);
+    return Analysis(std::move(data));
 }
 
 }  // namespace
 
-std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads) {
-    std::vector<PackedArray> packs;
-    analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
-        const AnalysisArrays<Id>& arrays = held.arrays;
-        packs = element_arrays<Id>(arrays.value, arrays.code, volume, threads);
-        packs.push_back(packed_chunks<Id>(kTowardsOutside, type_name<Id>(), std::span<const Id>(arrays.contours.other)));
-    });
-    return packs;
+std::vector<PackedArray> tree_arrays(const ContourArcs& arcs, const VolumeInfo& volume, int threads) {
+    return std::visit(
+        [&]<class Id>(const ArcArrays<Id>& arrays) {
+            std::vector<PackedArray> packs = element_arrays<Id>(arrays.value, arrays.code, volume, threads);
+            packs.push_back(packed_chunks<Id>(kTowardsOutside, type_name<Id>(), std::span<const Id>(arrays.contours.other)));
+            return packs;
+        },
+        arcs.arrays);
 }
 
-std::vector<PackedArray> zone_arrays(const Analysis& analysis) {
-    return analysis.data().visit([]<class Id>(const IndexedArrays<Id>& held) -> std::vector<PackedArray> {
-        return {packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.arrays.element_voxels))};
-    });
+PackedArray voxel_array(const ElementVoxels& voxels) {
+    return std::visit(
+        []<class Id>(const BigVector<Id>& held) { return packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held)); }, voxels);
 }
 
 std::vector<PackedArray> copied_arrays(const Container& store) {
@@ -87,20 +90,17 @@ std::vector<PackedArray> copied_arrays(const Container& store) {
     return packs;
 }
 
-Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context) {
+ContourArcs arcs_of(const Container& store, const std::byte* samples, const Context& context) {
     const Contents& contents = store.contents();
-    auto data = std::make_unique<Analysis::Data>();
-    data->extent = contents.volume.extent;
-    data->interpolant = contents.parameters.interpolant;
-    data->tunnel_height = contents.parameters.tunnel_height;
+    ContourArcs arcs{contents.volume.extent, contents.parameters.interpolant, contents.parameters.tunnel_height, {}};
     const bool is_wide = std::any_of(contents.arrays.begin(), contents.arrays.end(),
                                      [](const StoredArray& a) { return a.name == kTowardsOutside && a.type == "uint64"; });
     if (is_wide) {
-        data->arrays = read_arcs<std::uint64_t>(store, samples, context);
+        arcs.arrays = read_arcs<std::uint64_t>(store, samples, context);
     } else {
-        data->arrays = read_arcs<std::uint32_t>(store, samples, context);
+        arcs.arrays = read_arcs<std::uint32_t>(store, samples, context);
     }
-    return Analysis(std::move(data));
+    return arcs;
 }
 
 Analysis analysis_of(const Container& store, const Context& context) { return with_trees(store, nullptr, context); }

@@ -11,29 +11,27 @@
 #include <cstddef>
 #include <vector>
 
+#include "analysis/contour_arcs.h"
+
 namespace isoatlas {
 
-class Analysis;
 class Container;
-struct Context;
 struct PackedArray;
-struct VolumeInfo;
-struct VolumeView;
 
-/// Of find_arcs(), and of count_voxels() (analysis/analyse.h). The analysis must live until they are packed.
-[[nodiscard]] std::vector<PackedArray> tree_arrays(const Analysis& analysis, const VolumeInfo& volume, int threads);
-[[nodiscard]] std::vector<PackedArray> zone_arrays(const Analysis& analysis);
+/// The arcs, the voxels must live until they are packed.
+[[nodiscard]] std::vector<PackedArray> tree_arrays(const ContourArcs& arcs, const VolumeInfo& volume, int threads);
+[[nodiscard]] PackedArray voxel_array(const ElementVoxels& voxels);
 
 /// All arrays of another store, which must live until they are packed.
 [[nodiscard]] std::vector<PackedArray> copied_arrays(const Container& store);
 
-/// Result of find_arcs(). samples: of the volume, x fastest; null: those of the store, which are read for stores with many elements. Throws
+/// As compute_arcs(). samples: of the volume, x fastest; null: those of the store, which are read for stores with many elements. Throws
 /// Error: input (inconsistent arrays), cancelled. Cost: reads them.
-[[nodiscard]] Analysis arcs_of(const Container& store, const std::byte* samples, const Context& context);
+[[nodiscard]] ContourArcs arcs_of(const Container& store, const std::byte* samples, const Context& context);
 /// The analysis of a store, without zones of voxels. Throws Error: input (inconsistent arrays), cancelled. Cost: reads all of
 /// them, O(n alpha).
 [[nodiscard]] Analysis analysis_of(const Container& store, const Context& context);
-/// The same with zones. volume: all samples of the store. Cost: and add_zones() (analysis/analyse.h).
+/// The same with zones. volume: all samples of the store. Cost: and add_zones() (analysis/contour_arcs.h).
 [[nodiscard]] Analysis zoned_analysis_of(const Container& store, const VolumeView& volume, const Context& context);
 
 }  // namespace isoatlas

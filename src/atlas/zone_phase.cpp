@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "analysis/analyse.h"
 #include "atlas/event_arrays.h"
 #include "atlas/object_arrays.h"
 #include "atlas/tree_arrays.h"
@@ -31,16 +30,16 @@ Context silent(Context context) {
 
 }  // namespace
 
-std::unique_ptr<ZonePhase> zone_phase(Analysis& analysis, const VolumeView& volume, const Context& context, const Context& counting,
+std::unique_ptr<ZonePhase> zone_phase(ContourArcs arcs, const VolumeView& volume, const Context& context, const Context& counting,
                                       const std::function<void(double)>& done) {
     auto phase = std::make_unique<ZonePhase>();
-    count_voxels(analysis, volume, counting);
-    phase->arrays = zone_arrays(analysis);
-    if (analysis.element_count() > kTableElements) return phase;
+    phase->voxels = count_voxels(arcs, volume, counting);
+    phase->arrays.push_back(voxel_array(phase->voxels));
+    if (static_cast<std::int64_t>(arcs.elements()) > kTableElements) return phase;
     done(0);
-    complete(analysis, volume, silent(context));
+    phase->analysis = make_analysis(std::move(arcs), volume, silent(context));
     done(0.3);
-    add_tables(analysis, volume, silent(context), done, *phase);
+    add_tables(*phase->analysis, volume, silent(context), done, *phase);
     return phase;
 }
 

@@ -41,7 +41,7 @@ int with_new_name(const std::string& folder, std::string& name, const Call& call
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+AtomicFile::AtomicFile(std::string path) : Sink(std::move(path)) {
     buffer_.reserve(kBufferBytes);
     open();
 }
@@ -49,7 +49,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::open() {
-    const OutputTarget target = require_target(path_);
+    const OutputTarget target = require_target(name());
     target_ = target.path;
     is_stream_ = target.is_stream;
     if (is_stream_) {
@@ -91,8 +91,6 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
     }
     size_ += static_cast<std::int64_t>(bytes.size());
 }
-
-void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
 
 void AtomicFile::write_at(std::int64_t offset, std::span<const std::byte> bytes) {
     ISOATLAS_CHECK(file_ != nullptr && offset >= 0);
@@ -162,7 +160,7 @@ void AtomicFile::require(int error, const char* action) const {
 void AtomicFile::fail(const char* action, int error) const {
     throw Error(
         ErrorKind::resource,
-        {.file = path_, .what = std::string(action) + ": " + std::system_category().message(-error), .next = next_step_after(error)});
+        {.file = name(), .what = std::string(action) + ": " + std::system_category().message(-error), .next = next_step_after(error)});
 }
 
 }  // namespace isoatlas

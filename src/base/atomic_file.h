@@ -1,4 +1,5 @@
-// AtomicFile: atomic writing, used for every file of the project. Either the whole file appears under its name, or nothing changes.
+// AtomicFile: the Sink of a file on disk, used for every file of the project. Either the whole file appears under its name, or nothing
+// changes.
 //
 //   AtomicFile file("table.csv");
 //   file.write("a,b\n");
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "base/file_system.h"
+#include "isoatlas/sink.h"
 
 namespace isoatlas {
 
@@ -21,25 +23,20 @@ namespace isoatlas {
 /// gives it the name `path`. Without commit(), or when the process ends, it is gone; names that a crash has left are removed by the next
 /// file in that folder. What may be replaced and what is refused: isoatlas/output_file.h. Of two writers of one path the last commit()
 /// wins. Every function throws Error{resource} with path, reason of the system and next step. Writes are buffered. Not thread safe.
-class AtomicFile {
+class AtomicFile final : public Sink {
 public:
     explicit AtomicFile(std::string path);
-    ~AtomicFile();
-    AtomicFile(const AtomicFile&) = delete;
-    AtomicFile& operator=(const AtomicFile&) = delete;
+    ~AtomicFile() override;
 
-    void write(std::span<const std::byte> bytes);
-    void write(std::string_view text);
-    /// Writes anywhere: over what is there, e.g. a length in a header, or behind it; a hole reads as zeros. Not possible on devices and
-    /// pipes.
-    void write_at(std::int64_t offset, std::span<const std::byte> bytes);
+    using Sink::write;
+    void write(std::span<const std::byte> bytes) override;
+    /// Not possible on devices and pipes.
+    void write_at(std::int64_t offset, std::span<const std::byte> bytes) override;
     /// Reserves disk space for a file of that size, where the system can, so that a full disk is reported before the work.
     void reserve(std::int64_t size);
     /// Lengthens the file by zeros. size >= size().
     void extend(std::int64_t size);
-    /// End of the bytes written so far: the offset of the next write().
-    [[nodiscard]] std::int64_t size() const { return size_; }
-    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::int64_t size() const override { return size_; }
     /// Nothing may be written afterwards.
     void commit();
 
@@ -53,8 +50,7 @@ private:
     void put(std::int64_t offset, std::span<const std::byte> bytes);
     void discard() noexcept;
 
-    std::string path_;        ///< as the caller gave it, for messages
-    std::string target_;      ///< where it goes: path_ with links followed
+    std::string target_;      ///< where it goes: name() with links followed
     std::string partial_;     ///< its name until then; empty: none
     bool is_stream_ = false;  ///< written directly
     std::unique_ptr<File> file_;

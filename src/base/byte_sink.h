@@ -1,4 +1,4 @@
-// ByteSink: receives a stream of bytes, piece by piece.
+// ByteSink: a callback that receives the bytes of one array, piece by piece. A whole file goes to a Sink (isoatlas/sink.h).
 #pragma once
 
 #include <cstddef>

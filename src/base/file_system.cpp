@@ -12,8 +12,6 @@ FileSystem*& in_use() {
     return files;
 }
 
-thread_local FileSystem* own = nullptr;
-
 }  // namespace
 
 File::~File() = default;
@@ -45,13 +43,10 @@ int FileSystem::remove_folder(const std::string&) { return -EROFS; }
 std::vector<std::string> FileSystem::entries(const std::string&, std::size_t) { return {}; }
 int FileSystem::sync_folder(const std::string&) { return -EROFS; }
 
-FileSystem& file_system() { return own == nullptr ? *in_use() : *own; }
+FileSystem& file_system() { return *in_use(); }
 
 ReplacedFileSystem::ReplacedFileSystem(FileSystem& files) : before_(std::exchange(in_use(), &files)) {}
 ReplacedFileSystem::~ReplacedFileSystem() { in_use() = before_; }
-
-OwnFileSystem::OwnFileSystem(FileSystem& files) : before_(std::exchange(own, &files)) {}
-OwnFileSystem::~OwnFileSystem() { own = before_; }
 
 int write_fully(File& file, std::int64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {

@@ -104,30 +104,18 @@ public:
     [[nodiscard]] virtual int sync_folder(const std::string& path);
 };
 
-/// The file system in use: this thread's own one, or the global one.
+/// The file system in use, in all threads: the operating system's, unless a test has replaced it.
 [[nodiscard]] FileSystem& file_system();
 /// That of the operating system.
 [[nodiscard]] FileSystem& system_files();
 
-/// For tests: while it lives, `files` is in use. Not thread safe.
+/// For tests: while it lives, `files` is in use in the whole process. Not thread safe.
 class ReplacedFileSystem {
 public:
     explicit ReplacedFileSystem(FileSystem& files);
     ~ReplacedFileSystem();
     ReplacedFileSystem(const ReplacedFileSystem&) = delete;
     ReplacedFileSystem& operator=(const ReplacedFileSystem&) = delete;
-
-private:
-    FileSystem* before_;
-};
-
-/// While it lives, `files` is in use in the thread that made it; other threads are not affected.
-class OwnFileSystem {
-public:
-    explicit OwnFileSystem(FileSystem& files);
-    ~OwnFileSystem();
-    OwnFileSystem(const OwnFileSystem&) = delete;
-    OwnFileSystem& operator=(const OwnFileSystem&) = delete;
 
 private:
     FileSystem* before_;

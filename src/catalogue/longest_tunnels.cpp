@@ -35,7 +35,7 @@ void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& cont
         const auto place = branch_of.find(handle.event);
         if (place == branch_of.end()) continue;
         PageBranch& branch = contents.branches[place->second];
-        ++branch.standing_tunnels;
+        ++branch.significant_tunnels;
         if (branch.tunnels.size() < kMax) branch.tunnels.push_back({handle.opens, handle.closes});
     }
 }

@@ -1,4 +1,5 @@
 #include "catalogue/page_contents.h"
+#include "base/phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ private:
                                           .voxels = b.voxels,
                                           .measure = b.measure,
                                           .joined = joined[i],
-                                          .stands_out = is_significant[i],
+                                          .is_significant = is_significant[i],
                                           .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{},
                                           .top = b.top});
             if (!is_shown[i]) continue;
@@ -140,7 +141,7 @@ private:
                                           .hypervolume = entry.hypervolume,
                                           .voxels = entry.voxels,
                                           .measure = entry.measure,
-                                          .stands_out = true,
+                                          .is_significant = true,
                                           .isovalues = isovalues_of(cavities.isovalues, entry.branch_minimum)});
             std::erase_if(contents_.branches.back().isovalues,
                           [&](const RecommendedIsovalue& isovalue) { return isovalue.tau == entry.best_tau; });
@@ -206,7 +207,7 @@ void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions
     if (atlas.info().extent.rank == 2) image = atlas.volume(silent);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         PageEntry& entry = entries[i];
-        context.report("draw", 0, 1, static_cast<double>(i) / static_cast<double>(entries.size()));
+        report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(entries.size()));
         if (image) {
             entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
             continue;

@@ -33,7 +33,7 @@ std::vector<double> isovalues_of(const Volume& volume, const Analysis& analysis)
 std::vector<std::int64_t> count_active(const Volume& volume, std::span<const double> isovalues, const Context& context) {
     const Extent& extent = volume.info.extent;
     IntervalCounts active(isovalues);
-    for_each_slab(context, {"active cells", 0, 2}, {extent.size[2], extent.slice()}, [&](const Slab& slab) {
+    for_each_slab(context, kSearchPhases["active cells"], {extent.size[2], extent.slice()}, [&](const Slab& slab) {
         for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
             for_cells_of_slice(extent, z, [&](std::span<const std::int64_t> corners) {
                 double low = kInfinity, high = -kInfinity;
@@ -86,7 +86,7 @@ void count_brick(const Volume& volume, const Box& box, IntervalCounts& loaded, I
 BrickCounts count_bricks(const Volume& volume, std::span<const double> isovalues, const Context& context) {
     const BrickGrid grid(volume.info.extent);
     IntervalCounts loaded(isovalues), read(isovalues);
-    for_each_slab(context, {"active cells", 0, 2}, {grid.size[2], grid.size[0] * grid.size[1]}, [&](const Slab& slab) {
+    for_each_slab(context, kSearchPhases["active cells"], {grid.size[2], grid.size[0] * grid.size[1]}, [&](const Slab& slab) {
         const std::int64_t layer = grid.size[0] * grid.size[1];
         for (std::int64_t b = slab.z_begin * layer; b < slab.z_end * layer; ++b) count_brick(volume, grid.box(b), loaded, read);
     });

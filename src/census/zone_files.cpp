@@ -145,7 +145,7 @@ private:
 ZoneFiles count_zone_files(const Volume& volume, const Analysis& analysis, std::span<const double> isovalues, const Context& context) {
     Counter counter(volume, analysis, isovalues);
     const Extent& extent = volume.info.extent;
-    for_each_slab(context, {"zone files", 1, 2}, {extent.size[2], extent.slice()}, [&](const Slab& slab) { counter.run(slab); });
+    for_each_slab(context, kSearchPhases["zone files"], {extent.size[2], extent.slice()}, [&](const Slab& slab) { counter.run(slab); });
     return counter.result();
 }
 

@@ -9,9 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "base/phase.h"
 #include "isoatlas/analysis.h"
 
 namespace isoatlas {
+
+/// Of search_costs().
+inline constexpr PhasePlan<2> kSearchPhases{{"active cells", "zone files"}};
 
 struct ZoneFiles {
     std::vector<std::int64_t> points;   ///< per event: of its file

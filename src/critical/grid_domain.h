@@ -1,7 +1,7 @@
 // The regular grid as a domain: the slab passes of this folder, put together.
 //
-// Domain is the interface to the later stages: a critical set, a basin per vertex, positions of elements.
-// Grids of other dimensions and simplicial meshes would implement it (docs/theory/2-critical-elements.md#other-dimensions).
+// It implements Domain (critical/domain.h), as grids of other dimensions and simplicial meshes would
+// (docs/theory/2-critical-elements.md#other-dimensions).
 //
 // The notation of this folder:
 //   High, Low       a sample or element of value >= tau, < tau; everything outside the grid (EXT) is Low
@@ -20,34 +20,21 @@
 // The stages: scan (links and critical elements of all slabs), basins, representatives, sort by rank.
 #pragma once
 
-#include <array>
-#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <utility>
 
 #include "critical/basins.h"
-#include "critical/critical_set.h"
+#include "critical/domain.h"
 #include "critical/grid_scan.h"
 #include "isoatlas/context.h"
 
 namespace isoatlas {
 
-/// Result of critical(): the sorted critical elements, and for every vertex the number of a maximum above it (Basins::number).
+/// Per maximum, in raster order: its critical element. Cost: O(elements), a bit a voxel.
 template <class Id>
-struct Criticals {
-    CriticalSet<Id> set;
-    BigVector<Id> basin;  ///< empty when it was not to be kept
-};
-
-template <class D>
-concept Domain = requires(D& domain, const Context& context, std::uint64_t code, KeyedElement element) {
-    typename D::Id;
-    typename D::Sample;
-    { domain.critical(true, context) } -> std::same_as<Criticals<typename D::Id>>;
-    { domain.position(code) } -> std::same_as<std::array<double, 3>>;
-    { domain.above(element, element) } -> std::same_as<bool>;  // the total order
-    { domain.vertices() } -> std::same_as<std::int64_t>;
-    { domain.sample(std::int64_t{}) } -> std::same_as<typename D::Sample>;
-};
+[[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Extent& extent);
 
 template <class T, class IdType>
 class GridDomain {
@@ -55,15 +42,18 @@ public:
     using Id = IdType;
     using Sample = T;
 
+    /// scan: of scan_grid(); empty when critical() is not called.
     GridDomain(GridView<T> grid, GridScan scan) : grid_(grid), above_{GridSteps(grid.extent)}, scan_(std::move(scan)) {}
 
     /// Resolves basins and sorts; consumes the scan. Cost: O(voxels + c log c); 5 bytes a voxel and 64 a critical element while it runs
     /// with 32-bit ids, 4 bytes a voxel more when the basins are kept.
     [[nodiscard]] Criticals<Id> critical(bool keep_basins, const Context& context);
-    [[nodiscard]] std::array<double, 3> position(std::uint64_t code) const { return element_position(ElementCode{code}, grid_.extent); }
-    [[nodiscard]] bool above(const KeyedElement& p, const KeyedElement& q) const { return above_(p, q); }
-    [[nodiscard]] std::int64_t vertices() const { return grid_.extent.voxels(); }
-    [[nodiscard]] T sample(std::int64_t v) const { return grid_.samples[v]; }
+    [[nodiscard]] std::span<const T> samples() const { return {grid_.samples, static_cast<std::size_t>(grid_.extent.voxels())}; }
+    /// Maxima are numbered in raster order.
+    [[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code) const {
+        return isoatlas::elements_of_maxima<Id>(code, grid_.extent);
+    }
+    void for_parts(const Context& context, const Phase& phase, const std::function<void(std::size_t, std::size_t)>& work) const;
 
 private:
     GridView<T> grid_;

@@ -32,7 +32,7 @@ GridScan scan_grid(const GridView<T>& grid, double tunnel_height, const Context&
     scan.height = slab_height(extent, context);
     scan.links.resize(static_cast<std::size_t>(extent.voxels()));
     std::vector<SlabScan> slabs(static_cast<std::size_t>(slab_count(extent, scan.height)));
-    for_each_slab_of(scan.height, context, {"classify", 0, 5}, extent.size[2], [&](const Slab& slab) {
+    for_each_slab_of(scan.height, context, kAnalysisPhases["classify"], extent.size[2], [&](const Slab& slab) {
         const std::int64_t first = slab.z_begin * extent.slice(), count = (slab.z_end - slab.z_begin) * extent.slice();
         slabs[slab.z_begin / scan.height] = scan_slab(grid, slab, std::span<std::uint8_t>(scan.links).subspan(first, count), tunnel_height);
     });

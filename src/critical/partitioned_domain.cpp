@@ -6,6 +6,7 @@
 #include "base/cancel.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/phase.h"
 #include "base/parallel_sort.h"
 #include "base/part_streams.h"
 #include "critical/elements_with_extrema.h"
@@ -126,7 +127,7 @@ template <class Id>
 PartitionedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const Tiling& tiling, const Context& context) {
     PartitionedCriticals<Id> result;
     stop_if_cancelled(context);
-    context.report("basins", 1, 5, 0);
+    report(context, kAnalysisPhases["basins"], 0);
     ChunksWithExtrema<Id> elements;
     result.set.first = first_of_tiles(scan, tiling);
     {
@@ -137,7 +138,7 @@ PartitionedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, c
         result.set.first_minimum = minima.first;
     }
     stop_if_cancelled(context);
-    context.report("sort", 2, 5, 0);
+    report(context, kAnalysisPhases["sort"], 0);
     const BigVector<Representatives<Id>> representatives =
         sort_elements<Id>(std::move(elements), Above{GridSteps(extent)}, result, context.threads);
     cut(representatives, tiling, result);

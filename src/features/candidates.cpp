@@ -42,7 +42,7 @@ private:
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
     /// The significant branches by rank, whatever is selected.
-    [[nodiscard]] std::vector<std::int64_t> standing_out(const NoiseModel& noise) const {
+    [[nodiscard]] std::vector<std::int64_t> significant(const NoiseModel& noise) const {
         return significant_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
     }
 
@@ -54,7 +54,7 @@ private:
             const BigVector<double> measure = measured ? branch_measures(tree_, branches_, *volume_.info) : BigVector<double>();
             kept = select_branches(branches_, measure, *options.selection);
         } else if (options.gate) {
-            kept = standing_out(noise);
+            kept = significant(noise);
         } else {
             kept.resize(branches_.branch.size());
             std::iota(kept.begin(), kept.end(), std::int64_t{0});
@@ -100,7 +100,7 @@ private:
             std::vector<BranchIsovalue> own = isovalues(kept[k], result.histograms[k]);
             std::size_t rows = 1;
             if (k == 0 && is_superlevel()) {  // the main branch of sublevel sets is the outside, which has no rows
-                const std::vector<BranchIsovalue> more = before_merges(branches_, standing_out(noise), result.histograms[k], own, noise);
+                const std::vector<BranchIsovalue> more = before_merges(branches_, significant(noise), result.histograms[k], own, noise);
                 own.insert(std::ranges::find(own, kOutline, &BranchIsovalue::reason), more.begin(), more.end());
                 rows = arrange_main_branch(own, volume_.info->extent.voxels());
             }

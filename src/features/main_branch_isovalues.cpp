@@ -32,13 +32,13 @@ double gain(const BranchIsovalue& isovalue, const std::vector<BranchIsovalue>& t
 
 }  // namespace
 
-std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, const std::vector<std::int64_t>& standing_out,
+std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, const std::vector<std::int64_t>& significant,
                                           const BranchHistogram& histogram, const std::vector<BranchIsovalue>& own,
                                           const NoiseModel& noise) {
     std::vector<double> volume(histogram.added.size());
     std::partial_sum(histogram.added.rbegin(), histogram.added.rend(), volume.rbegin());
     std::vector<BranchIsovalue> all = own;
-    for (const std::int64_t i : standing_out) {
+    for (const std::int64_t i : significant) {
         const Branch& other = branches.branch[i];
         const std::size_t bin = histogram.bin(other.merges) + 1;
         if (other.parent != 0 || bin >= volume.size()) continue;

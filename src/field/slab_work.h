@@ -2,17 +2,12 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 
+#include "base/phase.h"
 #include "field/grid.h"
 #include "isoatlas/context.h"
 
 namespace isoatlas {
-
-struct Phase {
-    std::string_view name;
-    int index, count;
-};
 
 /// Slices of equal size.
 struct Slices {

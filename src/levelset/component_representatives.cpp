@@ -31,7 +31,7 @@ public:
         constexpr auto kNowhere = std::numeric_limits<std::uint32_t>::max();
         std::vector<std::uint32_t> found(static_cast<std::size_t>(runs_.count()), kNowhere);
         const std::int64_t ny = grid_.extent.size[1];
-        for_each_row(context, {"objects", 1, 3}, grid_.extent, [&](std::int64_t y, std::int64_t z) {
+        for_each_row(context, kCutPhases["objects"], grid_.extent, [&](std::int64_t y, std::int64_t z) {
             for_named_runs(y + ny * z, [&](const RunRow& row, std::int64_t i, bool high) {
                 const Extremum best = extreme_of_run(row, i, high, y, z);
                 if (best.voxel != -1) found[row.first_run + i] = static_cast<std::uint32_t>(best.voxel - grid_.extent.index(0, y, z));

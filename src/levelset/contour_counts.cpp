@@ -89,7 +89,7 @@ void count_3d(const SampleGrid<T>& grid, double tau, double tunnel_height, const
     const TunnelFinder<T> tunnels(grid, tau, tunnel_height);
     const auto is_inner = [](std::int64_t row, std::int64_t size) { return row >= 0 && row + 1 < size; };
     std::atomic<std::int64_t> active{0};
-    for_each_slab(context, {"contours", 2, 3}, {grid.extent.size[2] + 1, grid.extent.slice()}, [&](const Slab& slab) {
+    for_each_slab(context, kCutPhases["contours"], {grid.extent.size[2] + 1, grid.extent.slice()}, [&](const Slab& slab) {
         Tally tally(counts);
         std::int64_t cells = 0;
         for (std::int64_t z = slab.z_begin - 1; z < slab.z_end - 1; ++z) {

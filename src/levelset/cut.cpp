@@ -87,7 +87,7 @@ void label_voxels(const Components& components, const std::vector<std::int64_t>&
     std::vector<std::int32_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = static_cast<std::int32_t>(i);
     label.assign(static_cast<std::size_t>(extent.voxels()), -1);
-    for_each_row(context, {"labels", 2, 3}, extent, [&](std::int64_t y, std::int64_t z) {
+    for_each_row(context, kLabelPhases["labels"], extent, [&](std::int64_t y, std::int64_t z) {
         const RunRow row = components.runs.row(y, z);
         const std::int64_t first = extent.index(-1, y, z);  // position p is voxel p - 1
         for (std::int64_t i = 1; i < row.changes; i += 2) {

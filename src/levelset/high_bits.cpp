@@ -72,7 +72,7 @@ HighBits classify(const Volume& volume, double tau, const Context& context) {
         const GridView<T> grid{samples.data(), volume.info.extent};
         const Threshold<T> threshold = threshold_for<T>(tau);
         if (threshold.none_high) return;
-        for_each_row(context, {"classify", 0, 3}, grid.extent, [&](std::int64_t y, std::int64_t z) {
+        for_each_row(context, kCutPhases["classify"], grid.extent, [&](std::int64_t y, std::int64_t z) {
             classify_row(grid.row(y, z), grid.extent.size[0], threshold.min, high.row(y, z));
         });
     });

@@ -34,7 +34,7 @@ Runs find_runs(const HighBits& high, const Context& context) {
     Runs runs{extent, std::vector<std::int64_t>(static_cast<std::size_t>(extent.size[1] * extent.size[2] + 1)), {}};
     const std::int64_t ny = extent.size[1];
     const auto for_rows = [&](auto&& visit) {
-        for_each_row(context, {"objects", 1, 3}, extent,
+        for_each_row(context, kCutPhases["objects"], extent,
                      [&](std::int64_t y, std::int64_t z) { visit(y + ny * z, high.row(y, z), high.candidates(y, z)); });
     };
     for_rows([&](std::int64_t r, const std::uint64_t* row, const WordSet& candidates) {

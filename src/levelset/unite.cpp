@@ -112,7 +112,7 @@ RunSets unite_runs(const SampleView& volume, double tau, double tunnel_height, c
         RunJoiner<T> joiner(grid, tau, tunnel_height, high, runs, sets);
         const Slices slices{grid.extent.size[2], grid.extent.slice()};
         // Slabs own disjoint ranges of runs, so they may unite at the same time; the seams between them follow.
-        for_each_slab(context, {"objects", 1, 3}, slices, [&](const Slab& slab) {
+        for_each_slab(context, kCutPhases["objects"], slices, [&](const Slab& slab) {
             for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
                 joiner.join_inside(z);
                 if (z + 1 < slab.z_end) joiner.join_upwards(z);

@@ -15,7 +15,7 @@ std::int64_t sum_rows(const MeshDomain& domain, const Context& context, const Co
     Extent rows = domain.high.extent();
     rows.size = {rows.size[0], domain.y_end - domain.y_begin, domain.is_2d() ? 1 : domain.z_end - domain.z_begin};
     std::atomic<std::int64_t> sum = 0;
-    for_each_row(context, {"cells", 1, 3}, rows,
+    for_each_row(context, kSelectPhases["cells"], rows,
                  [&](std::int64_t y, std::int64_t z) { sum += count(domain.y_begin + y, domain.z_begin + z); });
     return sum;
 }

@@ -16,8 +16,6 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kPhases = 3;
-
 /// Is the orientation of triangles (segments) opposite to that in voxel coordinates? A 2D image is seen from +z where it can be.
 bool is_mirrored(const VolumeInfo& info) {
     const Mat3& m = info.geometry.direction;
@@ -99,7 +97,7 @@ private:
     /// PASS 1 and 2.
     void count() {
         resize_for_overwrite(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
-        for_groups({"count", 1, kPhases}, [&](std::int64_t group, std::int64_t z) {
+        for_groups(kSurfacePhases["count"], [&](std::int64_t group, std::int64_t z) {
             const auto [begin, end] = RowGroups::rows(domain_, group);
             bool used = false;
             for (std::int64_t y = begin; y < end; ++y) used |= count_row(y, z);
@@ -143,7 +141,7 @@ private:
     /// PASS 3.
     void write_hits(Surface& surface) {
         const HitWriter<T> hits(grid_, tau_, map_, domain_, surface);
-        const Phase phase{"points", 2, kPhases};
+        const Phase phase = kSurfacePhases["points"];
         for_each_slab_of(1, context_, phase, hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });
         for_used_rows(phase, [&](std::int64_t y, std::int64_t z) {
             const RowOffsets& place = layout_[domain_.row_number(y, z)];
@@ -155,7 +153,7 @@ private:
 
     /// PASS 4.
     void write_cells(Surface& surface) {
-        for_used_rows({"triangles", 2, kPhases}, [&](std::int64_t y, std::int64_t z) {
+        for_used_rows(kTrianglePhases["triangles"], [&](std::int64_t y, std::int64_t z) {
             if (!has_cells(y, z)) return;
             if (domain_.is_2d())
                 write_segments(grid_, tau_, domain_, y, layout_, flip_, surface);

@@ -136,7 +136,7 @@ void write_ids(const Components& components, const Context& context, Surface& su
     const auto count = static_cast<std::int64_t>(surface.contour.size());
     Context blocks = context;
     blocks.slab_slices = 1;
-    for_each_slab(blocks, {"ids", 2, 3}, {(count + kBlock - 1) / kBlock, kBlock}, [&](const Slab& slab) {
+    for_each_slab(blocks, kSelectPhases["ids"], {(count + kBlock - 1) / kBlock, kBlock}, [&](const Slab& slab) {
         const std::int64_t end = std::min(count, slab.z_end * kBlock);
         for (std::int64_t i = slab.z_begin * kBlock; i < end; ++i) {
             const std::int64_t contour = surface.contour[i];

@@ -99,8 +99,8 @@ private:
     }
 
     void write_counts() {
-        const auto put = [&](const char* name, std::int64_t all, std::int64_t standing_out) {
-            json_.key(name).begin_object().key("all").value(all).key("significant").value(standing_out).end_object();
+        const auto put = [&](const char* name, std::int64_t all, std::int64_t significant) {
+            json_.key(name).begin_object().key("all").value(all).key("significant").value(significant).end_object();
         };
         json_.key("found").begin_object();
         put("objects", contents_.objects, contents_.significant_objects);
@@ -177,7 +177,7 @@ private:
         put_value("merges", branch.merges);  // null: never
         json_.key("parent").value(branch.parent).key("hypervolume").value(scale_.reported_difference(branch.hypervolume));
         json_.key("voxels").value(branch.voxels).key("measure").value(branch.measure).key("joined").value(branch.joined);
-        json_.key("standsOut").value(branch.stands_out);
+        json_.key("significant").value(branch.is_significant);
         if (!branch.shape.empty()) {
             json_.key("shape");
             put_columns(branch.shape, false);
@@ -189,7 +189,7 @@ private:
 
     void write_tunnels(const PageBranch& branch) {
         json_.key("tunnels").begin_object().key("exact").value(contents_.exact_tunnels);
-        json_.key("significant").value(branch.standing_tunnels).key("longest").begin_array();
+        json_.key("significant").value(branch.significant_tunnels).key("longest").begin_array();
         for (const PageTunnel& tunnel : branch.tunnels) {
             json_.begin_object();
             put_value("opens", tunnel.opens);

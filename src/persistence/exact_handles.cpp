@@ -8,6 +8,7 @@
 #include "base/cancel.h"
 #include "base/check.h"
 #include "base/parallel.h"
+#include "base/phase.h"
 #include "field/volume_view.h"
 #include "persistence/descending_disk.h"
 #include "persistence/handle_pairs.h"
@@ -71,7 +72,7 @@ public:
         std::vector<Column> traced(static_cast<std::size_t>(kBatch));
         for (std::int64_t first = 0; first < closing; first += kBatch) {
             stop_if_cancelled(context_);
-            context_.report("tunnels", 0, 1, static_cast<double>(first) / static_cast<double>(closing));
+            report(context_, only_phase("tunnels"), static_cast<double>(first) / static_cast<double>(closing));
             const std::int64_t count = std::min(kBatch, closing - first);
             for_each_block(context_.threads, count, [&](std::int64_t i) { traced[i] = column(elements_.closing[first + i]); });
             for (std::int64_t i = 0; i < count; ++i) reduce(std::move(traced[i]), elements_.closing[first + i]);

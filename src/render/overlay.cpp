@@ -57,7 +57,7 @@ void draw_legend(const Scene& scene, const Style& style, Image& image) {
         y += 1.8 * style.size;
     };
     for (const SceneObject& object : scene.objects) entry(object.name, object.colour);
-    for (const OpacityTent& bump : scene.volume.bumps) entry(bump.name, bump.colour);
+    for (const OpacityTent& bump : scene.volume.tents) entry(bump.name, bump.colour);
     for (const TransferCurve& curve : scene.volume.curves) entry(curve.name, curve.colour);
 }
 

@@ -65,7 +65,7 @@ std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const Volume
     const double width = kWidth * (range[1] - range[0]), ramp = kRamp * width;
     const std::vector<Best> best = best_isovalues(table, info.extent, range[1] - range[0]);
     const double voxel = std::min({info.geometry.spacing[0], info.geometry.spacing[1], info.geometry.spacing[2]});
-    std::vector<OpacityTent> bumps;
+    std::vector<OpacityTent> tents;
     for (std::size_t i = 0; i < best.size(); ++i) {
         const bool last = i + 1 == best.size();
         const double part = best.size() > 1 ? static_cast<double>(i) / static_cast<double>(best.size() - 1) : 0.5;
@@ -73,11 +73,11 @@ std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const Volume
         // The last one has no inner entry: it is solid.
         const double high = last ? std::max(skin, range[1] + ramp) : std::min(skin, best[i + 1].tau);
         const double density = kThinnest * std::pow(kDensest / kThinnest, part) / voxel;
-        bumps.push_back(bump_between(low, high, ramp, density, best[i], first_colour));
+        tents.push_back(bump_between(low, high, ramp, density, best[i], first_colour));
         const double body = std::min(density, kBodyDepth / best[i].size);
-        if (best[i].next > high + ramp) bumps.push_back(bump_between(low, best[i].next, ramp, body, best[i], first_colour));
+        if (best[i].next > high + ramp) tents.push_back(bump_between(low, best[i].next, ramp, body, best[i], first_colour));
     }
-    return bumps;
+    return tents;
 }
 
 }  // namespace isoatlas

@@ -4,6 +4,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/phase.h"
 #include "render/film.h"
 #include "render/overlay.h"
 #include "render/scene_box.h"
@@ -11,6 +12,7 @@
 namespace isoatlas {
 namespace {
 
+constexpr PhasePlan<2> kDrawPhases{{"prepare surfaces", "draw"}};
 constexpr std::int64_t kTile = 16;
 constexpr std::int64_t kMaxSide = 16384;
 
@@ -88,7 +90,7 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
     const SceneBox box = box_of(scene);
     const Frame frame{box.centre(), box.radius()};
     const CameraRays rays(camera, options.width, options.height);
-    context.report("prepare surfaces", 0, 2, 0);
+    report(context, kDrawPhases["prepare surfaces"], 0);
     const Tracer tracer(scene, frame, rays, options.shading, context.threads);
     Film film(options.width, options.height);
     const Painter painter(tracer, camera, rays, frame, options);
@@ -97,7 +99,7 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
     constexpr std::int64_t kRowsAtOnce = 4;  // interval of polling the caller for cancellation
     for (std::int64_t row = 0; row < rows; row += kRowsAtOnce) {
         stop_if_cancelled(context);
-        context.report("draw", 1, 2, static_cast<double>(row) / static_cast<double>(rows));
+        report(context, kDrawPhases["draw"], static_cast<double>(row) / static_cast<double>(rows));
         const std::int64_t count = std::min(kRowsAtOnce, rows - row) * across;
         for_each_block(context.threads, count, [&](std::int64_t tile) { painter.paint_tile(row * across + tile, film); });
     }

@@ -43,7 +43,7 @@ private:
 
 Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<double, 2> range)
     : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
-    for (const OpacityTent& bump : volume.bumps) add(curve_of(bump), length_unit);
+    for (const OpacityTent& bump : volume.tents) add(curve_of(bump), length_unit);
     for (const TransferCurve& curve : volume.curves) add(curve, length_unit);
     next_visible_.assign(kPlaces + 1, static_cast<double>(kPlaces));
     for (std::int64_t i = kPlaces - 1; i >= 0; --i)
@@ -79,7 +79,7 @@ std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {
     std::vector<std::array<double, 2>> values;
     // Values that share a table entry with visible ones count as visible.
     const double place = volume.range ? ((*volume.range)[1] - (*volume.range)[0]) / Transfer::kPlaces : 0;
-    for (const OpacityTent& bump : volume.bumps) values.push_back({bump.low, bump.high});
+    for (const OpacityTent& bump : volume.tents) values.push_back({bump.low, bump.high});
     for (const TransferCurve& curve : volume.curves) {
         for (std::size_t i = 1; i < curve.points.size(); ++i) {
             const auto& [low, before] = curve.points[i - 1];

@@ -107,10 +107,10 @@ std::string at_json(const AtVoxel& at) {
     });
 }
 
-std::string transfer_json(std::span<const OpacityTent> bumps, const Calibration& calibration) {
+std::string transfer_json(std::span<const OpacityTent> tents, const Calibration& calibration) {
     return document("transfer", [&](JsonStream& json) {
         json.key("tents").begin_array();
-        for (const OpacityTent& bump : bumps) {
+        for (const OpacityTent& bump : tents) {
             json.line().begin_object().key("tau").value(calibration.reported(bump.tau));
             json.key("low").value(calibration.reported(bump.low)).key("high").value(calibration.reported(bump.high));
             json.key("ramp").value(bump.ramp).key("density").value(bump.density);
@@ -133,9 +133,9 @@ std::string events_json(const StoreState::State& state, const std::vector<JobQue
         json.key("state").value(state.is_open ? "open" : state.failure ? "failed" : "building");
         if (!state.is_open && state.failure) put_error(json, *state.failure);
         if (!state.is_open && !state.failure) put_build(json, state.build);
-        json.key("questions").begin_array();
+        json.key("requests").begin_array();
         for (const auto& [line, request] : pending) {
-            json.begin_object().key("client").value(request.client).key("line").value(line).key("place").value(request.place);
+            json.begin_object().key("client").value(request.client).key("queue").value(line).key("place").value(request.place);
             json.key("fraction").value(request.fraction).end_object();
         }
         json.end_array();

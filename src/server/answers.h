@@ -40,7 +40,7 @@ struct AtVoxel {
 };
 [[nodiscard]] std::string at_json(const AtVoxel& at);
 /// calibration: for the values of the tents, which are stored ones.
-[[nodiscard]] std::string transfer_json(std::span<const OpacityTent> bumps, const Calibration& calibration);
+[[nodiscard]] std::string transfer_json(std::span<const OpacityTent> tents, const Calibration& calibration);
 [[nodiscard]] std::string address_json(const std::string& address);
 [[nodiscard]] std::string error_json(const Error& error);
 /// On one line. pending: jobs of the listening client.

@@ -96,7 +96,7 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
         put("hypervolume", [&](Branch branch, Entry) { return scale.reported_difference(branch.hypervolume); });
         put("voxels", [](Branch branch, Entry) { return branch.voxels; });
         put("measure", [](Branch branch, Entry) { return branch.measure; });
-        put("standsOut", [&](Branch branch, Entry) { return std::ranges::binary_search(hierarchy.significant(), &branch - all.data()); });
+        put("significant", [&](Branch branch, Entry) { return std::ranges::binary_search(hierarchy.significant(), &branch - all.data()); });
     });
 }
 

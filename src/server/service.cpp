@@ -13,7 +13,7 @@
 #include "page/template.h"
 #include "server/answers.h"
 #include "server/branch_answers.h"
-#include "server/file_bytes.h"
+#include "server/download.h"
 #include "server/sample_answers.h"
 #include "server/secret.h"
 #include "server/wire_mesh.h"
@@ -271,7 +271,9 @@ Response Service::surface_answer(const Request& request) {
     const double stored = stored_tau(atlas, tau);
     if (format) {
         const Surface surface = extract(stored, options, context);
-        return file_answer(file_bytes("." + *format, [&](const std::string& path) { (void)write_surface(path, surface); }, context));
+        Download download(*format, context);
+        (void)write_surface(download, surface);
+        return file_answer(download.take());
     }
     const auto make = [&](const Context& own) { return wire(extract(stored, options, own), max, own); };
     WireMesh mesh = is_first(stored, options, max) ? first_.get(context, make) : make(context);
@@ -299,8 +301,9 @@ Response Service::label_answer(const Request& request) {
     stop_if_cancelled(context);
     const std::vector<std::uint32_t> labels = object_labels(cut, objects);
     stop_if_cancelled(context);
-    return file_answer(
-        file_bytes("." + format, [&](const std::string& path) { write_labels(path, atlas.info(), labels, origin); }, context));
+    Download download(format, context);
+    write_labels(download, atlas.info(), labels, origin);
+    return file_answer(download.take());
 }
 
 const Atlas& Service::atlas_of_volume() const {

@@ -24,12 +24,12 @@ StoreCatalogue load_catalogue(const Atlas& atlas, const Context& context) {
     Overview found = overview_of(atlas, context);
     PageContents contents = page_contents(atlas, found, {}, context);
     (void)atlas.active_index();  // loaded here, so that requests for objects at an isovalue do not wait for it
-    const std::vector<OpacityTent> bumps =
+    const std::vector<OpacityTent> tents =
         propose_transfer(first_entries(std::move(found.objects), kTransferObjects), atlas.info(), atlas.range());
     std::vector<NamedEntry> entries = named_entries(contents);
     std::string json = atlas_json(atlas, contents);
     return {std::move(contents), std::move(found.hierarchy), std::move(entries), std::move(json),
-            transfer_json(bumps, atlas.info().calibration)};
+            transfer_json(tents, atlas.info().calibration)};
 }
 
 }  // namespace isoatlas

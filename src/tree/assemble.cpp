@@ -27,7 +27,7 @@ template <class Id>
 BigVector<Id> reduce_parts(PartitionedSet<Id>& set, const Context& context) {
     const OpenExtrema open = open_extrema(set, context.threads);
     BigVector<Id> arc(set.size());
-    for_each_slab_of(1, context, {"trees", 3, 5}, static_cast<std::int64_t>(set.parts()), [&](const Slab& slab) {
+    for_each_slab_of(1, context, kAnalysisPhases["trees"], static_cast<std::int64_t>(set.parts()), [&](const Slab& slab) {
         const auto part = static_cast<std::size_t>(slab.z_begin);
         change_part(set.of(part, set.elements), [&](std::span<PartitionedElement<Id>> elements) {
             change_part(set.of(part, arc), [&](std::span<Id> arcs) { reduce_part<Id>(set, part, open, elements, arcs); });

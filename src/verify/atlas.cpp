@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "analysis/analysis_data.h"
+#include "base/phase.h"
 #include "base/portable.h"
 #include "field/order.h"
 #include "verify/level_checks.h"
@@ -113,7 +114,7 @@ void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analy
     silent.progress = nullptr;
     const std::size_t count = checks.isovalues().size();
     for (std::size_t i = 0; i < count; ++i) {
-        context.report("compare", 0, 1, static_cast<double>(i) / static_cast<double>(count));
+        report(context, only_phase("compare"), static_cast<double>(i) / static_cast<double>(count));
         comparison.look_at(checks, i, silent);
     }
     comparison.add_results(results);

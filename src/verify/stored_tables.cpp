@@ -3,7 +3,6 @@
 #include <cstring>
 #include <set>
 
-#include "analysis/analyse.h"
 #include "atlas/census_arrays.h"
 #include "atlas/tree_arrays.h"
 #include "atlas/zone_phase.h"
@@ -115,9 +114,9 @@ CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& sampl
         comparison.compare(tables->arrays);
         return comparison.result();
     }
-    Analysis analysis = find_arcs(volume, options, silent);
-    comparison.compare(tree_arrays(analysis, samples.info, context.threads));
-    const std::unique_ptr<ZonePhase> zones = zone_phase(analysis, volume, silent, silent, [](double) {});
+    ContourArcs arcs = compute_arcs(volume, options, silent);
+    comparison.compare(tree_arrays(arcs, samples.info, context.threads));
+    const std::unique_ptr<ZonePhase> zones = zone_phase(std::move(arcs), volume, silent, silent, [](double) {});
     comparison.compare(zones->arrays);
     comparison.expect_nothing_else();
     return comparison.result();

@@ -1,6 +1,7 @@
 // verify_volume: checks the consistency of the analysis, then compares tree, cut and surface at some isovalues.
 #include <string>
 
+#include "base/phase.h"
 #include "verify/level_checks.h"
 #include "verify/tree_checks.h"
 
@@ -18,7 +19,7 @@ std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions
     silent.progress = nullptr;
     for (std::size_t i = 0; i < checks.isovalues().size(); ++i) {
         const double tau = checks.isovalues()[i];
-        context.report("compare", 0, 1, static_cast<double>(i) / static_cast<double>(checks.isovalues().size()));
+        report(context, only_phase("compare"), static_cast<double>(i) / static_cast<double>(checks.isovalues().size()));
         checks.look_at(i, cut(volume, tau, {.interpolant = own.interpolant, .tunnel_height = own.tunnel_height}, silent),
                        extract(volume, tau, own, silent));
     }

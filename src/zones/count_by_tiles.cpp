@@ -106,7 +106,7 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
     const std::size_t names = basins.open.count();
     TiledElements<Id> elements(value, code, tiling);
     OpenVoxelBuckets<T, Id> open(bounds_of_buckets(value, bucket_count(grid.extent.voxels(), sizeof(OpenVoxels<T, Id>))));
-    for_each_slab_of(1, context, {"zones", 4, 5}, tiling.count(), [&](const Slab& tile) {
+    for_each_slab_of(1, context, kAnalysisPhases["zones"], tiling.count(), [&](const Slab& tile) {
         const auto t = static_cast<std::size_t>(tile.z_begin);
         count_tile<T, Id>(grid, tiling, tile.z_begin, basins, elements.of(t, elements.key), elements.of(t, elements.counted), open);
     });

@@ -29,8 +29,4 @@ template <class T, class Id>
 [[nodiscard]] BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
                                             const Context& context);
 
-/// Per maximum, in raster order: its critical element.
-template <class Id>
-[[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Extent& extent);
-
 }  // namespace isoatlas

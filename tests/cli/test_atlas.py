@@ -209,7 +209,7 @@ class Atlas(harness.CliTest):
         self.assertIsNone(page["spectrum"])
         self.run_ok("noise.nrrd")
         page = self.page("noise.atlas.html")[1]
-        self.assertEqual([branch["standsOut"] for branch in page["branches"]], [True] + [False] * (len(page["branches"]) - 1))
+        self.assertEqual([branch["significant"] for branch in page["branches"]], [True] + [False] * (len(page["branches"]) - 1))
         self.assertEqual({entry["branch"] for entry in page["entries"]}, {0})
         self.write_nrrd("flat.2d.nrrd", (24, 24), bytes(9 * (8 <= x < 16 and 8 <= y < 16) for y in range(24) for x in range(24)))
         self.run_ok("flat.2d.nrrd")

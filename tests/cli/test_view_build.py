@@ -125,7 +125,7 @@ class Leaving(harness.CliTest):
         states = self.viewer.states("me")
         connection = self.viewer.begin("/api/surface?tau=0.5", "me/" + lane)
         for state in states:
-            if any(question["client"] == "me/" + lane and question["place"] == 0 for question in state["questions"]):
+            if any(question["client"] == "me/" + lane and question["place"] == 0 for question in state["requests"]):
                 return connection, states
         self.fail("the question was never seen")
 
@@ -133,9 +133,9 @@ class Leaving(harness.CliTest):
         """The furthest that the extraction has come when it was ended."""
         furthest = 0
         for state in states:
-            if not state["questions"]:
+            if not state["requests"]:
                 return furthest
-            furthest = max(furthest, state["questions"][0]["fraction"])
+            furthest = max(furthest, state["requests"][0]["fraction"])
         self.fail("the stream ended")
 
     def test_a_closed_connection_ends_its_question(self):

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <optional>
 
-#include "analysis/analyse.h"
 #include "analysis/analysis_data.h"
+#include "analysis/contour_arcs.h"
 #include "analysis/trees.h"
 #include "base/memory_limit.h"
 #include "critical/bodies.h"
@@ -51,17 +51,8 @@ std::vector<Id> climbed(const Grid& grid, isoatlas::Interpolant interpolant) {
     return voxels;
 }
 
-struct Stored {
-    isoatlas::Analysis analysis;
-    Stored(const isoatlas::Volume& volume, const isoatlas::AnalysisOptions& options, const isoatlas::Context& context)
-        : analysis(isoatlas::find_arcs(volume, options, context)) {
-        isoatlas::count_voxels(analysis, volume, context);
-    }
-    Arrays& arrays() { return std::get<0>(analysis.data().arrays)->arrays; }
-};
-
 /// By tiles, which builds do when paths do not fit into memory.
-std::vector<Id> counted_by_tiles(const isoatlas::Volume& volume, const Arrays& arrays, const isoatlas::Context& context) {
+std::vector<Id> counted_by_tiles(const isoatlas::Volume& volume, const isoatlas::ArcArrays<Id>& arrays, const isoatlas::Context& context) {
     return isoatlas::visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const isoatlas::GridView<T> grid{samples.data(), volume.info.extent};
         const auto voxels = isoatlas::voxels_by_tiles<T, Id>(grid, arrays.value, arrays.code, context);
@@ -84,15 +75,21 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
         std::optional<isoatlas::MemoryLimit> limit;
         if (limited) limit.emplace(isoatlas::kMinMemory, testing::TempDir());
         for (const Index tile : tiles) {
-            Stored stored(volume, options, context_of(1 + static_cast<int>(tile % 2), tile));
-            Arrays& found = stored.arrays();
+            const isoatlas::Context context = context_of(1 + static_cast<int>(tile % 2), tile);
+            isoatlas::ContourArcs arcs = isoatlas::compute_arcs(volume, options, context);
+            const auto counted = std::get<0>(isoatlas::count_voxels(arcs, volume, context));
+            const auto& found = std::get<0>(arcs.arrays);
             RC_ASSERT(same(found.value, arrays.value) && same(found.code, arrays.code));
             RC_ASSERT(same(found.contours.other, arrays.contours.other));
-            RC_ASSERT(same(found.element_voxels, voxels));
-            RC_ASSERT(same(counted_by_tiles(volume, found, context_of(1 + static_cast<int>(tile % 2), tile)), voxels));
-            RC_ASSERT(isoatlas::restore_trees(found, grid.rank, context_of(1, 0)));
-            isoatlas::add_up_voxels(found);
-            RC_ASSERT(same(found.voxels, arrays.voxels));
+            RC_ASSERT(same(counted, voxels));
+            RC_ASSERT(same(counted_by_tiles(volume, found, context), voxels));
+            Arrays restored;
+            restored.value = found.value, restored.code = found.code, restored.contours = found.contours;
+            RC_ASSERT(isoatlas::restore_trees(restored, grid.rank, context_of(1, 0)));
+            isoatlas::add_up_voxels<Id>(counted, restored);
+            RC_ASSERT(same(restored.voxels, arrays.voxels));
+            const isoatlas::Analysis made = isoatlas::make_analysis(std::move(arcs), volume, context);
+            RC_ASSERT(same(std::get<0>(made.data().arrays)->arrays.zone, arrays.zone));
         }
     }
 }

@@ -13,7 +13,7 @@ export function branch(changes: Partial<Branch>): Branch {
     voxels: 1000,
     measure: 1000,
     joined: 0,
-    standsOut: true,
+    significant: true,
     ...changes,
   };
 }
@@ -101,7 +101,7 @@ export const scene = page(
       shape: { edges: [0, 50, 90], tunnels: { max: [2, 0] }, cavities: { max: [0, 1] } },
     }),
     branch({ id: 8, appears: 95, merges: 30, parent: 0, hypervolume: 5000, voxels: 400, measure: 800 }),
-    branch({ id: 9, appears: 85, merges: 60, parent: 1, hypervolume: 4000, voxels: 200, measure: 400, standsOut: false }),
+    branch({ id: 9, appears: 85, merges: 60, parent: 1, hypervolume: 4000, voxels: 200, measure: 400, significant: false }),
     branch({ side: "cavity", id: 5, appears: 10, merges: 70, hypervolume: 800, voxels: 120, measure: 240 }),
   ],
   [

@@ -35,7 +35,7 @@ function listed(n: number, all = n): BranchList {
     hypervolume: of((r) => 1e6 / 2 ** r),
     voxels: of((r) => 1024 / 2 ** r),
     measure: of((r) => 2048 / 2 ** r),
-    standsOut: of((r) => r < 3),
+    significant: of((r) => r < 3),
   };
 }
 

@@ -29,7 +29,7 @@ const building: Build = {
 
 describe("messages of the server", () => {
   it("are parsed, however they are split", async () => {
-    const text = 'event: state\ndata: {"state":"open","questions":[]}\n\n:\n\nevent: state\ndata: {"state":"building","questions":[]}\n\n';
+    const text = 'event: state\ndata: {"state":"open","requests":[]}\n\n:\n\nevent: state\ndata: {"state":"building","requests":[]}\n\n';
     const wanted = ["open", "building"];
     expect((await heard(text)).map(({ state }) => state)).toEqual(wanted);
     expect((await heard(...text)).map(({ state }) => state)).toEqual(wanted);
@@ -51,9 +51,9 @@ describe("the progress of a build", () => {
 
 describe("pending requests", () => {
   it("are described: what is processed, or the first position in the queue", () => {
-    const at = (place: number, fraction = 0, line: PendingRequest["line"] = "surfaces"): PendingRequest => ({
+    const at = (place: number, fraction = 0, queue: PendingRequest["queue"] = "surfaces"): PendingRequest => ({
       client: "me/surface",
-      line,
+      queue,
       place,
       fraction,
     });

@@ -161,11 +161,11 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
         return matter;
     }
     const ObjectTable table = source.objects({.top = 5});
-    matter.bumps = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
+    matter.tents = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
     const Scale scale(source.info());
-    for (std::size_t i = 0; i < matter.bumps.size(); ++i) {
-        OpacityTent& bump = matter.bumps[i];
-        const bool body = i > 0 && bump.tau == matter.bumps[i - 1].tau;
+    for (std::size_t i = 0; i < matter.tents.size(); ++i) {
+        OpacityTent& bump = matter.tents[i];
+        const bool body = i > 0 && bump.tau == matter.tents[i - 1].tau;
         if (!body) bump.name = fmt::format("opacity above {:.5g}", scale.reported(bump.tau));
     }
     return matter;

@@ -29,15 +29,15 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
     }
     json["objects"] = std::move(objects);
     json["slices"] = scene.slices.size();
-    Json bumps = Json::array();
+    Json tents = Json::array();
     const Scale scale(source.info());
-    for (const OpacityTent& bump : scene.volume.bumps) {
-        bumps.push_back({{"low", scale.reported(bump.low)},
+    for (const OpacityTent& bump : scene.volume.tents) {
+        tents.push_back({{"low", scale.reported(bump.low)},
                          {"high", scale.reported(bump.high)},
                          {"density", bump.density},
                          {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
     }
-    json["transfer"] = std::move(bumps);
+    json["transfer"] = std::move(tents);
     Json materials = Json::array();
     for (const ShownMaterial& material : arguments.picture.materials) {
         materials.push_back({{"name", material.name},

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/common/base64.h"
 #include "formats/common/file_access.h"
 #include "formats/common/text.h"
 #include "isoatlas/error.h"
@@ -21,13 +22,8 @@ constexpr signed char kBlank = -1, kPadding = -2, kEnd = -3, kBad = -4;
 constexpr std::array<signed char, 256> kCodes = [] {
     std::array<signed char, 256> table{};
     table.fill(kBad);
-    constexpr std::size_t kUpper = 'A', kLower = 'a', kDigit = '0';
-    for (std::size_t i = 0; i < 26; ++i) {
-        table[kUpper + i] = static_cast<signed char>(i);
-        table[kLower + i] = static_cast<signed char>(26 + i);
-    }
-    for (std::size_t i = 0; i < 10; ++i) table[kDigit + i] = static_cast<signed char>(52 + i);
-    table['+'] = 62, table['/'] = 63;
+    for (std::size_t i = 0; i < kBase64Digits.size(); ++i)
+        table[static_cast<unsigned char>(kBase64Digits[i])] = static_cast<signed char>(i);
     table[' '] = table['\t'] = table['\r'] = table['\n'] = kBlank;
     table['='] = kPadding, table['<'] = kEnd;
     return table;
@@ -35,8 +31,8 @@ constexpr std::array<signed char, 256> kCodes = [] {
 
 class Base64Source final : public ByteSource {
 public:
-    Base64Source(const std::string& path, std::int64_t begin, std::int64_t end)
-        : path_(path), file_(open_file(path)), begin_(begin), end_(std::min(end, file_->size())), next_(begin), text_(kBufferBytes) {}
+    Base64Source(std::unique_ptr<File> file, const std::string& path, std::int64_t begin, std::int64_t end)
+        : path_(path), file_(std::move(file)), begin_(begin), end_(std::min(end, file_->size())), next_(begin), text_(kBufferBytes) {}
 
     void read(std::span<std::byte> out) override {
         while (!out.empty()) {
@@ -139,8 +135,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ByteSource> open_base64_source(const std::string& path, std::int64_t begin, std::int64_t end) {
-    return std::make_unique<Base64Source>(path, begin, end);
+std::unique_ptr<ByteSource> open_base64_source(std::unique_ptr<File> file, const std::string& path, std::int64_t begin, std::int64_t end) {
+    return std::make_unique<Base64Source>(std::move(file), path, begin, end);
 }
 
 }  // namespace isoatlas

@@ -23,8 +23,8 @@ std::int64_t checked_length(const std::string& path, std::int64_t file_bytes, st
 
 class FileSource final : public ByteSource {
 public:
-    FileSource(const std::string& path, std::int64_t offset, std::int64_t length)
-        : path_(path), file_(open_file(path)), offset_(offset), length_(checked_length(path, file_->size(), offset, length)) {}
+    FileSource(std::unique_ptr<File> file, const std::string& path, std::int64_t offset, std::int64_t length)
+        : path_(path), file_(std::move(file)), offset_(offset), length_(checked_length(path, file_->size(), offset, length)) {}
 
     void read(std::span<std::byte> out) override {
         const auto wanted = static_cast<std::int64_t>(out.size());
@@ -109,7 +109,12 @@ private:
 }  // namespace
 
 std::unique_ptr<ByteSource> open_file_source(const std::string& path, std::int64_t offset, std::int64_t length) {
-    return std::make_unique<FileSource>(path, offset, length);
+    return open_file_source(open_file(path), path, offset, length);
+}
+
+std::unique_ptr<ByteSource> open_file_source(std::unique_ptr<File> file, const std::string& path, std::int64_t offset,
+                                             std::int64_t length) {
+    return std::make_unique<FileSource>(std::move(file), path, offset, length);
 }
 
 std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan) { return std::make_unique<PartsSource>(std::move(plan)); }

@@ -14,6 +14,8 @@
 
 namespace isoatlas {
 
+class File;
+
 class ByteSource {
 public:
     virtual ~ByteSource() = default;
@@ -37,6 +39,9 @@ public:
 /// The bytes [offset, offset + length) of a file; length -1: up to its end.
 /// Throws Error{input} when the file cannot be opened or has no such range.
 [[nodiscard]] std::unique_ptr<ByteSource> open_file_source(const std::string& path, std::int64_t offset = 0, std::int64_t length = -1);
+/// The same of an open file; path: for messages.
+[[nodiscard]] std::unique_ptr<ByteSource> open_file_source(std::unique_ptr<File> file, const std::string& path, std::int64_t offset = 0,
+                                                           std::int64_t length = -1);
 
 /// The bytes of a source from `offset` on: position 0 is that byte. Seek before the first read.
 [[nodiscard]] std::unique_ptr<ByteSource> skip_bytes(std::unique_ptr<ByteSource> source, std::int64_t offset);

@@ -1,4 +1,4 @@
-// ByteWriter: numbers and text, in little-endian bytes or as shortest round-trip text, into an AtomicFile.
+// ByteWriter: numbers and text, in little-endian bytes or as shortest round-trip text, into a Sink.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@
 #include <string_view>
 #include <type_traits>
 
-#include "base/atomic_file.h"
+#include "isoatlas/sink.h"
 #include "isoatlas/text.h"
 
 namespace isoatlas {
 
 static_assert(std::endian::native == std::endian::little, "the writers copy numbers as they lie in memory");
 
-/// Buffers small pieces; call finish() at the end, otherwise nothing is committed.
+/// Buffers small pieces; call finish() at the end.
 class ByteWriter {
 public:
-    explicit ByteWriter(AtomicFile& file) : file_(file) {}
+    explicit ByteWriter(Sink& sink) : sink_(sink) {}
     ByteWriter(const ByteWriter&) = delete;
     ByteWriter& operator=(const ByteWriter&) = delete;
 
@@ -40,7 +40,7 @@ public:
     void text(std::string_view piece) {
         if (piece.size() > buffer_.size()) {
             flush();
-            file_.write(piece);
+            sink_.write(piece);
             return;
         }
         make_room(piece.size());
@@ -54,22 +54,20 @@ public:
         char* const begin = buffer_.data() + used_;
         used_ += static_cast<std::size_t>(std::to_chars(begin, begin + 40, value).ptr - begin);
     }
-    [[nodiscard]] std::int64_t size() const { return file_.size() + static_cast<std::int64_t>(used_); }
-    void finish() {
-        flush();
-        file_.commit();
-    }
+    [[nodiscard]] std::int64_t size() const { return sink_.size() + static_cast<std::int64_t>(used_); }
+    /// Nothing stays in the buffer.
+    void finish() { flush(); }
 
 private:
     void make_room(std::size_t count) {
         if (used_ + count > buffer_.size()) flush();
     }
     void flush() {
-        file_.write(std::string_view(buffer_.data(), used_));
+        sink_.write(std::string_view(buffer_.data(), used_));
         used_ = 0;
     }
 
-    AtomicFile& file_;
+    Sink& sink_;
     std::array<char, 1 << 15> buffer_;
     std::size_t used_ = 0;
 };

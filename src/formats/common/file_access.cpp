@@ -1,5 +1,6 @@
 #include "formats/common/file_access.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -20,6 +21,21 @@ namespace {
                                    .next = "check the disk, or copy the file elsewhere and try again"});
 }
 
+class BytesFile final : public File {
+public:
+    explicit BytesFile(std::string_view bytes) : bytes_(bytes) {}
+    std::int64_t size() const override { return static_cast<std::int64_t>(bytes_.size()); }
+    std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
+        const std::string_view rest = bytes_.substr(std::min(static_cast<std::size_t>(offset), bytes_.size()));
+        const std::size_t count = std::min(rest.size(), out.size());
+        if (count > 0) std::memcpy(out.data(), rest.data(), count);
+        return static_cast<std::ptrdiff_t>(count);
+    }
+
+private:
+    std::string_view bytes_;
+};
+
 }  // namespace
 
 std::unique_ptr<File> open_file(const std::string& path) {
@@ -36,6 +52,8 @@ std::unique_ptr<File> open_file(const std::string& path) {
     if (!opened.file) cannot_open(path, opened.error);
     return std::move(opened.file);
 }
+
+std::unique_ptr<File> open_bytes(std::string_view bytes) { return std::make_unique<BytesFile>(bytes); }
 
 bool file_exists(const std::string& path) { return file_system().status(path).kind == FileStatus::Kind::regular; }
 

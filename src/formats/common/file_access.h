@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/file_system.h"
@@ -15,6 +16,8 @@ namespace isoatlas {
 
 /// Opens a regular file. Throws Error{input}: missing, a directory, not a regular file, no permission.
 [[nodiscard]] std::unique_ptr<File> open_file(const std::string& path);
+/// Bytes in memory as a file to read. They must outlive it.
+[[nodiscard]] std::unique_ptr<File> open_bytes(std::string_view bytes);
 /// Whether there is a regular file of that name. Never throws.
 [[nodiscard]] bool file_exists(const std::string& path);
 /// Whether there is a directory of that name. Never throws.

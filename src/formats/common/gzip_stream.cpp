@@ -25,9 +25,9 @@ struct GzipStream::State {
     std::vector<std::byte> out = std::vector<std::byte>(kOutBytes);
 };
 
-GzipStream::GzipStream(AtomicFile& file) : file_(file), state_(std::make_unique<State>()) {
+GzipStream::GzipStream(Sink& sink) : sink_(sink), state_(std::make_unique<State>()) {
     if (deflateInit2(&state_->stream, kLevel, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw Error(ErrorKind::resource, {.file = file.path(), .what = "not enough memory to compress", .next = "close other programs"});
+        throw Error(ErrorKind::resource, {.file = sink.name(), .what = "not enough memory to compress", .next = "close other programs"});
     }
 }
 
@@ -55,7 +55,7 @@ void GzipStream::run(int flush) {
         stream.avail_out = static_cast<uInt>(state_->out.size());
         result = deflate(&stream, flush);
         ISOATLAS_CHECK(result != Z_STREAM_ERROR);
-        file_.write(std::span<const std::byte>(state_->out).first(state_->out.size() - stream.avail_out));
+        sink_.write(std::span<const std::byte>(state_->out).first(state_->out.size() - stream.avail_out));
     } while (flush == Z_FINISH && result != Z_STREAM_END);
 }
 

@@ -1,4 +1,4 @@
-// Deflate into an AtomicFile: gzip files and gzip members, the same bytes for the same input on every run.
+// Deflate into a Sink: gzip files and gzip members, the same bytes for the same input on every run.
 #pragma once
 
 #include <cstddef>
@@ -6,23 +6,23 @@
 #include <span>
 #include <string_view>
 
-#include "base/atomic_file.h"
+#include "isoatlas/sink.h"
 
 namespace isoatlas {
 
 class GzipStream {
 public:
-    explicit GzipStream(AtomicFile& file);
+    explicit GzipStream(Sink& sink);
     ~GzipStream();
     void write(std::span<const std::byte> bytes);
-    /// Writes the rest and the checksum; call once, before the file is committed.
+    /// Writes the rest and the checksum; call once.
     void finish();
 
 private:
     struct State;
     void run(int flush);
 
-    AtomicFile& file_;
+    Sink& sink_;
     std::unique_ptr<State> state_;
 };
 

@@ -28,7 +28,7 @@ void JsonStream::quote(std::string_view text) {
     text_ += '"';
 }
 
-JsonStream::Sink stream_sink(std::ostream& out, const char* what) {
+JsonStream::Output output_to(std::ostream& out, const char* what) {
     return [&out, what](std::string_view text) {
         if (out.write(text.data(), static_cast<std::streamsize>(text.size()))) return;
         throw Error(ErrorKind::resource,

@@ -17,12 +17,14 @@
 #include <utility>
 #include <vector>
 
+#include "isoatlas/sink.h"
+
 namespace isoatlas {
 
 class JsonStream {
 public:
-    using Sink = std::function<void(std::string_view)>;
-    explicit JsonStream(Sink sink) : sink_(std::move(sink)) {}
+    using Output = std::function<void(std::string_view)>;
+    explicit JsonStream(Output output) : output_(std::move(output)) {}
 
     JsonStream& begin_object() { return open('{'); }
     JsonStream& end_object() { return close('}'); }
@@ -63,7 +65,7 @@ public:
     }
     void finish() {
         text_ += '\n';
-        sink_(text_);
+        output_(text_);
         text_.clear();
     }
 
@@ -104,20 +106,23 @@ private:
     }
     JsonStream& flush_when_long() {
         if (text_.size() >= kFlushBytes) {
-            sink_(text_);
+            output_(text_);
             text_.clear();
         }
         return *this;
     }
     void quote(std::string_view text);
 
-    Sink sink_;
+    Output output_;
     std::string text_;
     std::vector<bool> is_first_;  ///< per open object or array: still empty
     bool after_key_ = false, new_line_ = false;
 };
 
-/// Writes to a stream. `what`: "the tree"; for the message of the Error{resource} thrown when the stream fails.
-[[nodiscard]] JsonStream::Sink stream_sink(std::ostream& out, const char* what);
+[[nodiscard]] inline JsonStream::Output output_to(Sink& sink) {
+    return [&sink](std::string_view text) { sink.write(text); };
+}
+/// `what`: "the tree"; for the message of the Error{resource} thrown when the stream fails.
+[[nodiscard]] JsonStream::Output output_to(std::ostream& out, const char* what);
 
 }  // namespace isoatlas

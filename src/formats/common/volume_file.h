@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/byte_sink.h"
+#include "isoatlas/sink.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -21,18 +22,21 @@ enum class Packing : bool { raw, gzip };
 /// Names and values for the header of a file, on one line each.
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
-// Each writes info.extent samples of info.type with the geometry, calibration and description of `info`, as far as the format has them.
-// Rectilinear grids become regular ones with the mean spacing; the comment or description names what a format cannot represent.
-// Throws Error{resource}; then there is no file at `path`.
-void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs = {});
+// Each writes a file of info.extent samples of info.type with the geometry, calibration and description of `info`, as far as the format has
+// them. Rectilinear grids become regular ones with the mean spacing; the comment or description names what a format cannot represent.
+// Throws Error{resource}.
+void write_nrrd(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs = {});
 /// Space RAS (LPS and LAS are converted), lengths in m, mm or um. NIfTI-2 when sizes (above 32767) or numbers do not fit in NIfTI-1.
-void write_nifti(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing);
+void write_nifti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing);
 /// One page a slice, deflate, voxel size for ImageJ; BigTIFF when the samples exceed 3.9 GB. Keeps neither origin nor directions.
-void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs = {});
-void write_metaimage(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
+/// Writes back: the link to a page is set when its place is known.
+void write_tiff(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs = {});
+void write_metaimage(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
 /// NumPy: shape (z, y, x). Keeps no geometry.
-void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
-/// Samples alone. A sidecar PATH.json is written beside it unless the name says dims and type and the geometry is the default one.
+void write_npy(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
+/// Samples alone.
+void write_raw(Sink& sink, const SampleFeed& samples);
+/// The same as a file. A sidecar PATH.json is written beside it unless the name says dims and type and the geometry is the default one.
 /// Throws Error{usage} when the name contradicts dims or type.
 void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed& samples);
 

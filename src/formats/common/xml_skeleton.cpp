@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/common/file_access.h"
@@ -18,7 +19,7 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 /// Sequential characters of a file, with a fast search.
 class Characters {
 public:
-    explicit Characters(const std::string& path) : path_(path), file_(open_file(path)), buffer_(kBufferBytes) {}
+    Characters(std::unique_ptr<File> file, const std::string& path) : path_(path), file_(std::move(file)), buffer_(kBufferBytes) {}
 
     /// The next character, or nullopt at the end of the file.
     [[nodiscard]] std::optional<char> next() {
@@ -57,7 +58,7 @@ private:
 
 class Scanner {
 public:
-    explicit Scanner(const std::string& path) : path_(path), characters_(path) {}
+    Scanner(std::unique_ptr<File> file, const std::string& path) : path_(path), characters_(std::move(file), path) {}
 
     XmlSkeleton scan() {
         while (true) {
@@ -145,6 +146,6 @@ private:
 
 }  // namespace
 
-XmlSkeleton read_xml_skeleton(const std::string& path) { return Scanner(path).scan(); }
+XmlSkeleton read_xml_skeleton(std::unique_ptr<File> file, const std::string& path) { return Scanner(std::move(file), path).scan(); }
 
 }  // namespace isoatlas

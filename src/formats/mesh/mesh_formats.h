@@ -7,19 +7,19 @@
 #include <string_view>
 #include <vector>
 
-#include "base/atomic_file.h"
+#include "isoatlas/sink.h"
 #include "isoatlas/surface.h"
 
 namespace isoatlas {
 
 using Warnings = std::vector<std::string>;
 
-// Each writes the whole surface and commits. The surface is consistent (check_surface). STL and GLB take no segments.
-void write_ply(AtomicFile& file, const Surface& surface, Warnings& warnings);
-void write_stl(AtomicFile& file, const Surface& surface, Warnings& warnings);
-void write_obj(AtomicFile& file, const Surface& surface, Warnings& warnings);
-void write_vtp(AtomicFile& file, const Surface& surface, Warnings& warnings);
-void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings);
+// Each writes the whole file. The surface is consistent (check_surface). STL and GLB take no segments.
+void write_ply(Sink& sink, const Surface& surface, Warnings& warnings);
+void write_stl(Sink& sink, const Surface& surface, Warnings& warnings);
+void write_obj(Sink& sink, const Surface& surface, Warnings& warnings);
+void write_vtp(Sink& sink, const Surface& surface, Warnings& warnings);
+void write_glb(Sink& sink, const Surface& surface, Warnings& warnings);
 
 // Each parses a whole file. `file` is its name for messages. Throws Error: input, unsupported. The result is well-formed (check_mesh).
 // Allocates in proportion to bytes.size() only.

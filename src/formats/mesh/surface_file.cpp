@@ -1,5 +1,5 @@
 // write_surface and read_mesh: the extension chooses the format.
-
+#include "base/atomic_file.h"
 #include "formats/common/file_access.h"
 #include "formats/common/file_extension.h"
 #include "formats/mesh/mesh_formats.h"
@@ -11,7 +11,7 @@ namespace {
 
 struct MeshFormat {
     const char* extension;
-    void (*write)(AtomicFile&, const Surface&, Warnings&);
+    void (*write)(Sink&, const Surface&, Warnings&);
     Mesh (*parse)(std::string_view, const std::string&);
     bool curves;  ///< holds segments too
 };
@@ -30,9 +30,8 @@ const MeshFormat& format_of(const std::string& path) {
     refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
 }
 
-}  // namespace
-
-std::vector<std::string> write_surface(const std::string& path, const Surface& surface) {
+/// The format, if it can hold the surface.
+const MeshFormat& checked_format(const std::string& path, const Surface& surface) {
     const MeshFormat& format = format_of(path);
     if (!surface.segments.empty() && !format.curves) {
         throw Error(ErrorKind::usage,
@@ -41,9 +40,24 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
                      .next = "write .ply, .obj or .vtp"});
     }
     check_surface(surface, path);
+    return format;
+}
+
+}  // namespace
+
+std::vector<std::string> write_surface(Sink& sink, const Surface& surface) {
+    const MeshFormat& format = checked_format(sink.name(), surface);
+    Warnings warnings;
+    format.write(sink, surface, warnings);
+    return warnings;
+}
+
+std::vector<std::string> write_surface(const std::string& path, const Surface& surface) {
+    const MeshFormat& format = checked_format(path, surface);
     Warnings warnings;
     AtomicFile file(path);
     format.write(file, surface, warnings);
+    file.commit();
     return warnings;
 }
 

@@ -217,13 +217,13 @@ std::int64_t merged_points(const Scene& scene) {
 
 }  // namespace
 
-void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings) {
+void write_glb(Sink& sink, const Surface& surface, Warnings& warnings) {
     const Scene scene = make_scene(surface);
     const std::string json = scene_json(scene);
     const std::int64_t chunks = 12 + 8 + static_cast<std::int64_t>(json.size()) + (scene.bytes > 0 ? 8 + scene.bytes : 0);
     if (chunks > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
         throw Error(ErrorKind::usage,
-                    {.file = file.path(),
+                    {.file = sink.name(),
                      .what = "a GLB file holds at most 4 GiB, and this surface takes " + std::to_string(chunks) + " bytes",
                      .next = "write .vtp or .ply, or extract one object at a time"});
     }
@@ -232,7 +232,7 @@ void write_glb(AtomicFile& file, const Surface& surface, Warnings& warnings) {
         warnings.push_back("the float32 coordinates of GLB merge " + std::to_string(merged) +
                            " points with a neighbour; .ply and .vtp keep float64");
     }
-    ByteWriter out(file);
+    ByteWriter out(sink);
     out.text("glTF");
     out.put(std::uint32_t{2});
     out.put(static_cast<std::uint32_t>(chunks));

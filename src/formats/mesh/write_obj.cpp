@@ -45,9 +45,9 @@ void put_cell(ByteWriter& out, const std::array<std::int64_t, N>& cell, bool nor
 
 }  // namespace
 
-void write_obj(AtomicFile& file, const Surface& surface, Warnings& warnings) {
+void write_obj(Sink& sink, const Surface& surface, Warnings& warnings) {
     if (has_inner_contours(surface)) warnings.push_back("OBJ keeps object ids, but not contour ids; .ply and .vtp keep both");
-    ByteWriter out(file);
+    ByteWriter out(sink);
     out.text(comment_lines(surface, "#"));
     put_points(out, surface);
     const ObjectGroups groups = group_by_object(surface);

@@ -61,9 +61,9 @@ void put_id(ByteWriter& out, std::int64_t id, bool as_int) {
 
 }  // namespace
 
-void write_ply(AtomicFile& file, const Surface& surface, Warnings&) {
-    const PlyTypes types = choose_types(surface, file.path());
-    ByteWriter out(file);
+void write_ply(Sink& sink, const Surface& surface, Warnings&) {
+    const PlyTypes types = choose_types(surface, sink.name());
+    ByteWriter out(sink);
     out.text(header(surface, types));
     for (std::size_t i = 0; i < surface.points.size(); ++i) {
         if (types.position == Real::f64) {

@@ -42,10 +42,10 @@ std::string header(const Surface& surface) {
 
 }  // namespace
 
-void write_stl(AtomicFile& file, const Surface& surface, Warnings& warnings) {
+void write_stl(Sink& sink, const Surface& surface, Warnings& warnings) {
     const std::size_t triangles = surface.triangles.size();
     if (triangles > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error(ErrorKind::usage, {.file = file.path(),
+        throw Error(ErrorKind::usage, {.file = sink.name(),
                                        .what = "STL counts its triangles with 32 bits, and the surface has " + std::to_string(triangles),
                                        .next = "write .vtp, or extract one object at a time"});
     }
@@ -54,7 +54,7 @@ void write_stl(AtomicFile& file, const Surface& surface, Warnings& warnings) {
         warnings.push_back("the float32 coordinates of STL merge " + std::to_string(merged) +
                            " points with a neighbour: the surface may no longer be a manifold; .ply and .vtp keep float64");
     }
-    ByteWriter out(file);
+    ByteWriter out(sink);
     out.text(header(surface));
     out.put(static_cast<std::uint32_t>(triangles));
     for (const auto& t : surface.triangles) {

@@ -64,11 +64,11 @@ std::string field_data(AppendedArrays& arrays, const Surface& surface) {
 
 }  // namespace
 
-void write_vtp(AtomicFile& file, const Surface& surface, Warnings&) {
+void write_vtp(Sink& sink, const Surface& surface, Warnings&) {
     static const Array<std::array<std::int64_t, 3>> kNoTriangles;
     const auto& triangles = surface.segments.empty() ? surface.triangles : kNoTriangles;
     AppendedArrays arrays;
-    ByteWriter out(file);
+    ByteWriter out(sink);
     out.text(vtk_file_begin("PolyData") + "<PolyData>\n" + field_data(arrays, surface));
     out.text("<Piece NumberOfPoints=\"" + std::to_string(surface.points.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
              std::to_string(surface.segments.size()) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(triangles.size()) +

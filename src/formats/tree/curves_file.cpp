@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/atomic_file.h"
 #include "formats/common/byte_writer.h"
 #include "formats/common/connectivity.h"
 #include "formats/common/file_extension.h"
@@ -45,14 +46,18 @@ Plot plot_of(const VolumeInfo& info, const SelectionCurve& curve) {
     return plot;
 }
 
+std::string checked_extension(const std::string& path) {
+    return known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
+}
+
 }  // namespace
 
 double reported_threshold(const VolumeInfo& info, const SelectionCurve& curve, double threshold) {
     return curve.size == "voxels" ? threshold : info.calibration.reported_difference(threshold);
 }
 
-void write_curves_json(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
-    JsonStream json([&](std::string_view text) { file.write(text); });
+void write_curves_json(Sink& sink, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    JsonStream json(output_to(sink));
     json.begin_object().line().key("schema").value("isoatlas/curves/1").key("version").value(kVersion);
     put_volume(json, info);
     json.line().key("curves").begin_array();
@@ -66,11 +71,10 @@ void write_curves_json(AtomicFile& file, const VolumeInfo& info, const std::vect
         json.end_array().end_object();
     }
     json.line().end_array().line().end_object().finish();
-    file.commit();
 }
 
-void write_curves_csv(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
-    ByteWriter out(file);
+void write_curves_csv(Sink& sink, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    ByteWriter out(sink);
     out.text("size,threshold,kept,automatic\n");
     for (const SelectionCurve& curve : curves) {
         for (std::size_t i = 0; i < curve.threshold.size(); ++i) {
@@ -84,24 +88,24 @@ void write_curves_csv(AtomicFile& file, const VolumeInfo& info, const std::vecto
     out.finish();
 }
 
-void write_curves_svg(AtomicFile& file, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+void write_curves_svg(Sink& sink, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
     std::vector<Plot> plots;
     for (const SelectionCurve& curve : curves) plots.push_back(plot_of(info, curve));
-    file.write(svg_of(plots));
-    file.commit();
+    sink.write(svg_of(plots));
 }
 
-}  // namespace isoatlas
-
-namespace isoatlas {
+void write_curves(Sink& sink, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
+    const std::string extension = checked_extension(sink.name());
+    if (extension == ".json") return write_curves_json(sink, info, curves);
+    if (extension == ".csv") return write_curves_csv(sink, info, curves);
+    write_curves_svg(sink, info, curves);
+}
 
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
-    const std::string extension =
-        known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
+    (void)checked_extension(path);
     AtomicFile file(path);
-    if (extension == ".json") return write_curves_json(file, info, curves);
-    if (extension == ".csv") return write_curves_csv(file, info, curves);
-    write_curves_svg(file, info, curves);
+    write_curves(file, info, curves);
+    file.commit();
 }
 
 }  // namespace isoatlas

@@ -20,7 +20,7 @@ struct GraphmlKey {
 /// Everything before the first node: keys, the graph with its name, the connectivity of its volume.
 void begin_graphml(ByteWriter& out, std::span<const GraphmlKey> keys, const char* graph, const char* schema,
                    const Connectivity& connectivity);
-/// Ends the file and commits.
+/// Ends the file.
 void end_graphml(ByteWriter& out);
 
 // Data of the node or edge that is open. The text is fixed and needs no escaping.

@@ -1,6 +1,7 @@
 // write_simplified_tree: the nodes that a selection keeps, each with its zone, including bypassed zones.
 #include <array>
 
+#include "base/atomic_file.h"
 #include "formats/common/csv_table.h"
 #include "formats/common/file_extension.h"
 #include "formats/common/generator.h"
@@ -46,8 +47,8 @@ Connectivity connectivity_of(const SimplifiedTree& tree) {
     return {tree.analysis.interpolant(), tree.info.calibration.reported_difference(tree.analysis.tunnel_height())};
 }
 
-void write_json(const SimplifiedTree& tree, const JsonStream::Sink& sink) {
-    JsonStream json(sink);
+void write_json(const SimplifiedTree& tree, const JsonStream::Output& output) {
+    JsonStream json(output);
     json.begin_object().line().key("schema").value("isoatlas/simplified-tree/1").key("version").value(kVersion);
     put_members(json.line(), connectivity_of(tree));
     json.key("boundary").value("closed");
@@ -102,7 +103,7 @@ void write_graphml(ByteWriter& out, const SimplifiedTree& tree) {
 }
 
 /// Every line represents the zone of its upper end.
-void write_vtu(AtomicFile& file, const SimplifiedTree& tree) {
+void write_vtu(Sink& sink, const SimplifiedTree& tree) {
     VtuLines lines;
     const auto nodes = static_cast<std::int64_t>(tree.simplified.nodes.size());
     const auto node_at = [&](std::int64_t i) { return view_of(tree, static_cast<std::size_t>(i)); };
@@ -119,27 +120,31 @@ void write_vtu(AtomicFile& file, const SimplifiedTree& tree) {
     graph.point_array<std::int64_t>("Event", [&](std::int64_t i) { return node_at(i).event; });
     graph.point_array<std::int64_t>("Object", [&](std::int64_t i) { return node_at(i).object; });
     graph.line_array<std::int64_t>("RegionSize", [&](std::int64_t i) { return node_at(i).voxels; });
-    graph.write(file, tree.info, connectivity_of(tree));
+    graph.write(sink, tree.info, connectivity_of(tree));
+}
+
+std::string checked_extension(const std::string& path) {
+    return known_extension(path, {".json", ".graphml", ".csv", ".vtu"},
+                           {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
 }
 
 }  // namespace
 
-void write_simplified_tree(const std::string& path, const SimplifiedTree& tree) {
-    const std::string extension = known_extension(path, {".json", ".graphml", ".csv", ".vtu"},
-                                                  {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
-    AtomicFile file(path);
-    if (extension == ".vtu") return write_vtu(file, tree);
-    if (extension == ".json") {
-        write_json(tree, [&](std::string_view text) { file.write(text); });
-        file.commit();
-        return;
-    }
-    ByteWriter out(file);
+void write_simplified_tree(Sink& sink, const SimplifiedTree& tree) {
+    const std::string extension = checked_extension(sink.name());
+    if (extension == ".vtu") return write_vtu(sink, tree);
+    if (extension == ".json") return write_json(tree, output_to(sink));
+    ByteWriter out(sink);
     extension == ".csv" ? write_csv(out, tree) : write_graphml(out, tree);
 }
 
-void write_simplified_tree_json(std::ostream& out, const SimplifiedTree& tree) {
-    write_json(tree, stream_sink(out, "the simplified tree"));
+void write_simplified_tree(const std::string& path, const SimplifiedTree& tree) {
+    (void)checked_extension(path);
+    AtomicFile file(path);
+    write_simplified_tree(file, tree);
+    file.commit();
 }
+
+void write_simplified_tree_json(std::ostream& out, const SimplifiedTree& tree) { write_json(tree, output_to(out, "the simplified tree")); }
 
 }  // namespace isoatlas

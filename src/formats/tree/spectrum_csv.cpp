@@ -36,11 +36,11 @@ void put_advice(ByteWriter& out, const VolumeInfo& info, const Spectrum& spectru
 
 }  // namespace
 
-void write_spectrum_csv(AtomicFile& file, const VolumeInfo& info, const Spectrum& spectrum) {
-    ByteWriter out(file);
+void write_spectrum_csv(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
+    ByteWriter out(sink);
     out.text(
         "kind,tau_low,tau_high,objects,contours,tunnels,cavities,significant_objects,significant_contours,significant_tunnels,"
-        "significant_cavities,voxels_min,voxels_max,cells,facets,area,measure,object,reason,cavity\n");
+        "significant_cavities,min_voxels,max_voxels,cells,facets,area,measure,object,reason,cavity\n");
     for (const SpectrumInterval& interval : spectrum.intervals) {
         out.text("interval");
         put_real(out, info.calibration.reported(interval.low));

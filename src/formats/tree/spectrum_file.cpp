@@ -1,4 +1,5 @@
 // write_spectrum: the extension chooses the format.
+#include "base/atomic_file.h"
 #include "formats/common/connectivity.h"
 #include "formats/common/file_extension.h"
 #include "formats/common/generator.h"
@@ -49,10 +50,14 @@ void put_advice(JsonStream& json, const VolumeInfo& info, const Spectrum& spectr
     json.line().end_array();
 }
 
+std::string checked_extension(const std::string& path) {
+    return known_extension(path, {".json", ".csv", ".svg"}, {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
+}
+
 }  // namespace
 
-void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
-    JsonStream json(sink);
+void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& info, const Spectrum& spectrum) {
+    JsonStream json(output);
     json.begin_object().line().key("schema").value("isoatlas/spectrum/2").key("version").value(kVersion);
     put_members(json.line(), {spectrum.interpolant, info.calibration.reported_difference(spectrum.tunnel_height)});
     json.key("boundary").value("closed");
@@ -64,26 +69,22 @@ void write_spectrum(const JsonStream::Sink& sink, const VolumeInfo& info, const 
     json.line().end_object().finish();
 }
 
-}  // namespace isoatlas
-
-namespace isoatlas {
+void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
+    const std::string extension = checked_extension(sink.name());
+    if (extension == ".csv") return write_spectrum_csv(sink, info, spectrum);
+    if (extension == ".svg") return write_spectrum_svg(sink, info, spectrum);
+    write_spectrum_json(output_to(sink), info, spectrum);
+}
 
 void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum) {
-    const std::string extension =
-        known_extension(path, {".json", ".csv", ".svg"}, {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
+    (void)checked_extension(path);
     AtomicFile file(path);
-    if (extension == ".csv") {
-        write_spectrum_csv(file, info, spectrum);
-    } else if (extension == ".svg") {
-        write_spectrum_svg(file, info, spectrum);
-    } else {
-        write_spectrum([&](std::string_view text) { file.write(text); }, info, spectrum);
-        file.commit();
-    }
+    write_spectrum(file, info, spectrum);
+    file.commit();
 }
 
 void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum) {
-    write_spectrum(stream_sink(out, "the spectrum"), info, spectrum);
+    write_spectrum_json(output_to(out, "the spectrum"), info, spectrum);
 }
 
 }  // namespace isoatlas

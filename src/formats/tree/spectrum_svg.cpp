@@ -111,14 +111,13 @@ Plot plot_of_sizes(const VolumeInfo& info, const Spectrum& spectrum, const Range
 
 }  // namespace
 
-void write_spectrum_svg(AtomicFile& file, const VolumeInfo& info, const Spectrum& spectrum) {
+void write_spectrum_svg(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
     const Range range = range_of(info, spectrum);
     const std::string some = spectrum.selected ? "the selected objects" : "the significant objects";
     std::vector<Plot> plots{plot_of_counts("Number at each isovalue", info, spectrum, range, &SpectrumInterval::all),
                             plot_of_counts("Of " + some, info, spectrum, range, &SpectrumInterval::significant)};
     if (!spectrum.sizes.empty()) plots.push_back(plot_of_sizes(info, spectrum, range));
-    file.write(svg_of(plots));
-    file.commit();
+    sink.write(svg_of(plots));
 }
 
 }  // namespace isoatlas

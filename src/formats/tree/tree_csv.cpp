@@ -48,8 +48,8 @@ void put_contours(ByteWriter& out, const TreeView& tree) {
 
 }  // namespace
 
-void write_tree_csv(AtomicFile& file, const TreeView& tree) {
-    ByteWriter out(file);
+void write_tree_csv(Sink& sink, const TreeView& tree) {
+    ByteWriter out(sink);
     switch (tree.options.detail) {
         case TreeDetail::events: put_events(out, tree); break;
         case TreeDetail::levels: put_levels(out, tree); break;

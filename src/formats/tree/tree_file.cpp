@@ -1,5 +1,5 @@
 // write_tree and write_tree_json: the extension chooses the format.
-#include "formats/common/byte_writer.h"
+#include "base/atomic_file.h"
 #include "formats/common/file_extension.h"
 #include "formats/tree/tree_formats.h"
 
@@ -17,6 +17,13 @@ void check_detail(const std::string& path, const std::string& extension, TreeDet
                 {.file = path,
                  .what = std::string("the ") + name_of(detail) + " of a tree are a list, and " + extension + " holds a graph",
                  .next = "write .json or .csv, or choose the detail events or contours"});
+}
+
+std::string checked_extension(const std::string& path, const TreeOutput& options) {
+    const std::string extension = known_extension(path, {".json", ".graphml", ".csv", ".vtu"},
+                                                  {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
+    check_detail(path, extension, options.detail);
+    return extension;
 }
 
 }  // namespace
@@ -61,30 +68,24 @@ std::string list_text(std::span<const std::int64_t> numbers) {
     return text;
 }
 
-void write_tree(const std::string& path, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
-    const std::string extension = lower_extension(path);
+void write_tree(Sink& sink, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
+    const std::string extension = checked_extension(sink.name(), options);
     const TreeView tree(volume, analysis, options);
-    check_detail(path, extension, options.detail);
-    if (extension == ".json") {
-        AtomicFile file(path);
-        write_json(tree, [&](std::string_view text) { file.write(text); });
-        file.commit();
-    } else if (extension == ".csv") {
-        AtomicFile file(path);
-        write_tree_csv(file, tree);
-    } else if (extension == ".graphml") {
-        AtomicFile file(path);
-        write_tree_graphml(file, tree);
-    } else if (extension == ".vtu") {
-        AtomicFile file(path);
-        write_tree_vtu(file, tree);
-    } else {
-        refuse_extension(path, {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
-    }
+    if (extension == ".json") return write_json(tree, output_to(sink));
+    if (extension == ".csv") return write_tree_csv(sink, tree);
+    if (extension == ".graphml") return write_tree_graphml(sink, tree);
+    write_tree_vtu(sink, tree);
+}
+
+void write_tree(const std::string& path, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
+    (void)checked_extension(path, options);
+    AtomicFile file(path);
+    write_tree(file, volume, analysis, options);
+    file.commit();
 }
 
 void write_tree_json(std::ostream& out, const Volume& volume, const Analysis& analysis, const TreeOutput& options) {
-    write_json({volume, analysis, options}, stream_sink(out, "the tree"));
+    write_json({volume, analysis, options}, output_to(out, "the tree"));
 }
 
 }  // namespace isoatlas

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "formats/common/connectivity.h"
 #include "formats/common/json_stream.h"
 #include "isoatlas/output.h"
@@ -37,11 +36,11 @@ void visit_events(const TreeView& tree, const EventVisitor& visit);
 
 [[nodiscard]] const char* name_of(TreeDetail detail);
 
-void write_json(const TreeView& tree, const JsonStream::Sink& sink);
-// Each writes the whole file and commits.
-void write_tree_csv(AtomicFile& file, const TreeView& tree);
-void write_tree_graphml(AtomicFile& file, const TreeView& tree);
-void write_tree_vtu(AtomicFile& file, const TreeView& tree);
+void write_json(const TreeView& tree, const JsonStream::Output& output);
+// Each writes the whole file.
+void write_tree_csv(Sink& sink, const TreeView& tree);
+void write_tree_graphml(Sink& sink, const TreeView& tree);
+void write_tree_vtu(Sink& sink, const TreeView& tree);
 
 /// "0:2 3:1": two contours of genus 0, one of genus 3.
 [[nodiscard]] std::string histogram_text(std::span<const GenusCount> genera);

@@ -77,9 +77,9 @@ void put_contours(ByteWriter& out, const TreeView& tree) {
 
 }  // namespace
 
-void write_tree_graphml(AtomicFile& file, const TreeView& tree) {
+void write_tree_graphml(Sink& sink, const TreeView& tree) {
     const bool events = tree.options.detail == TreeDetail::events;
-    ByteWriter out(file);
+    ByteWriter out(sink);
     const std::span<const GraphmlKey> keys = events ? std::span<const GraphmlKey>(kEventKeys) : kContourKeys;
     begin_graphml(out, keys, events ? "criticality_tree" : "contour_tree", "isoatlas/tree/1", tree.connectivity());
     events ? put_events(out, tree) : put_contours(out, tree);

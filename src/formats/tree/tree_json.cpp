@@ -100,8 +100,8 @@ void put_contours(JsonStream& json, const TreeView& tree) {
 
 }  // namespace
 
-void write_json(const TreeView& tree, const JsonStream::Sink& sink) {
-    JsonStream json(sink);
+void write_json(const TreeView& tree, const JsonStream::Output& output) {
+    JsonStream json(output);
     json.begin_object().line().key("schema").value("isoatlas/tree/1").key("version").value(kVersion);
     put_members(json.line(), tree.connectivity());
     json.key("boundary").value("closed");

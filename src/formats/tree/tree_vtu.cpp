@@ -80,9 +80,9 @@ VtuGraph graph_of_elements(const TreeView& tree) {
 
 }  // namespace
 
-void write_tree_vtu(AtomicFile& file, const TreeView& tree) {
+void write_tree_vtu(Sink& sink, const TreeView& tree) {
     const VtuGraph graph = tree.options.detail == TreeDetail::events ? graph_of_events(tree) : graph_of_elements(tree);
-    graph.write(file, tree.volume.info, tree.connectivity());
+    graph.write(sink, tree.volume.info, tree.connectivity());
 }
 
 }  // namespace isoatlas

@@ -67,8 +67,8 @@ void VtuGraph::put_cells(ByteWriter& out, AppendedArrays& arrays) const {
     out.text(counted_array<std::uint8_t>(arrays, "types", cells(), [type](std::int64_t) { return type; }));
 }
 
-void VtuGraph::write(AtomicFile& file, const VolumeInfo& info, const Connectivity& connectivity) const {
-    ByteWriter out(file);
+void VtuGraph::write(Sink& sink, const VolumeInfo& info, const Connectivity& connectivity) const {
+    ByteWriter out(sink);
     AppendedArrays arrays;
     out.text(vtk_file_begin("UnstructuredGrid") + "<UnstructuredGrid>\n<FieldData>\n" + vtk_string("Space", info.geometry.space));
     if (!info.geometry.unit.empty()) out.text(vtk_string("Unit", info.geometry.unit));

@@ -59,9 +59,9 @@ public:
                                     [get, &items](std::int64_t i) { return get(items[static_cast<std::size_t>(i)]); });
         });
     }
-    /// Writes the whole file and commits: the arrays of every graph (NodeId, Scalar, CriticalType; SegmentationId, upNodeId, downNodeId,
+    /// Writes the whole file: the arrays of every graph (NodeId, Scalar, CriticalType; SegmentationId, upNodeId, downNodeId,
     /// RegionSpan, ValueSpan, RegionType) and the added ones.
-    void write(AtomicFile& file, const VolumeInfo& info, const Connectivity& connectivity) const;
+    void write(Sink& sink, const VolumeInfo& info, const Connectivity& connectivity) const;
 
 private:
     using PointArray = std::function<std::string(AppendedArrays&)>;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <utility>
 
 #include "formats/common/byte_source.h"
@@ -11,6 +10,7 @@
 #include "formats/common/text.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/raw_description.h"
+#include "isoatlas/text.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -51,20 +51,6 @@ constexpr std::array<std::pair<std::string_view, const char*>, 14> kForeign = {
      {".png", "give the folder that holds the slices, or convert the image to TIFF"},
      {".npz", "save the array by itself: numpy.save"},
      {".zip", "unpack the archive and give the file inside"}}};
-
-/// Edit distance of two short words (Wagner & Fischer 1974).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, change}));
-        }
-    }
-    return row.back();
-}
 
 bool has_extension(const std::string& path, const Format& format) {
     const std::vector<std::string_view> extensions = split_words(format.extensions);

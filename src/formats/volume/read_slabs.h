@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/phase.h"
 #include "isoatlas/context.h"
 #include "isoatlas/error.h"
 #include "isoatlas/volume.h"
@@ -30,14 +31,14 @@ void for_each_slab(VolumeReader& reader, const Context& context, std::span<std::
     for (std::int64_t z = 0; z < slices; z += step) {
         if (context.cancelled && context.cancelled())
             throw Error(ErrorKind::cancelled, {.file = info.path, .what = "reading was cancelled"});
-        context.report("read", 0, 1, static_cast<double>(z) / static_cast<double>(slices));
+        report(context, only_phase("read"), static_cast<double>(z) / static_cast<double>(slices));
         const std::int64_t end = std::min(slices, z + step);
         std::byte* begin = whole.empty() ? slab.data() : whole.data() + static_cast<std::size_t>(z) * slice_bytes;
         const std::span<std::byte> samples(begin, static_cast<std::size_t>(end - z) * slice_bytes);
         reader.read(z, end, samples);
         use(z, samples);
     }
-    context.report("read", 0, 1, 1);
+    report(context, only_phase("read"), 1);
 }
 
 }  // namespace isoatlas

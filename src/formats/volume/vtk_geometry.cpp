@@ -127,19 +127,19 @@ Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& pie
     return geometry;
 }
 
-std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, std::int64_t count) {
+std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count) {
     VolumeInfo line;
     line.path = file.path;
-    line.type = array.type;
+    line.type = type;
     line.big_endian = array.format == VtkFormat::ascii ? needs_swap(false) : file.big_endian;
     line.extent = {.rank = 3, .size = {count, 1, 1}};
     (void)sample_bytes(file.path, line.extent, line.type);
     OpenOptions options;
     options.skip_rest = file.skip_rest;
-    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, open_vtk_array(file, array, count), options);
-    std::vector<std::byte> bytes(static_cast<std::size_t>(count) * size_of(array.type));
+    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, open_vtk_array(file, array, type, count), options);
+    std::vector<std::byte> bytes(static_cast<std::size_t>(count) * size_of(type));
     reader->read(0, 1, bytes);
-    switch (array.type) {
+    switch (type) {
         case ValueType::u8: return convert<std::uint8_t>(bytes);
         case ValueType::i8: return convert<std::int8_t>(bytes);
         case ValueType::u16: return convert<std::uint16_t>(bytes);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/volume/vtk_array.h"
+#include "formats/common/vtk_array.h"
 #include "isoatlas/volume.h"
 
 namespace pugi {
@@ -35,7 +35,7 @@ using CoordinateReader = std::function<std::vector<double>(const pugi::xml_node&
 [[nodiscard]] Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& piece, const VtkExtent& points, bool cells,
                                             const CoordinateReader& read);
 
-/// All numbers of a data array.
-[[nodiscard]] std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, std::int64_t count);
+/// All numbers of a data array, which are of this type.
+[[nodiscard]] std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count);
 
 }  // namespace isoatlas

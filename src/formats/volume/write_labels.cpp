@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "formats/common/connectivity.h"
 #include "formats/common/text.h"
 #include "formats/common/volume_file.h"
@@ -57,27 +58,41 @@ Meaning meaning_of(const VolumeInfo& info, const LabelOrigin& origin) {
     return meaning;
 }
 
-void write(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const Meaning& meaning) {
+constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff"};
+
+void check(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels) {
     if (static_cast<std::int64_t>(labels.size()) != info.extent.voxels()) {
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "the number of labels does not match the extent",
                                        .expected = std::to_string(info.extent.voxels()) + " labels"});
     }
+    if (std::ranges::any_of(kEnds, [&](const char* end) { return ends_with_ignoring_case(path, end); })) return;
+    throw Error(ErrorKind::usage, {.file = path,
+                                   .what = "the name does not say in which format to write labels",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",
+                                   .next = "change the extension of the output file"});
+}
+
+void write(Sink& sink, const VolumeInfo& info, std::span<const std::uint32_t> labels, const Meaning& meaning) {
+    check(sink.name(), info, labels);
     VolumeInfo header;
     header.extent = info.extent;
     header.geometry = info.geometry;
     header.description = meaning.sentence;
     header.type = label_type(labels);
     const SampleFeed feed = feed_of(labels, header.type);
-    const auto ends = [&](const char* end) { return ends_with_ignoring_case(path, end); };
-    if (ends(".nrrd")) return write_nrrd(path, header, feed, Packing::gzip, meaning.pairs);
-    if (ends(".nii")) return write_nifti(path, header, feed, Packing::raw);
-    if (ends(".nii.gz")) return write_nifti(path, header, feed, Packing::gzip);
-    if (ends(".tif") || ends(".tiff")) return write_tiff(path, header, feed, meaning.pairs);
-    throw Error(ErrorKind::usage, {.file = path,
-                                   .what = "the name does not say in which format to write labels",
-                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",
-                                   .next = "change the extension of the output file"});
+    const auto ends = [&](const char* end) { return ends_with_ignoring_case(sink.name(), end); };
+    if (ends(".nrrd")) return write_nrrd(sink, header, feed, Packing::gzip, meaning.pairs);
+    if (ends(".nii")) return write_nifti(sink, header, feed, Packing::raw);
+    if (ends(".nii.gz")) return write_nifti(sink, header, feed, Packing::gzip);
+    write_tiff(sink, header, feed, meaning.pairs);
+}
+
+void write(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const Meaning& meaning) {
+    check(path, info, labels);
+    AtomicFile file(path);
+    write(file, info, labels, meaning);
+    file.commit();
 }
 
 }  // namespace
@@ -103,6 +118,10 @@ void write_labels(const std::string& path, const VolumeInfo& info, std::span<con
 
 void write_labels(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const LabelOrigin& origin) {
     write(path, info, labels, meaning_of(info, origin));
+}
+
+void write_labels(Sink& sink, const VolumeInfo& info, std::span<const std::uint32_t> labels, const LabelOrigin& origin) {
+    write(sink, info, labels, meaning_of(info, origin));
 }
 
 }  // namespace isoatlas

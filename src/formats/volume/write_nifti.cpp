@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "formats/common/byte_writer.h"
 #include "formats/common/gzip_stream.h"
 #include "formats/common/volume_file.h"
@@ -161,20 +160,18 @@ bool needs_version_2(const Contents& contents) {
 
 }  // namespace
 
-void write_nifti(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing) {
+void write_nifti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing) {
     const Contents contents = contents_of(info);
     const Fields header = needs_version_2(contents) ? header_2(contents, info.type) : header_1(contents, info.type);
-    AtomicFile file(path);
     if (packing == Packing::gzip) {
-        GzipStream stream(file);
+        GzipStream stream(sink);
         stream.write(header.bytes());
         samples([&](std::span<const std::byte> bytes) { stream.write(bytes); });
         stream.finish();
     } else {
-        file.write(header.bytes());
-        samples([&](std::span<const std::byte> bytes) { file.write(bytes); });
+        sink.write(header.bytes());
+        samples([&](std::span<const std::byte> bytes) { sink.write(bytes); });
     }
-    file.commit();
 }
 
 }  // namespace isoatlas

@@ -1,7 +1,6 @@
 // NRRD, attached header. Format: http://teem.sourceforge.net/nrrd/format.html
 #include <bit>
 
-#include "base/atomic_file.h"
 #include "formats/common/byte_writer.h"
 #include "formats/common/generator.h"
 #include "formats/common/gzip_stream.h"
@@ -73,17 +72,15 @@ std::string header_text(const VolumeInfo& info, Packing packing, const KeyValues
 
 }  // namespace
 
-void write_nrrd(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs) {
-    AtomicFile file(path);
-    file.write(header_text(info, packing, pairs));
+void write_nrrd(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs) {
+    sink.write(header_text(info, packing, pairs));
     if (packing == Packing::gzip) {
-        GzipStream stream(file);
+        GzipStream stream(sink);
         samples([&](std::span<const std::byte> bytes) { stream.write(bytes); });
         stream.finish();
     } else {
-        samples([&](std::span<const std::byte> bytes) { file.write(bytes); });
+        samples([&](std::span<const std::byte> bytes) { sink.write(bytes); });
     }
-    file.commit();
 }
 
 }  // namespace isoatlas

@@ -14,13 +14,6 @@ namespace {
 
 constexpr bool kBigEndian = std::endian::native == std::endian::big;
 
-void write_file(const std::string& path, const std::string& header, const SampleFeed& samples) {
-    AtomicFile file(path);
-    file.write(header);
-    samples([&](std::span<const std::byte> bytes) { file.write(bytes); });
-    file.commit();
-}
-
 const char* meta_type(ValueType type) {
     static constexpr const char* kNames[] = {"MET_UCHAR", "MET_CHAR", "MET_USHORT", "MET_SHORT",
                                              "MET_UINT",  "MET_INT",  "MET_FLOAT",  "MET_DOUBLE"};
@@ -98,7 +91,7 @@ bool name_is_enough(const std::string& path, const VolumeInfo& info) {
 void write_sidecar(const std::string& path, const VolumeInfo& info) {
     const Geometry geometry = regular_geometry(info);
     AtomicFile file(path);
-    JsonStream json([&](std::string_view text) { file.write(text); });
+    JsonStream json(output_to(file));
     json.begin_object().key("dims").begin_array();
     for (int axis = 0; axis < info.extent.rank; ++axis) json.value(info.extent.size[axis]);
     json.end_array().key("type").value(name_of(info.type)).key("endian").value(kBigEndian ? "big" : "little");
@@ -115,17 +108,27 @@ void write_sidecar(const std::string& path, const VolumeInfo& info) {
 
 }  // namespace
 
-void write_metaimage(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
-    write_file(path, meta_header(info), samples);
+void write_raw(Sink& sink, const SampleFeed& samples) {
+    samples([&](std::span<const std::byte> bytes) { sink.write(bytes); });
 }
 
-void write_npy(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) { write_file(path, npy_header(info), samples); }
+void write_metaimage(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
+    sink.write(meta_header(info));
+    write_raw(sink, samples);
+}
+
+void write_npy(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
+    sink.write(npy_header(info));
+    write_raw(sink, samples);
+}
 
 void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed& samples) {
     const std::string sidecar = path + ".json";
     const bool is_replaced = require_target(sidecar).status.kind == FileStatus::Kind::regular;  // one that describes another volume
     const bool is_needed = !name_is_enough(path, info);
-    write_file(path, "", samples);
+    AtomicFile file(path);
+    write_raw(file, samples);
+    file.commit();
     if (is_needed || is_replaced) write_sidecar(sidecar, info);
 }
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "formats/common/byte_writer.h"
 #include "formats/common/volume_file.h"
 
@@ -135,8 +134,8 @@ private:
 
 class TiffWriter {
 public:
-    TiffWriter(const std::string& path, const VolumeInfo& info, const KeyValues& pairs)
-        : file_(path), info_(info), geometry_(regular_geometry(info)), description_(description_of(info, geometry_, pairs)) {
+    TiffWriter(Sink& sink, const VolumeInfo& info, const KeyValues& pairs)
+        : sink_(sink), info_(info), geometry_(regular_geometry(info)), description_(description_of(info, geometry_, pairs)) {
         const std::int64_t row = info.extent.size[0] * static_cast<std::int64_t>(size_of(info.type));
         big_ = info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) > kBigTiffFrom;
         rows_ = std::clamp<std::int64_t>(kStripBytes / row, 1, info.extent.size[1]);
@@ -156,19 +155,18 @@ public:
             if (count == missing) finish_strip(rows);
         }
     }
-    void commit() { file_.commit(); }
 
 private:
     void write_header() {
         const bool big_endian = std::endian::native == std::endian::big;
-        file_.write(std::string_view(big_endian ? "MM" : "II"));
+        sink_.write(std::string_view(big_endian ? "MM" : "II"));
         link_ = big_ ? 8 : 4;
         if (big_) {
             const std::array<std::uint16_t, 7> rest{43, 8, 0, 0, 0, 0, 0};
-            file_.write(std::as_bytes(std::span(rest)));
+            sink_.write(std::as_bytes(std::span(rest)));
         } else {
             const std::array<std::uint16_t, 3> rest{42, 0, 0};
-            file_.write(std::as_bytes(std::span(rest)));
+            sink_.write(std::as_bytes(std::span(rest)));
         }
     }
     void finish_strip(std::int64_t rows) {
@@ -176,20 +174,20 @@ private:
         packed_.resize(size);
         const int result = compress2(reinterpret_cast<Bytef*>(packed_.data()), &size, reinterpret_cast<const Bytef*>(strip_.data()),
                                      strip_.size(), kLevel);
-        if (result != Z_OK) throw Error(ErrorKind::resource, {.file = file_.path(), .what = "not enough memory to compress"});
-        offsets_.push_back(file_.size());
+        if (result != Z_OK) throw Error(ErrorKind::resource, {.file = sink_.name(), .what = "not enough memory to compress"});
+        offsets_.push_back(sink_.size());
         counts_.push_back(static_cast<std::int64_t>(size));
-        file_.write(std::span<const std::byte>(packed_).first(size));
+        sink_.write(std::span<const std::byte>(packed_).first(size));
         strip_.clear();
         row_ += rows;
         if (row_ == info_.extent.size[1]) finish_page();
     }
     void finish_page() {
         const std::array<std::byte, 8> zeros{};
-        file_.write(std::span(zeros).first(static_cast<std::size_t>((8 - file_.size() % 8) % 8)));
-        const std::int64_t offset = file_.size();
+        sink_.write(std::span(zeros).first(static_cast<std::size_t>((8 - sink_.size() % 8) % 8)));
+        const std::int64_t offset = sink_.size();
         const Directory directory = describe_page(offset);
-        file_.write(directory.bytes());
+        sink_.write(directory.bytes());
         set_link(offset);
         link_ = directory.link_offset();
         first_ = false;
@@ -224,12 +222,12 @@ private:
         const auto wide = static_cast<std::uint64_t>(offset);
         const auto narrow = static_cast<std::uint32_t>(offset);
         if (big_)
-            file_.write_at(link_, std::as_bytes(std::span(&wide, 1)));
+            sink_.write_at(link_, std::as_bytes(std::span(&wide, 1)));
         else
-            file_.write_at(link_, std::as_bytes(std::span(&narrow, 1)));
+            sink_.write_at(link_, std::as_bytes(std::span(&narrow, 1)));
     }
 
-    AtomicFile file_;
+    Sink& sink_;
     const VolumeInfo& info_;
     Geometry geometry_;
     std::string description_;
@@ -243,15 +241,14 @@ private:
 
 }  // namespace
 
-void write_tiff(const std::string& path, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs) {
+void write_tiff(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs) {
     if (std::max(info.extent.size[0], info.extent.size[1]) > std::int64_t{0xffffffff}) {
-        throw Error(ErrorKind::usage, {.file = path,
+        throw Error(ErrorKind::usage, {.file = sink.name(),
                                        .what = "an axis has more than 2^32 samples, which TIFF cannot represent",
                                        .next = "choose another format, e.g. .nrrd"});
     }
-    TiffWriter writer(path, info, pairs);
+    TiffWriter writer(sink, info, pairs);
     samples([&](std::span<const std::byte> bytes) { writer.put(bytes); });
-    writer.commit();
 }
 
 }  // namespace isoatlas

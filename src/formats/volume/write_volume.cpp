@@ -1,30 +1,60 @@
 // Writes sample volumes in the format of the extension.
+#include "base/atomic_file.h"
 #include "formats/common/text.h"
 #include "formats/common/volume_file.h"
 #include "isoatlas/output.h"
 
 namespace isoatlas {
+namespace {
 
-void write_volume(const std::string& path, const Volume& volume) {
+using Writer = void (*)(Sink&, const VolumeInfo&, const SampleFeed&);
+
+struct Format {
+    const char* end;
+    Writer write;
+};
+
+constexpr Format kFormats[] = {
+    {".nrrd", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nrrd(sink, info, samples, Packing::raw); }},
+    {".npy", write_npy},
+    {".raw", [](Sink& sink, const VolumeInfo&, const SampleFeed& samples) { write_raw(sink, samples); }},
+    {".mha", write_metaimage},
+    {".nii", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::raw); }},
+    {".nii.gz", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::gzip); }},
+    {".tif", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_tiff(sink, info, samples); }},
+    {".tiff", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_tiff(sink, info, samples); }}};
+
+/// The writer of a name, if the volume is consistent.
+Writer checked_writer(const std::string& path, const Volume& volume) {
     const VolumeInfo& info = volume.info;
     if (static_cast<std::int64_t>(volume.bytes.size()) != info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type))) {
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "the number of samples does not match the extent",
                                        .expected = std::to_string(info.extent.voxels()) + " samples"});
     }
-    const SampleFeed feed = [&](const ByteSink& put) { put(volume.bytes); };
-    const auto ends = [&](const char* end) { return ends_with_ignoring_case(path, end); };
-    if (ends(".nrrd")) return write_nrrd(path, info, feed, Packing::raw);
-    if (ends(".npy")) return write_npy(path, info, feed);
-    if (ends(".raw")) return write_raw(path, info, feed);
-    if (ends(".mha")) return write_metaimage(path, info, feed);
-    if (ends(".nii")) return write_nifti(path, info, feed, Packing::raw);
-    if (ends(".nii.gz")) return write_nifti(path, info, feed, Packing::gzip);
-    if (ends(".tif") || ends(".tiff")) return write_tiff(path, info, feed);
+    for (const Format& format : kFormats) {
+        if (ends_with_ignoring_case(path, format.end)) return format.write;
+    }
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write the volume",
                                    .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .npy, .tif or .raw",
                                    .next = "change the extension of the output file"});
+}
+
+SampleFeed feed_of(const Volume& volume) {
+    return [&volume](const ByteSink& put) { put(volume.bytes); };
+}
+
+}  // namespace
+
+void write_volume(Sink& sink, const Volume& volume) { checked_writer(sink.name(), volume)(sink, volume.info, feed_of(volume)); }
+
+void write_volume(const std::string& path, const Volume& volume) {
+    const Writer write = checked_writer(path, volume);
+    if (ends_with_ignoring_case(path, ".raw")) return write_raw(path, volume.info, feed_of(volume));
+    AtomicFile file(path);
+    write(file, volume.info, feed_of(volume));
+    file.commit();
 }
 
 }  // namespace isoatlas

@@ -90,5 +90,14 @@ TEST(Text, WhatIsNotUtf8) {
     EXPECT_TRUE(is_utf8("\xed\x9f\xbf\xee\x80\x80\xf4\x8f\xbf\xbf"));
 }
 
+TEST(Text, EditDistances) {
+    EXPECT_EQ(edit_distance("", ""), 0U);
+    EXPECT_EQ(edit_distance("", "abc"), 3U);
+    EXPECT_EQ(edit_distance("abc", ""), 3U);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+    EXPECT_EQ(edit_distance("Saturday", "Sunday"), 3U);
+    EXPECT_EQ(edit_distance("--tau", "--tua"), 2U);
+}
+
 }  // namespace
 }  // namespace isoatlas

@@ -53,7 +53,7 @@ TEST(Medium, BallOfConstantDensity) {
     const Volume volume = cone_volume(97);
     const double density = 0.03;
     Scene scene;
-    scene.volume = {.volume = &volume, .bumps = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = density, .ramp = 0}}};
+    scene.volume = {.volume = &volume, .tents = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = density, .ramp = 0}}};
     for (const Vec3& toward : {Vec3{0, -1, 0}, Vec3{0.6, 0, 0.8}}) {
         const Camera camera{.target = {0, 0, 0}, .view = {.toward = toward, .up = {0, 0, 1}}, .height = 44};
         const auto chord = [&](double d) { return d < kBall ? 2 * density * std::sqrt(kBall * kBall - d * d) : 0; };
@@ -65,7 +65,7 @@ TEST(Medium, LinearRamp) {
     const Volume volume = cone_volume(97);
     const double top = 0.1;
     Scene scene;  // the extinction rises from 0 at the rim to `top` at the centre
-    scene.volume = {.volume = &volume, .bumps = {{.low = 0, .high = 2 * kBall, .colour = {1, 1, 1}, .density = top, .ramp = 0.5}}};
+    scene.volume = {.volume = &volume, .tents = {{.low = 0, .high = 2 * kBall, .colour = {1, 1, 1}, .density = top, .ramp = 0.5}}};
     const Camera camera{.target = {0, 0, 0}, .view = {}, .height = 44};
     const auto integral = [&](double d) {
         if (d >= kBall) return 0.0;
@@ -82,7 +82,7 @@ TEST(Medium, ColourAndDepthOrderWithSurfaces) {
     const double density = 0.02;
     const auto scene_with = [&](double opacity) {
         Scene scene;
-        scene.volume = {.volume = &volume, .bumps = {{.low = 0, .high = 100, .colour = {1, 0, 0}, .density = density, .ramp = 0}}};
+        scene.volume = {.volume = &volume, .tents = {{.low = 0, .high = 100, .colour = {1, 0, 0}, .density = density, .ramp = 0}}};
         scene.objects.push_back({.surface = test::ball({0, 0, 0}, 5, 1), .colour = {0, 0, 1}, .opacity = opacity});
         return scene;
     };
@@ -112,7 +112,7 @@ TEST(Medium, LeapsOverNothingThatIsVisible) {
         Volume volume = make_volume({.rank = 3, .size = {21, 21, 21}}, ValueType::u8);
         volume.samples<std::uint8_t>()[volume.info.extent.index(at, at, 10)] = 200;
         Scene scene;
-        scene.volume = {.volume = &volume, .bumps = {{.low = 50, .high = 255, .colour = {1, 1, 1}, .density = 50, .ramp = 0}}};
+        scene.volume = {.volume = &volume, .tents = {{.low = 50, .high = 255, .colour = {1, 1, 1}, .density = 50, .ramp = 0}}};
         const Camera camera{
             .target = {static_cast<double>(at), static_cast<double>(at), 10}, .view = {.toward = {0, 0, 1}, .up = {0, 1, 0}}, .height = 3};
         EXPECT_GT(render_scene(scene, camera, flat(17, 1)).at(8, 8)[3], 250) << at;
@@ -136,14 +136,14 @@ TEST(Medium, LeapingChangesNoPixel) {
         const Volume volume = sparse_volume(seed);
         Scene scene;
         scene.volume = {.volume = &volume,
-                        .bumps = {{.low = 10, .high = 60, .colour = {1, 0.5, 0}, .density = 2, .ramp = 0.1},
+                        .tents = {{.low = 10, .high = 60, .colour = {1, 0.5, 0}, .density = 2, .ramp = 0.1},
                                   {.low = 100, .high = 110, .colour = {0, 0.5, 1}, .density = 5, .ramp = 0}}};
         if (seed % 3 == 0) scene.removed = {{.normal = {1, 1, 0}, .offset = 4}};
         const RenderOptions options{.width = 40, .height = 40, .background = Background::dark};
         const Camera camera = fit_camera(scene, view_from(static_cast<double>(37 * seed % 360), static_cast<double>(seed % 90)), options);
         const Image leapt = render_scene(scene, camera, options);
         // What is everywhere cannot be leapt over, even when it is too thin to be seen.
-        scene.volume.bumps.push_back({.low = -1, .high = 256, .colour = {1, 1, 1}, .density = 1e-12, .ramp = 0});
+        scene.volume.tents.push_back({.low = -1, .high = 256, .colour = {1, 1, 1}, .density = 1e-12, .ramp = 0});
         EXPECT_TRUE(render_scene(scene, camera, options) == leapt) << seed;
     }
 }
@@ -151,7 +151,7 @@ TEST(Medium, LeapingChangesNoPixel) {
 TEST(Medium, TheSameBytesForAnyThreads) {
     const Volume volume = cone_volume(33);
     Scene scene;
-    scene.volume = {.volume = &volume, .bumps = {{.low = 0, .high = 15, .colour = {1, 0.5, 0}, .density = 0.2}}, .shadows = true};
+    scene.volume = {.volume = &volume, .tents = {{.low = 0, .high = 15, .colour = {1, 0.5, 0}, .density = 0.2}}, .shadows = true};
     scene.objects.push_back({.surface = test::ball({3, 1, 0}, 5, 1), .colour = {0, 0, 1}});
     scene.removed = {{.normal = {1, 0, 0}, .offset = 8}};
     const RenderOptions options{.width = 64, .height = 48};
@@ -165,7 +165,7 @@ TEST(Medium, TheSameBytesForAnyThreads) {
 TEST(Medium, ShadowsDarkenWhatLiesBehind) {
     const Volume volume = cone_volume(49);
     Scene scene;
-    scene.volume = {.volume = &volume, .bumps = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = 0.3, .ramp = 0}}};
+    scene.volume = {.volume = &volume, .tents = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = 0.3, .ramp = 0}}};
     const Camera camera = fit_camera(scene, view_from(0, 0));
     const RenderOptions options{.width = 32, .height = 32, .background = Background::transparent};
     const auto brightness = [&] {
@@ -184,7 +184,7 @@ TEST(Medium, LightComesAsFarAsTheIntegralSays) {
     const double density = 0.05;
     Scene scene;
     scene.volume = {
-        .volume = &volume, .bumps = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = density, .ramp = 0}}, .shadows = true};
+        .volume = &volume, .tents = {{.low = 0, .high = 100, .colour = {1, 1, 1}, .density = density, .ramp = 0}}, .shadows = true};
     const SceneBox box = box_of(scene);
     const Frame frame{box.centre(), box.radius()};
     const CameraRays camera({.view = view_from(20, 30)}, 8, 8);

@@ -42,9 +42,9 @@ ObjectTable any_table() {
 }
 
 /// The bumps of one isovalue: a skin, and maybe a body.
-std::vector<std::vector<OpacityTent>> by_isovalue(const std::vector<OpacityTent>& bumps) {
+std::vector<std::vector<OpacityTent>> by_isovalue(const std::vector<OpacityTent>& tents) {
     std::vector<std::vector<OpacityTent>> groups;
-    for (const OpacityTent& bump : bumps) {
+    for (const OpacityTent& bump : tents) {
         if (groups.empty() || groups.back()[0].tau != bump.tau) groups.emplace_back();
         groups.back().push_back(bump);
     }
@@ -95,9 +95,9 @@ TEST(ProposedTransfer, BackgroundOnlyIfThereIsNothingElse) {
     EXPECT_EQ(propose_transfer(table, info_of(1000), kRange).size(), 1U);
     EXPECT_TRUE(is_background(table.entries[0], info_of(1000).extent));
     table.entries.push_back(entry_at(600, 900, 200));
-    const std::vector<OpacityTent> bumps = propose_transfer(table, info_of(1000), kRange);
-    ASSERT_EQ(bumps.size(), 1U);
-    EXPECT_EQ(bumps[0].tau, 600);
+    const std::vector<OpacityTent> tents = propose_transfer(table, info_of(1000), kRange);
+    ASSERT_EQ(tents.size(), 1U);
+    EXPECT_EQ(tents[0].tau, 600);
     // An outline of less shows something; what fills the volume and is no outline does too.
     table.entries[0].voxels = 600;
     EXPECT_EQ(propose_transfer(table, info_of(1000), kRange)[0].tau, 300);
@@ -108,10 +108,10 @@ TEST(ProposedTransfer, BackgroundOnlyIfThereIsNothingElse) {
 TEST(ProposedTransfer, ARoomBetweenTwoIsovaluesHasThinMatter) {
     ObjectTable table;
     table.entries = {entry_at(200, 900, 8000), entry_at(700, 900, 100)};
-    const std::vector<OpacityTent> bumps = propose_transfer(table, info_of(100000), kRange);
-    ASSERT_EQ(bumps.size(), 3U);
-    EXPECT_EQ(bumps[1].high, 700);
-    EXPECT_DOUBLE_EQ(bumps[1].density * 20, 0.5);  // across a cube of 8000
+    const std::vector<OpacityTent> tents = propose_transfer(table, info_of(100000), kRange);
+    ASSERT_EQ(tents.size(), 3U);
+    EXPECT_EQ(tents[1].high, 700);
+    EXPECT_DOUBLE_EQ(tents[1].density * 20, 0.5);  // across a cube of 8000
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
     const auto json = nlohmann::json::parse(ask("/api/branches").bytes);
     ASSERT_EQ(json["all"], hierarchy.branches().size());
     ASSERT_EQ(json["rank"].size(), std::min<std::size_t>(hierarchy.branches().size(), 1000));
-    std::size_t standing_out = 0;
+    std::size_t significant = 0;
     for (std::size_t i = 0; i < json["rank"].size(); ++i) {
         const BranchInfo& branch = hierarchy.branches()[i];
         EXPECT_EQ(json["rank"][i], i);
@@ -70,7 +70,7 @@ TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
         EXPECT_EQ(json["persistence"][i], branch.persistence);
         EXPECT_EQ(json["voxels"][i], branch.voxels);
         EXPECT_EQ(json["parent"][i], branch.parent);
-        standing_out += json["standsOut"][i].get<bool>();
+        significant += json["significant"][i].get<bool>();
         const double tau = json["tau"][i];
         EXPECT_GT(tau, branch.merges);
         EXPECT_LE(tau, branch.appears);
@@ -81,7 +81,7 @@ TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
         EXPECT_EQ(json["tunnels"][i], object->b1);
         EXPECT_EQ(json["cavities"][i], object->b2);
     }
-    EXPECT_EQ(standing_out, hierarchy.significant().size());
+    EXPECT_EQ(significant, hierarchy.significant().size());
 }
 
 TEST_F(ServiceTest, BranchesAreChosenAsOnTheCommandLine) {

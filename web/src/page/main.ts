@@ -35,7 +35,7 @@ function about(page: Page): HTMLElement {
 function verdict(page: Page): string[] {
   if (page.volume.low === page.volume.high) return ["All samples have the same value: there are no objects at any isovalue."];
   if (page.entries.length === 0) return ["No objects to show: all of them are below noise level."];
-  const others = page.branches.some((branch) => branch.standsOut && branch.merges !== null);
+  const others = page.branches.some((branch) => branch.significant && branch.merges !== null);
   const noisy =
     1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
   if (!others && noisy)

@@ -21,7 +21,7 @@ function row(page: Page, branch: Branch): HTMLElement {
     html("td", {}, rangeOf(branch)),
     html("td", {}, volume(branch.measure, page.volume.unit)),
     html("td", {}, value(branch.hypervolume)),
-    html("td", {}, branch.standsOut ? "significant" : "noise level or very small"),
+    html("td", {}, branch.significant ? "significant" : "noise level or very small"),
     html("td", {}, value(largestAt(branch))),
   );
 }

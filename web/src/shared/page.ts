@@ -74,7 +74,7 @@ export interface Branch {
   measure: number;
   /** objects that merge into it, including those that are not on this page */
   joined: number;
-  standsOut: boolean;
+  significant: boolean;
   shape?: Shape | null;
   /** further recommended isovalues, without an entry */
   isovalues?: Advice[];

@@ -35,9 +35,9 @@ class LoadingCard {
     main.append(this.card);
   }
 
-  show({ state, build, error, questions }: ServerState): void {
+  show({ state, build, error, requests }: ServerState): void {
     this.note.hidden = true;
-    this.wait(pendingText(questions));
+    this.wait(pendingText(requests));
     if (state === "open") {
       this.title.textContent = "Opening the volume";
       this.bar.removeAttribute("value");

@@ -144,6 +144,43 @@ TEST(hostile_vtp, bombs_and_contradictions) {
     EXPECT_FALSE(refused(parse_vtp, vtp("", "<DataArray type=\"Float32\" format=\"ascii\">1 2 3</DataArray>")));
 }
 
+/// Many arrays with the same bytes: their sum is bounded, not each alone.
+TEST(hostile_vtp, arrays_that_overlap) {
+    const auto file = [](int pieces) {
+        std::string text = "<VTKFile type=\"PolyData\"><PolyData>";
+        for (int i = 0; i < pieces; ++i)
+            text += "<Piece NumberOfPoints=\"1000\"><Points><DataArray type=\"UInt8\" format=\"appended\" offset=\"0\"/></Points></Piece>";
+        return text + "</PolyData><AppendedData encoding=\"raw\">_" + std::string("\xb8\x0b\0\0", 4) + std::string(3000, '\1') +
+               "</AppendedData></VTKFile>";
+    };
+    EXPECT_FALSE(refused(parse_vtp, file(1)));
+    EXPECT_TRUE(refused(parse_vtp, file(20)));
+}
+
+TEST(hostile_vtp, messages_name_the_array) {
+    const auto message = [](const std::string& attributes, const std::string& array, const std::string& appended) {
+        try {
+            (void)parse_vtp("<VTKFile type=\"PolyData\" " + attributes + "><PolyData><Piece NumberOfPoints=\"1\"><Points>" + array +
+                                "</Points></Piece></PolyData>" + appended + "</VTKFile>",
+                            "mesh");
+        } catch (const Error& error) {
+            return error.text().where + ": " + error.text().what + "; " + error.text().expected;
+        }
+        return std::string();
+    };
+    const std::string raw = "<AppendedData encoding=\"raw\">_";
+    const std::string ascii = "<DataArray Name=\"P\" type=\"Int32\">1 2 x3</DataArray>";
+    EXPECT_EQ(message("", ascii, ""), "array 'P': 'x3' is not a number of its type; number 3: Int32");
+    const std::string text = "<DataArray Name=\"P\" type=\"String\">1</DataArray>";
+    EXPECT_EQ(message("", text, ""), "array 'P': type 'String' is not numeric; Int8 to UInt64, Float32 or Float64");
+    const std::string appended = "<DataArray Name=\"P\" type=\"Int32\" format=\"appended\" offset=\"0\"/>";
+    EXPECT_EQ(message("", appended, ""), "array 'P': its data are in an appended section that the file does not have; <AppendedData>");
+    EXPECT_EQ(message("", appended, raw + std::string("\x05\0\0\0abcde", 9)), "array 'P': it has 5 bytes; a multiple of 4: Int32");
+    EXPECT_EQ(message("", appended, raw + std::string("\x64\0\0\0abcd", 8)), "array 'P': its header says 100 bytes; 14 at most");
+    const std::string coded = "<DataArray Name=\"P\" type=\"Int32\" format=\"binary\">DA*=</DataArray>";
+    EXPECT_NE(message("", coded, "").find("a character is not base64: '*'"), std::string::npos);
+}
+
 std::string glb(std::string json, std::string binary) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     binary.resize((binary.size() + 3) / 4 * 4, '\0');

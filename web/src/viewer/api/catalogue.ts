@@ -24,7 +24,7 @@ export interface BranchList {
   hypervolume: number[];
   voxels: number[];
   measure: number[];
-  standsOut: boolean[];
+  significant: boolean[];
 }
 
 /** Limit of the server. */
@@ -39,7 +39,7 @@ const [EMPTY, FLAGS]: [number[], boolean[]] = [[], []];
 const NONE: BranchList = {
   ...{ source: "", all: 0, id: EMPTY, voxel: EMPTY, tau: EMPTY, low: EMPTY, high: EMPTY, tunnels: EMPTY, cavities: EMPTY },
   ...{ appears: EMPTY, merges: EMPTY, parent: EMPTY, persistence: EMPTY, hypervolume: EMPTY },
-  ...{ voxels: EMPTY, measure: EMPTY, standsOut: FLAGS },
+  ...{ voxels: EMPTY, measure: EMPTY, significant: FLAGS },
 };
 
 /** Does a state refer to objects that are not on the page? */
@@ -69,7 +69,7 @@ export class Catalogue {
       rank,
       contrast: listed.persistence[rank] ?? 0,
       size: (unit === null ? listed.voxels : listed.measure)[rank] ?? 0,
-      significant: listed.standsOut[rank] ?? false,
+      significant: listed.significant[rank] ?? false,
     }));
     this.completeBranches();
   }
@@ -130,7 +130,7 @@ export class Catalogue {
       voxels: listed.voxels[rank] ?? 0,
       measure: listed.measure[rank] ?? 0,
       joined: 0,
-      standsOut: listed.standsOut[rank] ?? false,
+      significant: listed.significant[rank] ?? false,
     };
   }
 

@@ -14,7 +14,7 @@ export interface Build {
 /** A pending request. */
 export interface PendingRequest {
   client: string;
-  line: "surfaces" | "samples" | "trees" | "cards" | "atlas";
+  queue: "surfaces" | "samples" | "trees" | "cards" | "atlas";
   /** position in the queue, from 1; 0: it is being processed */
   place: number;
   fraction: number;
@@ -24,7 +24,7 @@ export interface ServerState {
   state: "building" | "open" | "failed";
   build?: Build;
   error?: { message: string; what: string; next: string };
-  questions: PendingRequest[];
+  requests: PendingRequest[];
 }
 
 /** Messages of a text/event-stream, without comments. */
@@ -79,7 +79,7 @@ export function detailsOf(build: Build): string {
 }
 
 /** Text for queues without a reported fraction. */
-const WORK: Partial<Record<PendingRequest["line"], string>> = {
+const WORK: Partial<Record<PendingRequest["queue"], string>> = {
   samples: "Reading samples",
   trees: "Querying trees",
   atlas: "Ranking objects",
@@ -87,14 +87,14 @@ const WORK: Partial<Record<PendingRequest["line"], string>> = {
 
 /** What the page is waiting for; empty: nothing. Pictures of cards have low priority and are not mentioned. */
 export function pendingText(pending: readonly PendingRequest[]): string {
-  const requests = pending.filter(({ line }) => line !== "cards");
+  const requests = pending.filter(({ queue }) => queue !== "cards");
   const places = requests.filter(({ place }) => place > 0).map(({ place }) => place);
   const active = requests.filter(({ place }) => place === 0);
-  const surfaces = active.filter(({ line }) => line === "surfaces");
+  const surfaces = active.filter(({ queue }) => queue === "surfaces");
   if (surfaces.length > 0) {
     const share = Math.min(...surfaces.map(({ fraction }) => fraction));
     return `Extracting ${surfaces.length === 1 ? "a surface" : `${surfaces.length} surfaces`}: ${Math.floor(100 * share)} %`;
   }
-  if (active[0]) return WORK[active[0].line] ?? "";
+  if (active[0]) return WORK[active[0].queue] ?? "";
   return places.length > 0 ? `Queued: position ${Math.min(...places)}` : "";
 }

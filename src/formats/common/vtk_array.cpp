@@ -1,18 +1,19 @@
-#include "formats/volume/vtk_array.h"
+#include "formats/common/vtk_array.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <vector>
 
 #include "formats/common/base64_source.h"
 #include "formats/common/block_inflater.h"
+#include "formats/common/byte_cursor.h"
 #include "formats/common/text.h"
 #include "formats/common/text_source.h"
-#include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
 
@@ -28,13 +29,19 @@ constexpr std::int64_t kDeflateRatio = 1032;  ///< deflate cannot do better: see
                                    .next = "the file is truncated or damaged: get it again"});
 }
 
+void require_budget(const VtkFile& file, const VtkArray& array, std::int64_t budget) {
+    if (budget < 0) bad_array(file, array, "the arrays up to it have more values than the file can hold", "arrays that do not overlap");
+}
+
+bool is_swapped(const VtkFile& file) { return file.big_endian != (std::endian::native == std::endian::big); }
+
 /// Words of an array header: lengths, UInt32 or UInt64.
 std::int64_t read_word(ByteSource& source, const VtkFile& file, const VtkArray& array) {
     std::array<std::byte, 8> raw{};
     const std::size_t size = file.wide_headers ? 8 : 4;
     const std::span<std::byte> bytes = std::span(raw).first(size);
     source.read(bytes);
-    if (needs_swap(file.big_endian)) std::reverse(bytes.begin(), bytes.end());
+    if (is_swapped(file)) std::reverse(bytes.begin(), bytes.end());
     std::uint64_t word = 0;
     if (file.wide_headers) {
         std::memcpy(&word, raw.data(), 8);
@@ -205,37 +212,131 @@ private:
 
 /// The header and the data of an array as bytes.
 std::unique_ptr<ByteSource> open_encoded(const VtkFile& file, const VtkArray& array) {
-    if (array.format == VtkFormat::binary) return open_base64_source(file.path, array.begin, array.end);
-    const std::int64_t size = file_size(file.path);
+    if (array.format == VtkFormat::binary) return open_base64_source(file.open(), file.path, array.begin, array.end);
+    std::unique_ptr<File> bytes = file.open();
+    const std::int64_t size = bytes->size();
     if (file.appended < 0) bad_array(file, array, "its data are in an appended section that the file does not have", "<AppendedData>");
     if (array.offset < 0 || array.offset >= size - file.appended) {
         bad_array(file, array, "its data start at " + std::to_string(array.offset) + " in the appended section",
                   "less than " + std::to_string(size - file.appended));
     }
     const std::int64_t begin = file.appended + array.offset;
-    return file.appended_is_raw ? open_file_source(file.path, begin) : open_base64_source(file.path, begin, size);
+    return file.appended_is_raw ? open_file_source(std::move(bytes), file.path, begin)
+                                : open_base64_source(std::move(bytes), file.path, begin, size);
+}
+
+/// The data of an array that is not ascii; length: bytes that its header says.
+std::unique_ptr<ByteSource> open_data(const VtkFile& file, const VtkArray& array, std::int64_t& length) {
+    std::unique_ptr<ByteSource> source = open_encoded(file, array);
+    if (file.compressed) {
+        source = std::make_unique<BlockSource>(file, array, std::move(source));
+        length = source->size_bound();
+        return source;
+    }
+    length = read_word(*source, file, array);
+    return std::make_unique<PartSource>(std::move(source), file.wide_headers ? 8 : 4, length, array.format == VtkFormat::binary);
+}
+
+std::unique_ptr<ByteSource> open_text(const VtkFile& file, const VtkArray& array) {
+    return open_file_source(file.open(), file.path, array.begin, array.end - array.begin);
+}
+
+template <class T>
+void append(std::span<const std::byte> bytes, bool swapped, VtkValues& values) {
+    for (; bytes.size() >= sizeof(T); bytes = bytes.subspan(sizeof(T))) {
+        std::array<std::byte, sizeof(T)> raw;
+        std::copy_n(bytes.begin(), sizeof(T), raw.begin());
+        if (swapped) std::reverse(raw.begin(), raw.end());
+        const T value = std::bit_cast<T>(raw);
+        if constexpr (std::is_floating_point_v<T>) {
+            values.reals.push_back(value);
+        } else {
+            values.integers.push_back(static_cast<std::int64_t>(value));
+        }
+    }
+}
+
+struct NumericType {
+    std::string_view name;
+    std::size_t bytes;
+    bool is_real;
+    void (*append)(std::span<const std::byte>, bool, VtkValues&);
+};
+template <class T>
+constexpr NumericType numeric(std::string_view name) {
+    return {name, sizeof(T), std::is_floating_point_v<T>, append<T>};
+}
+constexpr std::array kNumericTypes{numeric<std::int8_t>("Int8"),     numeric<std::uint8_t>("UInt8"),   numeric<std::int16_t>("Int16"),
+                                   numeric<std::uint16_t>("UInt16"), numeric<std::int32_t>("Int32"),   numeric<std::uint32_t>("UInt32"),
+                                   numeric<std::int64_t>("Int64"),   numeric<std::uint64_t>("UInt64"), numeric<float>("Float32"),
+                                   numeric<double>("Float64")};
+
+const NumericType& numeric_type(const VtkFile& file, const VtkArray& array) {
+    const auto found = std::ranges::find(kNumericTypes, array.type, &NumericType::name);
+    if (found != kNumericTypes.end()) return *found;
+    throw Error(ErrorKind::unsupported, {.file = file.path,
+                                         .where = "array " + in_quotes(array.name),
+                                         .what = "type " + in_quotes(array.type) + " is not numeric",
+                                         .expected = "Int8 to UInt64, Float32 or Float64",
+                                         .next = "write the file again with VTK or ParaView"});
+}
+
+template <class T>
+void parse_values(const VtkFile& file, const VtkArray& array, std::vector<T>& values) {
+    const std::unique_ptr<ByteSource> source = open_text(file, array);
+    std::string text(static_cast<std::size_t>(source->size_bound()), '\0');
+    source->read(std::as_writable_bytes(std::span(text)));
+    for (const std::string_view word : split_words(text)) {
+        T value;
+        if (!parse_number(word, value))
+            bad_array(file, array, in_quotes(word) + " is not a number of its type",
+                      "number " + std::to_string(values.size() + 1) + ": " + array.type);
+        values.push_back(value);
+    }
+}
+
+void read_values(const VtkFile& file, const VtkArray& array, const NumericType& type, std::int64_t budget, VtkValues& values) {
+    std::int64_t length = 0;
+    const std::unique_ptr<ByteSource> source = open_data(file, array, length);
+    const auto size = static_cast<std::int64_t>(type.bytes);
+    if (length > source->size_bound())
+        bad_array(file, array, "its header says " + std::to_string(length) + " bytes", std::to_string(source->size_bound()) + " at most");
+    if (length % size != 0)
+        bad_array(file, array, "it has " + std::to_string(length) + " bytes", "a multiple of " + std::to_string(size) + ": " + array.type);
+    if (length / size > budget) return require_budget(file, array, budget - length / size);
+    std::vector<std::byte> bytes(static_cast<std::size_t>(length));
+    source->seek(0);
+    source->read(bytes);
+    type.append(bytes, is_swapped(file), values);
 }
 
 }  // namespace
 
-std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, std::int64_t count) {
-    if (array.format == VtkFormat::ascii) {
-        return open_text_source(open_file_source(file.path, array.begin, array.end - array.begin), array.type, TextEnd::anything);
-    }
-    const std::int64_t wanted = count * static_cast<std::int64_t>(size_of(array.type));
-    std::unique_ptr<ByteSource> source = open_encoded(file, array);
+std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count) {
+    if (array.format == VtkFormat::ascii) return open_text_source(open_text(file, array), type, TextEnd::anything);
+    const std::int64_t wanted = count * static_cast<std::int64_t>(size_of(type));
     std::int64_t length = 0;
-    if (file.compressed) {
-        source = std::make_unique<BlockSource>(file, array, std::move(source));
-        length = source->size_bound();
-    } else {
-        length = read_word(*source, file, array);
-        source = std::make_unique<PartSource>(std::move(source), file.wide_headers ? 8 : 4, length, array.format == VtkFormat::binary);
-    }
+    std::unique_ptr<ByteSource> source = open_data(file, array, length);
     if (length > wanted && !file.skip_rest) refuse_rest(file.path, length - wanted);
     if (length < wanted)
         bad_array(file, array, "it has " + std::to_string(length) + " bytes", std::to_string(wanted) + " bytes for the extent");
     return source;
+}
+
+VtkValues read_vtk_values(const VtkFile& file, const VtkArray& array, std::int64_t& budget) {
+    const NumericType& type = numeric_type(file, array);
+    VtkValues values;
+    values.is_real = type.is_real;
+    if (array.format != VtkFormat::ascii) {
+        read_values(file, array, type, budget, values);
+    } else if (type.is_real) {
+        parse_values(file, array, values.reals);
+    } else {
+        parse_values(file, array, values.integers);
+    }
+    budget -= static_cast<std::int64_t>(values.size());
+    require_budget(file, array, budget);
+    return values;
 }
 
 std::string vtk_encoding(const VtkFile& file, const VtkArray& array) {

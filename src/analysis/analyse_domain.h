@@ -1,0 +1,47 @@
+// The engine from critical elements to zones, for any domain: the flow of the whole library on one page.
+//
+// In the literature: merge trees and the contour tree of an extremum graph (Lukasczyk et al., ExTreeM, 2023), and the segmentation by them.
+#pragma once
+
+#include <utility>
+
+#include "analysis/trees.h"
+#include "base/paced_fill.h"
+#include "critical/domain.h"
+#include "tree/heavy_paths.h"
+#include "zones/label.h"
+
+namespace isoatlas {
+
+/// Finds the zone of every vertex and counts them, by the trees. basin: of critical(); its memory becomes that of arrays.zone.
+/// Cost: O(1) expected a vertex; random access to what is proportional to the critical elements.
+template <Domain D>
+void make_zones(const D& domain, BigVector<typename D::Id> basin, AnalysisArrays<typename D::Id>& arrays, const Context& context) {
+    using Id = typename D::Id;
+    using Sample = typename D::Sample;
+    const CriticalityTree<Id>& tree = arrays.tree;
+    BigVector<Id> maxima = domain.elements_of_maxima(arrays.code);
+    const HeavyPathDecomposition<Id, ComparisonValue<Sample>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element}, maxima,
+                                                                    context.threads);
+    release(maxima);
+    fill_fresh(arrays.voxels, tree.size(), Id{0});
+    const std::span<Id> basin_to_zone = basin;
+    domain.for_parts(context, kAnalysisPhases["zones"], [&](std::size_t first, std::size_t count) {
+        label_zones<Sample, Id>(domain.samples().subspan(first, count), paths, basin_to_zone.subspan(first, count), arrays.voxels);
+    });
+    arrays.zone = std::move(basin);
+}
+
+/// Critical elements, trees and, if asked for, zones. Cost: that of domain.critical(), O(n alpha), and of make_zones().
+template <Domain D>
+void analyse_domain(D& domain, bool zones, AnalysisArrays<typename D::Id>& arrays, const Context& context) {
+    Criticals<typename D::Id> criticals = domain.critical(zones, context);
+    report(context, kAnalysisPhases["trees"], 0);
+    make_trees(std::move(criticals.set), arrays, context);
+    if (!zones) return;
+    report(context, kAnalysisPhases["zones"], 0);
+    make_zones(domain, std::move(criticals.basin), arrays, context);
+    report(context, kAnalysisPhases["zones"], 1);
+}
+
+}  // namespace isoatlas

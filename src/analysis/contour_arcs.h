@@ -1,0 +1,50 @@
+// What an analysis is made of, and a store keeps: the critical elements and the arcs of the contour tree. All else follows from them.
+//
+// In the literature: an unaugmented contour tree, its nodes with their values.
+#pragma once
+
+#include <variant>
+
+#include "field/volume_view.h"
+#include "isoatlas/analysis.h"
+#include "tree/contour_tree.h"
+
+namespace isoatlas {
+
+template <class Id>
+struct ArcArrays {
+    BigVector<double> value;        ///< per critical element, descending
+    BigVector<std::uint64_t> code;  ///< per critical element (field/order.h)
+    ContourTree<Id> contours;       ///< `other` alone: n + 1 nodes, the last is the outside
+    BigVector<Id> basin;            ///< per voxel: of its maximum (critical/basins.h); empty when it is not known
+};
+
+struct ContourArcs {
+    Extent extent;
+    Interpolant interpolant = Interpolant::faces;
+    double tunnel_height = 0;
+    std::variant<ArcArrays<std::uint32_t>, ArcArrays<std::uint64_t>> arrays;
+
+    [[nodiscard]] std::size_t elements() const {
+        return std::visit([](const auto& held) { return held.code.size(); }, arrays);
+    }
+};
+
+/// Voxels per critical element (zones/count_voxels.h), as wide as the ids of the arcs.
+using ElementVoxels = std::variant<BigVector<std::uint32_t>, BigVector<std::uint64_t>>;
+
+/// Works while memory is limited (base/memory_limit.h). Throws Error: cancelled, resource. Cost: O(voxels + c log c) for c elements.
+[[nodiscard]] ContourArcs compute_arcs(const VolumeView& volume, const AnalysisOptions& options, const Context& context);
+
+/// Keeps the basins that it finds in arcs, where there is memory for them. Throws Error: cancelled, resource.
+[[nodiscard]] ElementVoxels count_voxels(ContourArcs& arcs, const VolumeView& volume, const Context& context);
+
+/// The whole analysis: trees, and the zone of every voxel. arcs: of this volume. Throws Error{cancelled}. Cost: O(n alpha), the links and
+/// basins of all voxels unless arcs holds them, random access to what is proportional to the critical elements.
+[[nodiscard]] Analysis make_analysis(ContourArcs arcs, const VolumeView& volume, const Context& context);
+
+/// Finds the zone of every voxel by the trees. Returns false when the trees are not of these samples: a damaged store. Throws
+/// Error{cancelled}. Cost: as make_analysis() behind the trees.
+[[nodiscard]] bool add_zones(Analysis& analysis, const VolumeView& volume, const Context& context);
+
+}  // namespace isoatlas
