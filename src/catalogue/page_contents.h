@@ -32,12 +32,12 @@ struct PageBranch {
     std::int64_t voxels = 0;  ///< just before it merges
     double measure = 0;
     std::int64_t joined = 0;                       ///< objects that merge into it, also those not on the page
-    bool is_significant = false;                       ///< significant: above the noise level and not tiny compared with the largest
+    bool is_significant = false;                   ///< significant: above the noise level and not tiny compared with the largest
     std::vector<CountColumn> shape{};              ///< counts over its isovalues; empty: not on the page
     std::vector<RecommendedIsovalue> isovalues{};  ///< further recommended isovalues, without an entry
     std::int64_t top = -1;                         ///< objects: the event at which it begins
     std::vector<PageTunnel> tunnels{};             ///< the longest that open in it: catalogue/longest_tunnels.h
-    std::int64_t significant_tunnels = 0;             ///< number of significant ones
+    std::int64_t significant_tunnels = 0;          ///< number of significant ones
 };
 
 /// A branch at one of its recommended isovalues.

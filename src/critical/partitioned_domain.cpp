@@ -6,9 +6,9 @@
 #include "base/cancel.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
-#include "base/phase.h"
 #include "base/parallel_sort.h"
 #include "base/part_streams.h"
+#include "base/phase.h"
 #include "critical/elements_with_extrema.h"
 
 namespace isoatlas {

@@ -100,7 +100,7 @@ void get(const Place& place, const std::string& request, ResponseReader& answer)
         throw Error(ErrorKind::usage, {.where = "the token", .what = "contains a character that is not valid in a token"});
     const Socket socket(place.port);
     const std::string head = "GET " + request + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(place.port) +
-                                "\r\nAuthorization: Bearer " + token + "\r\nConnection: close\r\n\r\n";
+                             "\r\nAuthorization: Bearer " + token + "\r\nConnection: close\r\n\r\n";
     const bool sent = socket.peer().send(head);
     std::string bytes(kPiece, '\0');
     while (!answer.is_whole()) {

@@ -63,7 +63,8 @@ Image upright(Image slice, const PictureArguments& picture) {
     if (picture.slices[0].axis == 2 || picture.up[2] >= 0) return slice;
     Image rotated(slice.width, slice.height);
     for (std::int64_t y = 0; y < slice.height; ++y) {
-        for (std::int64_t x = 0; x < slice.width; ++x) std::copy_n(slice.at(x, y), 4, rotated.at(slice.width - 1 - x, slice.height - 1 - y));
+        for (std::int64_t x = 0; x < slice.width; ++x)
+            std::copy_n(slice.at(x, y), 4, rotated.at(slice.width - 1 - x, slice.height - 1 - y));
     }
     return rotated;
 }

@@ -106,7 +106,8 @@ TEST(CellTriangles, CompactHasFewerTrianglesAndTheDetectorSeesCrossings) {
     for (int number = 0; number < kCellCases; ++number) {
         compact += cell_triangles(SurfaceStyle::compact)[number].triangles;
         full += cell_triangles(SurfaceStyle::full)[number].triangles;
-        EXPECT_LE(cell_triangles(SurfaceStyle::compact)[number].articulation_points, cell_triangles(SurfaceStyle::full)[number].articulation_points);
+        EXPECT_LE(cell_triangles(SurfaceStyle::compact)[number].articulation_points,
+                  cell_triangles(SurfaceStyle::full)[number].articulation_points);
     }
     EXPECT_LT(compact, full * 3 / 4);
     Surface crossing;

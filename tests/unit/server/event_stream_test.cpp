@@ -46,19 +46,19 @@ TEST_F(EventStreamTest, TellsOfTheBuild) {
 
 TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
     const auto stream = streams_.listen("me", {});
-    EXPECT_TRUE(next(*stream)["questions"].empty());
+    EXPECT_TRUE(next(*stream)["requests"].empty());
     JobQueue& cards = queues_.of(QueueClass::cards);
     const auto other = cards.acquire("you/card");
     const auto slice = queues_.of(QueueClass::samples).acquire("me/slice");
     std::thread asker([&] { EXPECT_THROW((void)cards.acquire("me/card"), Error); });
     while (cards.waiting() < 1) std::this_thread::yield();
     nlohmann::json requests;
-    while (requests.size() < 2) requests = next(*stream)["questions"];
+    while (requests.size() < 2) requests = next(*stream)["requests"];
     EXPECT_EQ(requests[0]["client"], "me/slice");
-    EXPECT_EQ(requests[0]["line"], "samples");
+    EXPECT_EQ(requests[0]["queue"], "samples");
     EXPECT_EQ(requests[0]["place"], 0);
     EXPECT_EQ(requests[1]["client"], "me/card");
-    EXPECT_EQ(requests[1]["line"], "cards");
+    EXPECT_EQ(requests[1]["queue"], "cards");
     EXPECT_EQ(requests[1]["place"], 1);
     queues_.leave("me");
     EXPECT_TRUE(slice->is_cancelled());

@@ -119,7 +119,8 @@ TEST(JobQueue, WhoHasLeftIsEnded) {
 
 TEST(JobQueue, ALeavingClientEndsItsLanesAlone) {
     JobQueue queue(4, 10);
-    const auto a = queue.acquire("a/surface 1"), b = queue.acquire("a/file"), plain = queue.acquire("a"), other = queue.acquire("ab/surface 1");
+    const auto a = queue.acquire("a/surface 1"), b = queue.acquire("a/file"), plain = queue.acquire("a"),
+               other = queue.acquire("ab/surface 1");
     queue.leave("a");
     EXPECT_TRUE(a->is_cancelled());
     EXPECT_TRUE(b->is_cancelled());

@@ -220,7 +220,7 @@ TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
                                          "/api/../api/atlas",
                                          "//"};
     const std::vector<std::string> names{"tau",  "object",      "max", "top", "entry", "branch", "keep",
-                                         "axis", "persistence", "",     "TAU", "index", "voxel",  "contour"};
+                                         "axis", "persistence", "",    "TAU", "index", "voxel",  "contour"};
     const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan",       "", "0", "1", "99999999999999999999",
                                           "1,2,3", "\xff\0x", "0.5;",  "7@0.5,9@-1"};
     for (int i = 0; i < 2000; ++i) {
