@@ -102,22 +102,28 @@ ElementVoxels count_voxels(ContourArcs& arcs, const VolumeView& volume, const Co
     return voxels;
 }
 
-Analysis make_analysis(ContourArcs arcs, const VolumeView& volume, const Context& context) {
+std::optional<Analysis> restored_trees(ContourArcs& arcs, const Context& context) {
     auto data = std::make_unique<Analysis::Data>();
-    data->extent = arcs.extent;
-    data->interpolant = arcs.interpolant;
-    data->tunnel_height = arcs.tunnel_height;
-    std::visit(
-        [&]<class Id>(ArcArrays<Id>& held) {
-            auto whole = std::make_unique<IndexedArrays<Id>>();
-            AnalysisArrays<Id>& arrays = whole->arrays;
-            arrays.value = std::move(held.value), arrays.code = std::move(held.code), arrays.contours = std::move(held.contours);
-            ISOATLAS_CHECK(restore_trees(arrays, arcs.extent.rank, context));
-            ISOATLAS_CHECK(find_zones(volume, std::move(held.basin), arrays, context));
-            data->arrays = std::move(whole);
-        },
-        arcs.arrays);
+    data->extent = arcs.extent, data->interpolant = arcs.interpolant, data->tunnel_height = arcs.tunnel_height;
+    const auto restore = [&]<class Id>(ArcArrays<Id>& held) {
+        auto whole = std::make_unique<IndexedArrays<Id>>();
+        AnalysisArrays<Id>& arrays = whole->arrays;
+        arrays.value = std::move(held.value), arrays.code = std::move(held.code), arrays.contours = std::move(held.contours);
+        const bool is_tree = restore_trees(arrays, arcs.extent.rank, context);
+        data->arrays = std::move(whole);
+        return is_tree;
+    };
+    if (!std::visit(restore, arcs.arrays)) return std::nullopt;
     return Analysis(std::move(data));
+}
+
+Analysis make_analysis(ContourArcs arcs, const VolumeView& volume, const Context& context) {
+    std::optional<Analysis> analysis = restored_trees(arcs, context);
+    ISOATLAS_CHECK(analysis.has_value());
+    ISOATLAS_CHECK(analysis->data().visit([&]<class Id>(IndexedArrays<Id>& held) {
+        return find_zones(volume, std::move(std::get<ArcArrays<Id>>(arcs.arrays).basin), held.arrays, context);
+    }));
+    return std::move(*analysis);
 }
 
 bool add_zones(Analysis& analysis, const VolumeView& volume, const Context& context) {

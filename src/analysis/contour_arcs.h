@@ -3,6 +3,7 @@
 // In the literature: an unaugmented contour tree, its nodes with their values.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "field/volume_view.h"
@@ -38,6 +39,10 @@ using ElementVoxels = std::variant<BigVector<std::uint32_t>, BigVector<std::uint
 
 /// Keeps the basins that it finds in arcs, where there is memory for them. Throws Error: cancelled, resource.
 [[nodiscard]] ElementVoxels count_voxels(ContourArcs& arcs, const VolumeView& volume, const Context& context);
+
+/// The trees alone. Takes value, code and arcs out of `arcs`; its basins stay. Nothing: the arcs are not those of a contour tree, a damaged
+/// store. Throws Error{cancelled}. Cost: O(n alpha).
+[[nodiscard]] std::optional<Analysis> restored_trees(ContourArcs& arcs, const Context& context);
 
 /// The whole analysis: trees, and the zone of every voxel. arcs: of this volume. Throws Error{cancelled}. Cost: O(n alpha), the links and
 /// basins of all voxels unless arcs holds them, random access to what is proportional to the critical elements.

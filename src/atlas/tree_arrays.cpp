@@ -38,21 +38,15 @@ ArcArrays<Id> read_arcs(const Container& store, const std::byte* samples, const 
 /// With voxel counts.
 Analysis with_trees(const Container& store, const std::byte* samples, const Context& context) {
     ContourArcs arcs = arcs_of(store, samples, context);
-    auto data = std::make_unique<Analysis::Data>();
-    data->extent = arcs.extent, data->interpolant = arcs.interpolant, data->tunnel_height = arcs.tunnel_height;
-    const auto restore = [&]<class Id>(ArcArrays<Id>& held) {
-        auto whole = std::make_unique<IndexedArrays<Id>>();
-        AnalysisArrays<Id>& arrays = whole->arrays;
-        arrays.value = std::move(held.value), arrays.code = std::move(held.code), arrays.contours = std::move(held.contours);
-        if (!restore_trees(arrays, store.contents().volume.extent.rank, context)) contradiction(store, "the contour tree is not a tree");
+    std::optional<Analysis> analysis = restored_trees(arcs, context);
+    if (!analysis) contradiction(store, "the contour tree is not a tree");
+    analysis->data().visit([&]<class Id>(IndexedArrays<Id>& held) {
         BigVector<Id> voxels;
         read_array(store, kVoxels, type_name<Id>(), voxels);
-        if (voxels.size() != arrays.value.size()) contradiction(store, "not every element has its number of voxels");
-        add_up_voxels<Id>(voxels, arrays);
-        data->arrays = std::move(whole);
-    };
-    std::visit(restore, arcs.arrays);
-    return Analysis(std::move(data));
+        if (voxels.size() != held.arrays.value.size()) contradiction(store, "not every element has its number of voxels");
+        add_up_voxels<Id>(voxels, held.arrays);
+    });
+    return std::move(*analysis);
 }
 
 }  // namespace
