@@ -68,8 +68,8 @@ template <class T, class Key, class Before>
 }
 
 /// The same, and passes the items in order to put(place of the first, items), several at a time.
-template <class T, class Key, class Before, class ByteSink>
-void sort_large(int threads, std::span<T> all, std::size_t items, const Key& key, const Before& before, const ByteSink& put) {
+template <class T, class Key, class Before, class Put>
+void sort_large(int threads, std::span<T> all, std::size_t items, const Key& key, const Before& before, const Put& put) {
     const std::vector<std::span<const T>> runs = sort_runs(threads, all, items, key, before);
     std::vector<T> some;
     std::size_t place = 0;

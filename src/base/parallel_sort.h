@@ -57,9 +57,9 @@ private:
 /// Passes all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double): key(p) <
 /// key(q) implies before(p, q). allocate(n) is called once, before the first put. Puts come from several threads, in any order. Consumes
 /// the chunks. Cost: O(n log n) time, a second copy of the items.
-template <class T, class Key, class Before, class Allocate, class ByteSink>
+template <class T, class Key, class Before, class Allocate, class Put>
 void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
-                 const ByteSink& put) {
+                 const Put& put) {
     constexpr std::size_t kBucket = 1 << 10, kMaxBuckets = 1 << 12, kSampled = 16, kGroups = 8;
     std::size_t n = 0;
     for (const BigVector<T>& chunk : chunks) n += chunk.size();

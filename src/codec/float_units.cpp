@@ -42,8 +42,8 @@ bool is_positive_zero(T sample) {
 }
 
 /// Calls put(value, bits) for every piece of the tails, at most 56 bits each.
-template <class T, class ByteSink>
-void for_each_piece(std::span<const T> samples, const Units& units, const ByteSink& put) {
+template <class T, class Put>
+void for_each_piece(std::span<const T> samples, const Units& units, const Put& put) {
     for (const T sample : samples) {
         const Parts<T> parts(sample);
         const int tail = units.exponent - parts.place;
