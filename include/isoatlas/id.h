@@ -1,0 +1,59 @@
+// Ids: numbers of things of one kind, which mix neither with those of another kind nor with counts.
+//
+// An id is as wide as the integer in it and costs what that costs. Arrays that are indexed by an id: src/base/id_array.h.
+#pragma once
+
+#include <compare>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace isoatlas {
+
+/// Tag: what is numbered, from 0. Not initialised by default, as an integer.
+template <class Tag, std::integral Number>
+class StrongId {
+public:
+    StrongId() = default;
+    template <std::integral N>
+    constexpr explicit StrongId(N number) noexcept : number_(static_cast<Number>(number)) {}
+    template <std::integral N>
+        requires(!std::same_as<N, Number>)
+    constexpr explicit StrongId(StrongId<Tag, N> other) noexcept
+        : number_(other.exists() ? static_cast<Number>(other.number()) : none().number()) {}
+
+    /// No thing: -1, or the largest unsigned number.
+    [[nodiscard]] static constexpr StrongId none() noexcept { return StrongId(static_cast<Number>(-1)); }
+    [[nodiscard]] constexpr bool exists() const noexcept { return *this != none(); }
+    [[nodiscard]] constexpr Number number() const noexcept { return number_; }
+    /// In an array by these ids; the id exists.
+    [[nodiscard]] constexpr std::size_t index() const noexcept { return static_cast<std::size_t>(number_); }
+    [[nodiscard]] constexpr StrongId next() const noexcept { return StrongId(static_cast<Number>(number_ + 1)); }
+    [[nodiscard]] constexpr StrongId previous() const noexcept { return StrongId(static_cast<Number>(number_ - 1)); }
+    constexpr StrongId& operator++() noexcept {
+        ++number_;
+        return *this;
+    }
+    friend constexpr auto operator<=>(const StrongId&, const StrongId&) = default;
+
+private:
+    Number number_;
+};
+
+/// Numbers as narrow as the volume allows in the arrays of the engine (std::uint32_t, std::uint64_t), std::int64_t elsewhere.
+template <class Number>
+using VoxelIdOf = StrongId<struct VoxelTag, Number>;
+template <class Number>
+using ElementIdOf = StrongId<struct ElementTag, Number>;
+template <class Number>
+using EventIdOf = StrongId<struct EventTag, Number>;
+template <class Number>
+using BranchIdOf = StrongId<struct BranchTag, Number>;
+
+using VoxelId = VoxelIdOf<std::int64_t>;      ///< of a sample: x + nx * (y + ny * z)
+using ElementId = ElementIdOf<std::int64_t>;  ///< of a critical element: its place in descending total order
+using EventId = EventIdOf<std::int64_t>;      ///< of a node of the criticality tree: children before their parent
+using BranchId = BranchIdOf<std::int64_t>;    ///< of a branch of the branch decomposition
+
+}  // namespace isoatlas

@@ -1,0 +1,85 @@
+// Arrays that are indexed by ids of one kind (isoatlas/id.h). They cost what arrays cost.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "base/big_vector.h"
+#include "isoatlas/id.h"
+
+namespace isoatlas {
+
+/// The ids first .. end - 1, for a loop: for (const ElementId e : IdRange<ElementId>(n)).
+template <class I>
+class IdRange {
+public:
+    class Iterator {
+    public:
+        constexpr explicit Iterator(I at) noexcept : at_(at) {}
+        constexpr I operator*() const noexcept { return at_; }
+        constexpr Iterator& operator++() noexcept {
+            ++at_;
+            return *this;
+        }
+        friend constexpr bool operator==(const Iterator&, const Iterator&) = default;
+
+    private:
+        I at_;
+    };
+    constexpr explicit IdRange(std::size_t count) noexcept : first_(0), end_(count) {}
+    constexpr IdRange(I first, I end) noexcept : first_(first), end_(end) {}
+    [[nodiscard]] constexpr Iterator begin() const noexcept { return Iterator(first_); }
+    [[nodiscard]] constexpr Iterator end() const noexcept { return Iterator(end_); }
+
+private:
+    I first_, end_;
+};
+
+template <class I, class T>
+class IdSpan {
+public:
+    constexpr IdSpan() = default;
+    constexpr explicit IdSpan(std::span<T> items) noexcept : items_(items) {}
+    template <class U>
+        requires(std::convertible_to<std::span<U>, std::span<T>> && !std::same_as<U, T>)
+    constexpr IdSpan(IdSpan<I, U> other) noexcept : items_(other.items()) {}  // NOLINT(google-explicit-constructor): as a span of const
+
+    [[nodiscard]] constexpr T& operator[](I id) const { return items_[id.index()]; }
+    [[nodiscard]] constexpr std::size_t size() const noexcept { return items_.size(); }
+    [[nodiscard]] constexpr bool empty() const noexcept { return items_.empty(); }
+    [[nodiscard]] constexpr IdRange<I> ids() const noexcept { return IdRange<I>(items_.size()); }
+    [[nodiscard]] constexpr std::span<T> items() const noexcept { return items_; }
+
+private:
+    std::span<T> items_;
+};
+
+template <class I, class T>
+class IdArray {
+public:
+    IdArray() = default;
+    explicit IdArray(std::size_t count) : items_(count) {}
+    explicit IdArray(BigVector<T> items) noexcept : items_(std::move(items)) {}
+
+    [[nodiscard]] T& operator[](I id) { return items_[id.index()]; }
+    [[nodiscard]] const T& operator[](I id) const { return items_[id.index()]; }
+    [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
+    [[nodiscard]] bool empty() const noexcept { return items_.empty(); }
+    [[nodiscard]] IdRange<I> ids() const noexcept { return IdRange<I>(items_.size()); }
+    void push_back(const T& item) { items_.push_back(item); }
+    /// As a plain array, to be resized, filled, read or written as a whole.
+    [[nodiscard]] BigVector<T>& items() noexcept { return items_; }
+    [[nodiscard]] const BigVector<T>& items() const noexcept { return items_; }
+    operator IdSpan<I, const T>() const noexcept {
+        return IdSpan<I, const T>(std::span<const T>(items_));
+    }                                                                                // NOLINT(google-explicit-constructor)
+    operator IdSpan<I, T>() noexcept { return IdSpan<I, T>(std::span<T>(items_)); }  // NOLINT(google-explicit-constructor)
+    friend bool operator==(const IdArray&, const IdArray&) = default;
+
+private:
+    BigVector<T> items_;
+};
+
+}  // namespace isoatlas
