@@ -60,7 +60,8 @@ template <class I, class T>
 class IdArray {
 public:
     IdArray() = default;
-    explicit IdArray(std::size_t count) : items_(count) {}
+    explicit IdArray(std::size_t count) : items_(count) {}  ///< not initialised, where a T is not by default
+    IdArray(std::size_t count, const T& item) : items_(count, item) {}
     explicit IdArray(BigVector<T> items) noexcept : items_(std::move(items)) {}
 
     [[nodiscard]] T& operator[](I id) { return items_[id.index()]; }
