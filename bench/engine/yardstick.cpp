@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 template <class T>
 bool is_maximum(std::span<const T> samples, const isoatlas::Extent& extent, std::int64_t index) {
-    const std::array<std::int64_t, 3> voxel = extent.voxel(index);
+    const isoatlas::Index3 voxel = extent.voxel(index);
     const std::array<std::int64_t, 3> step{1, extent.size[0], extent.slice()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const T value = samples[static_cast<std::size_t>(index)];

@@ -29,9 +29,9 @@ struct CutObject {
     std::int64_t id;           ///< index of its highest voxel
     std::int64_t chi, b1, b2;  ///< b0 = 1; b2 = number of cavities in 3D; 2D: b1 = number of holes, b2 = 0
     std::int64_t voxels;
-    double measure;                                 ///< physical volume (area in 2D): sum of voxel boxes
-    std::array<std::int64_t, 3> box_low, box_high;  ///< inclusive voxel bounds
-    std::int64_t first_contour, contour_count;      ///< range in Cut::contours: the outer one first, then cavities by id
+    double measure;                             ///< physical volume (area in 2D): sum of voxel boxes
+    Index3 box_low, box_high;                   ///< inclusive voxel bounds
+    std::int64_t first_contour, contour_count;  ///< range in Cut::contours: the outer one first, then cavities by id
 };
 
 /// Everything at one isovalue. Objects by descending voxel count, then ascending id.

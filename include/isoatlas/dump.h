@@ -2,26 +2,27 @@
 // wrong (the packed bytes of volume/data have none: its bricks have); a damaged store can be read as far as it is intact.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "isoatlas/index3.h"
+
 namespace isoatlas {
 
 /// Description of a part, without its numbers.
 struct StorePart {
     enum class Kind : std::uint8_t { text, array, checksums, brick } kind = Kind::text;
-    std::string name;                           ///< "contents", "elements/value", "checksums/elements/value", "brick 17"
-    std::string type;                           ///< of the numbers: "uint8" ... "float64"; "json" for texts
-    std::vector<std::int64_t> shape;            ///< of the whole array; a brick: its samples, z y x
-    std::int64_t first = 0, end = 0;            ///< the selected numbers of it, first index slowest
-    std::int64_t offset = 0, bytes = 0;         ///< of the whole part in the file; a brick: of its packed samples
-    bool compressed = false;                    ///< it lies in chunks, see its checksums; offset and bytes are those it would have
-    std::int64_t brick = -1;                    ///< which one
-    std::array<std::int64_t, 3> first_voxel{};  ///< of a brick
+    std::string name;                    ///< "contents", "elements/value", "checksums/elements/value", "brick 17"
+    std::string type;                    ///< of the numbers: "uint8" ... "float64"; "json" for texts
+    std::vector<std::int64_t> shape;     ///< of the whole array; a brick: its samples, z y x
+    std::int64_t first = 0, end = 0;     ///< the selected numbers of it, first index slowest
+    std::int64_t offset = 0, bytes = 0;  ///< of the whole part in the file; a brick: of its packed samples
+    bool compressed = false;             ///< it lies in chunks, see its checksums; offset and bytes are those it would have
+    std::int64_t brick = -1;             ///< which one
+    Index3 first_voxel{};                ///< of a brick
 };
 
 using StoreNumbers = std::variant<std::vector<std::int64_t>, std::vector<std::uint64_t>, std::vector<double>>;

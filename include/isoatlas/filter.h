@@ -10,7 +10,8 @@ namespace isoatlas {
 
 /// Samples [begin, end) of each axis. 2D: begin[2] = 0, end[2] = 1.
 struct SampleBox {
-    std::array<std::int64_t, 3> begin, end;
+    Index3 begin, end;
+    [[nodiscard]] Index3 size() const { return end - begin; }
     bool operator==(const SampleBox&) const = default;
 };
 
@@ -28,7 +29,7 @@ struct SampleBox {
 [[nodiscard]] Volume gaussian_filter(const Volume& volume, double sigma, const Context& context = {});
 
 /// How many samples on either side of a sample gaussian_filter reads, per axis. Throws as it does.
-[[nodiscard]] std::array<std::int64_t, 3> gaussian_radius(const VolumeInfo& info, double sigma);
+[[nodiscard]] Index3 gaussian_radius(const VolumeInfo& info, double sigma);
 
 /// crop(gaussian_filter(volume, sigma), box), without filtering the rest.
 [[nodiscard]] Volume gaussian_filter(const Volume& volume, const SampleBox& box, double sigma, const Context& context = {});

@@ -17,6 +17,7 @@
 
 #include "isoatlas/context.h"
 #include "isoatlas/error.h"
+#include "isoatlas/index3.h"
 
 namespace isoatlas {
 
@@ -31,14 +32,13 @@ enum class ValueType : std::uint8_t { u8, i8, u16, i16, u32, i32, f32, f64 };
 /// The shape of a grid. Every size is at least 1; the product fits in 63 bits.
 struct Extent {
     int rank = 3;  ///< 2 or 3: decides which theory applies
-    std::array<std::int64_t, 3> size{1, 1, 1};
+    Index3 size{1, 1, 1};
 
-    [[nodiscard]] std::int64_t voxels() const { return size[0] * size[1] * size[2]; }
+    [[nodiscard]] std::int64_t voxels() const { return size.product(); }
     [[nodiscard]] std::int64_t slice() const { return size[0] * size[1]; }
     [[nodiscard]] std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const { return x + size[0] * (y + size[1] * z); }
-    [[nodiscard]] std::array<std::int64_t, 3> voxel(std::int64_t i) const {
-        return {i % size[0], i / size[0] % size[1], i / (size[0] * size[1])};
-    }
+    [[nodiscard]] std::int64_t index(const Index3& voxel) const { return index(voxel[0], voxel[1], voxel[2]); }
+    [[nodiscard]] Index3 voxel(std::int64_t i) const { return {i % size[0], i / size[0] % size[1], i / (size[0] * size[1])}; }
     bool operator==(const Extent&) const = default;
 };
 

@@ -26,13 +26,11 @@ namespace {
 
 /// The number of a voxel of a window in it.
 std::int64_t local_voxel(const StoredWindow& window, std::int64_t voxel) {
-    const std::array<std::int64_t, 3> at = window.window.whole.voxel(voxel), &origin = window.window.origin;
-    return window.info.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
+    return window.info.extent.index(window.window.whole.voxel(voxel) - window.window.origin);
 }
 
 std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
-    const std::array<std::int64_t, 3> at = window.info.extent.voxel(voxel), &origin = window.window.origin;
-    return window.window.whole.index(at[0] + origin[0], at[1] + origin[1], at[2] + origin[2]);
+    return window.window.whole.index(window.info.extent.voxel(voxel) + window.window.origin);
 }
 
 /// Queries on the trees alone.

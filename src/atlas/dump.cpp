@@ -159,7 +159,7 @@ struct StoreDump::Data {
     [[nodiscard]] StorePart part_of_voxel(const std::string& part, const std::vector<std::int64_t>& at) const {
         const Extent& extent = store.contents().volume.extent;
         const BrickGrid grid(extent);
-        std::array<std::int64_t, 3> place{};
+        Index3 place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::int64_t voxel = axis < at.size() ? at[axis] : 0;
             if (voxel < 0 || voxel >= extent.size[axis]) {

@@ -21,20 +21,20 @@ public:
     [[nodiscard]] Extremum next(const Extremum& from, bool up) {
         stop_if_cancelled(context_);
         Extremum best = from;
-        const std::array<std::int64_t, 3> at = extent_.voxel(from.voxel);
+        const Index3 at = extent_.voxel(from.voxel);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const std::int64_t by : {-1, 1}) {
-                std::array<std::int64_t, 3> other = at;
+                Index3 other = at;
                 other[axis] += by;
                 if (other[axis] < 0 || other[axis] >= extent_.size[axis]) continue;
-                const Extremum neighbour = this->at(extent_.index(other[0], other[1], other[2]));
+                const Extremum neighbour = this->at(extent_.index(other));
                 if (up ? neighbour.is_above(best) : best.is_above(neighbour)) best = neighbour;
             }
         }
         return best;
     }
     [[nodiscard]] bool is_at_border(std::int64_t voxel) const {
-        const std::array<std::int64_t, 3> at = extent_.voxel(voxel);
+        const Index3 at = extent_.voxel(voxel);
         for (int axis = 0; axis < extent_.rank; ++axis) {
             if (at[axis] == 0 || at[axis] == extent_.size[axis] - 1) return true;
         }

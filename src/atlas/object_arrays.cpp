@@ -120,7 +120,7 @@ std::vector<RecommendedIsovalue> isovalues_of(const Container& store, const std:
 }
 
 std::array<double, 3> position_of(std::int64_t voxel, const Extent& extent) {
-    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const Index3 at = extent.voxel(voxel);
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
 }
 

@@ -14,7 +14,7 @@ constexpr std::int64_t kMargin = 3;
 std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, double tau, double tunnel_height, const Context& context) {
     const Components components = find_components(window.at(tau), tunnel_height, context);
     const Extent& extent = window.info.extent;
-    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const Index3 at = extent.voxel(voxel);
     const RunRow home = components.runs.row(at[1], at[2]);
     const std::int64_t run = home.run_at(at[0] + 1);
     if (((run - home.first_run) & 1) == 0) return std::nullopt;
@@ -24,12 +24,10 @@ std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, dou
         const RunRow row = components.runs.row(r);
         for (std::int64_t i = 1; i < row.changes; i += 2) {
             if (components.of_run[row.first_run + i] != object) continue;
-            const std::array<std::int64_t, 3> low{row.change[i - 1] - std::int64_t{1}, r % extent.size[1], r / extent.size[1]};
-            const std::array<std::int64_t, 3> high{row.change[i] - std::int64_t{1}, low[1] + 1, low[2] + 1};
-            for (int axis = 0; axis < 3; ++axis) {
-                box.begin[axis] = std::min(box.begin[axis], low[axis]);
-                box.end[axis] = std::max(box.end[axis], high[axis]);
-            }
+            const Index3 low{row.change[i - 1] - std::int64_t{1}, r % extent.size[1], r / extent.size[1]};
+            const Index3 high{row.change[i] - std::int64_t{1}, low[1] + 1, low[2] + 1};
+            box.begin = min(box.begin, low);
+            box.end = max(box.end, high);
         }
     }
     return box;
@@ -58,17 +56,15 @@ std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_
                                              const Context& context, LevelQuery& query) {
     const BrickGrid& grid = samples.grid();
     if (grid.extent.rank == 2 || voxel < 0 || voxel >= grid.extent.voxels()) return std::nullopt;
-    const std::array<std::int64_t, 3> at = grid.extent.voxel(voxel);
-    Box bricks{};
-    bricks.begin = BrickGrid::place_of(at);
-    for (int axis = 0; axis < 3; ++axis) bricks.end[axis] = bricks.begin[axis] + 1;
+    const Index3 at = grid.extent.voxel(voxel);
+    const Index3 home = BrickGrid::place_of(at);
+    Box bricks{home, home + 1};
     Context alone = context;
     alone.threads = 1;
     alone.progress = nullptr;
     while (2 * bricks.count() <= grid.count()) {
         StoredWindow window = samples.classify_window(tau, bricks, alone, query);
-        const std::array<std::int64_t, 3>& origin = window.window.origin;
-        const std::int64_t local = window.info.extent.index(at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]);
+        const std::int64_t local = window.info.extent.index(at - window.window.origin);
         const std::optional<Box> object = bounds_of(window, local, tau, tunnel_height, alone);
         if (!object) return std::nullopt;
         if (!grow(bricks, *object, window, grid)) return window;

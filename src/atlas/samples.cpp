@@ -45,7 +45,7 @@ CoarseVolume halved(const CoarseVolume& fine) {
     for (std::int64_t& n : result.extent.size) n = steps_along(n, 2);
     result.mean.reserve(static_cast<std::size_t>(result.extent.voxels()));
     for (std::int64_t i = 0; i < result.extent.voxels(); ++i) {
-        const std::array<std::int64_t, 3> at = result.extent.voxel(i);
+        const Index3 at = result.extent.voxel(i);
         double sum = 0;
         int count = 0;
         for (int corner = 0; corner < 8; ++corner) {

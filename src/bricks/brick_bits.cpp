@@ -45,7 +45,7 @@ std::uint16_t bits_of_row(const T* samples, T min) {
 }  // namespace
 
 template <class T>
-BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T min) {
+BrickBits bits_of_brick(const T* samples, const Index3& size, T min) {
     BrickBits bits{};
     const auto columns = static_cast<std::uint16_t>(0xffff >> (kRow - size[0]));
     for (std::int64_t z = 0; z < size[2]; ++z) {
@@ -71,7 +71,7 @@ void put_brick(const BrickBits& bits, const Box& box, HighBits& high) {
     }
 }
 
-BrickFaces sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size) {
+BrickFaces sides_of(const BrickBits& bits, const Index3& size) {
     const auto whole = static_cast<std::uint16_t>(0xffff >> (kRow - size[0]));
     const auto behind = [&size](std::size_t axis) { return static_cast<std::uint16_t>(0xff & ~(0xff >> (kSide - size[axis]))); };
     BrickFaces sides;
@@ -91,7 +91,7 @@ BrickFaces sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& si
     return sides;
 }
 
-#define ISOATLAS_INSTANTIATE(T) template BrickBits bits_of_brick<T>(const T*, const std::array<std::int64_t, 3>&, T);
+#define ISOATLAS_INSTANTIATE(T) template BrickBits bits_of_brick<T>(const T*, const Index3&, T);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 

@@ -18,7 +18,7 @@ using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)
 /// samples: of the slot of a brick (bricks/brick_layout.h), row by row, all slices of a full brick. min: smallest value of a High sample.
 /// T: a sample type.
 template <class T>
-[[nodiscard]] BrickBits bits_of_brick(const T* samples, const std::array<std::int64_t, 3>& size, T min);
+[[nodiscard]] BrickBits bits_of_brick(const T* samples, const Index3& size, T min);
 
 /// Writes them at the position of the brick, overwriting.
 void put_brick(const BrickBits& bits, const Box& box, HighBits& high);
@@ -27,6 +27,6 @@ void put_brick(const BrickBits& bits, const Box& box, HighBits& high);
 struct BrickFaces {
     std::array<std::uint16_t, 3> high{}, low{};
 };
-[[nodiscard]] BrickFaces sides_of(const BrickBits& bits, const std::array<std::int64_t, 3>& size);
+[[nodiscard]] BrickFaces sides_of(const BrickBits& bits, const Index3& size);
 
 }  // namespace isoatlas

@@ -25,7 +25,7 @@ std::array<std::int64_t, 2> facing(const Box& box, int axis, std::int64_t d) {
 
 /// Has a divided brick, which touches another one along an edge or at a corner, samples of the other class in a cell shared with that
 /// brick?
-bool meets_in_cell(const HighBits& high, const Box& box, bool own, const std::array<std::int64_t, 3>& d) {
+bool meets_in_cell(const HighBits& high, const Box& box, bool own, const Index3& d) {
     const auto xs = facing(box, 0, d[0]), ys = facing(box, 1, d[1]), zs = facing(box, 2, d[2]);
     for (std::int64_t z = zs[0]; z < zs[1]; ++z) {
         for (std::int64_t y = ys[0]; y < ys[1]; ++y) {
@@ -57,10 +57,10 @@ std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vect
 bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides, std::int64_t brick) {
     const BrickGrid& grid = bricks.grid;
     const BrickClass own = bricks.classes[static_cast<std::size_t>(brick)];
-    const std::array<std::int64_t, 3> place = grid.place(brick);
+    const Index3 place = grid.place(brick);
     const Box box = grid.box(brick);
-    const auto is_beside = [&](const std::array<std::int64_t, 3>& d) {
-        std::array<std::int64_t, 3> at;
+    const auto is_beside = [&](const Index3& d) {
+        Index3 at;
         int axes = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             at[axis] = place[axis] + d[axis];

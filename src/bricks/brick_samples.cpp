@@ -26,8 +26,8 @@ Box steps_in(const Box& brick, const Box& box, std::int64_t step) {
 
 std::vector<std::int64_t> bricks_with_steps(const BrickGrid& grid, const Box& box, std::int64_t step) {
     std::vector<std::int64_t> wanted;
-    const std::array<std::int64_t, 3> first = BrickGrid::place_of(box.begin);
-    const std::array<std::int64_t, 3> last = BrickGrid::place_of({box.end[0] - 1, box.end[1] - 1, box.end[2] - 1});
+    const Index3 first = BrickGrid::place_of(box.begin);
+    const Index3 last = BrickGrid::place_of(box.end - 1);
     for (std::int64_t z = first[2]; z <= last[2]; ++z) {
         for (std::int64_t y = first[1]; y <= last[1]; ++y) {
             for (std::int64_t x = first[0]; x <= last[0]; ++x) {
@@ -41,7 +41,7 @@ std::vector<std::int64_t> bricks_with_steps(const BrickGrid& grid, const Box& bo
 
 /// The mean of a box of samples of a brick, which begins at (0, 0, 0).
 template <class T>
-float mean_of(std::span<const T> samples, const std::array<std::int64_t, 3>& size, const Box& box) {
+float mean_of(std::span<const T> samples, const Index3& size, const Box& box) {
     double sum = 0;
     for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
         for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
@@ -85,12 +85,8 @@ void read_means(const BrickReader<T>& bricks, std::int64_t step, std::int64_t la
         for (std::int64_t z = cubes.begin[2]; z < cubes.end[2]; ++z) {
             for (std::int64_t y = cubes.begin[1]; y < cubes.end[1]; ++y) {
                 for (std::int64_t x = cubes.begin[0]; x < cubes.end[0]; ++x) {
-                    Box cube{{x * step, y * step, z * step}, {}};
-                    for (int a = 0; a < 3; ++a) {
-                        cube.begin[a] -= own.begin[a];
-                        cube.end[a] = std::min(cube.begin[a] + step, own.size(a));
-                    }
-                    out[x + columns * (y + rows * z)] = mean_of(samples, own.size(), cube);
+                    const Index3 begin = Index3{x * step, y * step, z * step} - own.begin;
+                    out[x + columns * (y + rows * z)] = mean_of(samples, own.size(), {begin, min(begin + step, own.size())});
                 }
             }
         }

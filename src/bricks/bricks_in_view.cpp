@@ -9,11 +9,10 @@ namespace {
 
 /// Value range of the cells of a brick: cells at its end have corners in the next bricks.
 std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, const std::vector<std::array<double, 2>>& ranges) {
-    const std::array<std::int64_t, 3> first = grid.place(brick);
+    const Index3 first = grid.place(brick);
     std::array<double, 2> all = ranges[brick];
     for (int corner = 1; corner < 8; ++corner) {
-        std::array<std::int64_t, 3> place = first;
-        for (int a = 0; a < 3; ++a) place[a] = std::min(place[a] + (corner >> a & 1), grid.size[a] - 1);
+        const Index3 place = min(first + Index3{corner & 1, corner >> 1 & 1, corner >> 2}, grid.size - 1);
         const auto& [low, high] = ranges[grid.brick(place)];
         all = {std::min(all[0], low), std::max(all[1], high)};
     }
@@ -21,7 +20,7 @@ std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, 
 }
 
 void flag_box(const BrickGrid& grid, const SampleBox& box, std::vector<std::uint8_t>& flags) {
-    std::array<std::int64_t, 3> begin{}, end{};
+    Index3 begin{}, end{};
     for (int a = 0; a < 3; ++a) {
         begin[a] = std::max<std::int64_t>(0, box.begin[a]) / kBrickSize[a];
         end[a] = std::min(grid.size[a], (box.end[a] + kBrickSize[a] - 1) / kBrickSize[a]);

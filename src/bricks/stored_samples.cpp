@@ -110,7 +110,7 @@ public:
     [[nodiscard]] double sample(std::int64_t voxel, IoCounters& counters) override {
         LevelQuery query;  // destroyed after the lock
         const std::lock_guard lock(mutex_);
-        const std::array<std::int64_t, 3> at = info_.extent.voxel(voxel);
+        const Index3 at = info_.extent.voxel(voxel);
         Context alone;
         alone.threads = 1;
         load({grid_.brick(BrickGrid::place_of(at))}, alone, query);
@@ -167,7 +167,7 @@ private:
             std::copy(values.begin(), values.end(), samples() + layout_.first_sample(brick));
             return;
         }
-        const std::array<std::int64_t, 3> size = grid_.box(brick).size();
+        const Index3 size = grid_.box(brick).size();
         const T* from = values.data();
         for (std::int64_t z = 0; z < size[2]; ++z) {
             for (std::int64_t y = 0; y < size[1]; ++y, from += size[0]) std::copy_n(from, size[0], samples() + layout_.row(brick, y, z));

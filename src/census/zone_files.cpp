@@ -83,7 +83,7 @@ private:
 
     [[nodiscard]] Tops tops_of(std::int64_t voxel) const {
         const Extent& extent = volume_.info.extent;
-        const std::array<std::int64_t, 3> at = extent.voxel(voxel), step{1, extent.size[0], extent.slice()};
+        const Index3 at = extent.voxel(voxel), step{1, extent.size[0], extent.slice()};
         const double own = volume_.value(voxel);
         Tops tops;
         tops.end = events_.below(analysis_.zone(voxel));

@@ -56,7 +56,7 @@ void fill_units(std::span<const T> samples, T low, const Units& units, std::span
 }
 
 template <class N>
-Numbers<N> arranged(const Numbers<N>& numbers, const BoxSize& size, const Orders& orders) {
+Numbers<N> arranged(const Numbers<N>& numbers, const Index3& size, const Orders& orders) {
     Numbers<N> differences(numbers), result(numbers.size);
     take_differences<N>(differences.samples(), size, orders);
     arrange<N>(differences.samples(), size, orders, result.samples());
@@ -64,13 +64,13 @@ Numbers<N> arranged(const Numbers<N>& numbers, const BoxSize& size, const Orders
 }
 
 template <class N>
-BrickCode cost(const Numbers<N>& numbers, const BoxSize& size, const Head& head) {
+BrickCode cost(const Numbers<N>& numbers, const Index3& size, const Head& head) {
     return {head.byte(), 1 + group_bytes<N>(arranged(numbers, size, head.orders).groups())};
 }
 
 /// Chooses the best order of differences for each axis in turn.
 template <class N>
-BrickCode best_orders(const Numbers<N>& numbers, const BoxSize& size, Kind kind) {
+BrickCode best_orders(const Numbers<N>& numbers, const Index3& size, Kind kind) {
     Head head{kind, {1, 1, 1}};
     BrickCode best = cost(numbers, size, head);
     for (int axis = 2; axis >= 0; --axis) {
@@ -86,7 +86,7 @@ BrickCode best_orders(const Numbers<N>& numbers, const BoxSize& size, Kind kind)
 }
 
 template <class T>
-BrickCode best_in_units(std::span<const T> samples, const BoxSize& size, T low, const Units& units, std::int64_t tails) {
+BrickCode best_in_units(std::span<const T> samples, const Index3& size, T low, const Units& units, std::int64_t tails) {
     Numbers<Key<T>> numbers(samples.size());
     fill_units(samples, low, units, numbers.samples());
     BrickCode code = best_orders(numbers, size, units.exact ? Kind::exact_units : Kind::units_with_tails);
@@ -95,7 +95,7 @@ BrickCode best_in_units(std::span<const T> samples, const BoxSize& size, T low, 
 }
 
 template <class T>
-BrickCode best_of_keys(std::span<const T> samples, const BoxSize& size, T low) {
+BrickCode best_of_keys(std::span<const T> samples, const Index3& size, T low) {
     Numbers<Key<T>> numbers(samples.size());
     fill_keys(samples, low, numbers.samples());
     return best_orders(numbers, size, Kind::keys);
@@ -113,7 +113,7 @@ int take_exponent(std::span<const std::byte>& packed) {
 }
 
 template <class N>
-bool take_numbers(std::span<const std::byte>& packed, const BoxSize& size, const Orders& orders, N low, Numbers<N>& numbers) {
+bool take_numbers(std::span<const std::byte>& packed, const Index3& size, const Orders& orders, N low, Numbers<N>& numbers) {
     Numbers<N> stored(numbers.size);
     if (!unpack_groups<N>(packed, stored.groups())) return false;
     disarrange<N>(stored.samples(), size, orders, numbers.samples());
@@ -123,7 +123,7 @@ bool take_numbers(std::span<const std::byte>& packed, const BoxSize& size, const
 }
 
 template <std::floating_point T>
-bool decode_units(std::span<const std::byte> packed, const BoxSize& size, T low, const Head& head, std::span<T> samples) {
+bool decode_units(std::span<const std::byte> packed, const Index3& size, T low, const Head& head, std::span<T> samples) {
     if (packed.size() < 2) return false;
     const Units units{take_exponent(packed), head.kind == Kind::exact_units};
     Numbers<Key<T>> numbers(samples.size());
@@ -134,7 +134,7 @@ bool decode_units(std::span<const std::byte> packed, const BoxSize& size, T low,
 }
 
 template <class T>
-bool decode_keys(std::span<const std::byte> packed, const BoxSize& size, T low, const Head& head, std::span<T> samples) {
+bool decode_keys(std::span<const std::byte> packed, const Index3& size, T low, const Head& head, std::span<T> samples) {
     Numbers<Key<T>> numbers(samples.size());
     if (!take_numbers(packed, size, head.orders, key_of(low), numbers)) return false;
     const std::span<const Key<T>> keys = numbers.samples();
@@ -152,7 +152,7 @@ std::pair<T, T> extremes_of(std::span<const T> samples) {
 }
 
 template <class T>
-BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low) {
+BrickCode choose_code(std::span<const T> samples, const Index3& size, T low) {
     if constexpr (std::floating_point<T>) {
         if (const std::optional<Units> units = units_of(samples)) {
             const std::int64_t tails = units->exact ? 0 : tail_bits(samples, *units);
@@ -166,7 +166,7 @@ BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low) {
 }
 
 template <class T>
-void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::uint8_t first, std::vector<std::byte>& out) {
+void encode_brick(std::span<const T> samples, const Index3& size, T low, std::uint8_t first, std::vector<std::byte>& out) {
     const Head head = Head::of(first);
     Numbers<Key<T>> numbers(samples.size());
     out.push_back(static_cast<std::byte>(first));
@@ -185,7 +185,7 @@ void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::u
 }
 
 template <class T>
-bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low, std::span<T> samples) {
+bool decode_brick(std::span<const std::byte> packed, const Index3& size, T low, std::span<T> samples) {
     if (packed.empty()) {
         std::fill(samples.begin(), samples.end(), low);
         return true;
@@ -198,11 +198,11 @@ bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low,
     return false;
 }
 
-#define ISOATLAS_INSTANTIATE(T)                                                                                  \
-    template std::pair<T, T> extremes_of<T>(std::span<const T>);                                                 \
-    template BrickCode choose_code<T>(std::span<const T>, const BoxSize&, T);                                    \
-    template void encode_brick<T>(std::span<const T>, const BoxSize&, T, std::uint8_t, std::vector<std::byte>&); \
-    template bool decode_brick<T>(std::span<const std::byte>, const BoxSize&, T, std::span<T>);
+#define ISOATLAS_INSTANTIATE(T)                                                                                 \
+    template std::pair<T, T> extremes_of<T>(std::span<const T>);                                                \
+    template BrickCode choose_code<T>(std::span<const T>, const Index3&, T);                                    \
+    template void encode_brick<T>(std::span<const T>, const Index3&, T, std::uint8_t, std::vector<std::byte>&); \
+    template bool decode_brick<T>(std::span<const std::byte>, const Index3&, T, std::span<T>);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE
 

@@ -34,15 +34,15 @@ struct BrickCode {
 
 /// Chooses a code for the samples of a box, x fastest, at most kBrickSamples, not constant. Cost: about seven encodings.
 template <class T>
-[[nodiscard]] BrickCode choose_code(std::span<const T> samples, const BoxSize& size, T low);
+[[nodiscard]] BrickCode choose_code(std::span<const T> samples, const Index3& size, T low);
 
 /// Appends the samples, encoded with their chosen code; low is the lowest of them.
 template <class T>
-void encode_brick(std::span<const T> samples, const BoxSize& size, T low, std::uint8_t head, std::vector<std::byte>& out);
+void encode_brick(std::span<const T> samples, const Index3& size, T low, std::uint8_t head, std::vector<std::byte>& out);
 
 /// Inverse. Returns whether `packed` is exactly a brick of that size; any bytes are safe. An empty packed brick has samples that are all
 /// low.
 template <class T>
-[[nodiscard]] bool decode_brick(std::span<const std::byte> packed, const BoxSize& size, T low, std::span<T> samples);
+[[nodiscard]] bool decode_brick(std::span<const std::byte> packed, const Index3& size, T low, std::span<T> samples);
 
 }  // namespace isoatlas

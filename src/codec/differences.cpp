@@ -13,7 +13,7 @@ struct Lines {
     std::int64_t blocks, lines, length;
 };
 
-Lines lines_of(const BoxSize& size, int axis) {
+Lines lines_of(const Index3& size, int axis) {
     if (axis == 0) return {size[1] * size[2], size[0], 1};
     if (axis == 1) return {size[2], size[1], size[0]};
     return {1, size[2], size[0] * size[1]};
@@ -87,7 +87,7 @@ std::span<const Stretch> stretches(std::int64_t size, int order, std::array<Stre
 
 /// Calls visit(first number, length) for every part of a row in the order in which they are stored.
 template <class Visit>
-[[gnu::always_inline]] inline void for_each_part(const BoxSize& size, const Orders& orders, const Visit& visit) {
+[[gnu::always_inline]] inline void for_each_part(const Index3& size, const Orders& orders, const Visit& visit) {
     std::array<Stretch, 3> along_x, along_y;
     for (const Stretch& xs : stretches(size[0], orders[0], along_x)) {
         for (const Stretch& ys : stretches(size[1], orders[1], along_y)) {
@@ -101,14 +101,14 @@ template <class Visit>
 }  // namespace
 
 template <class N>
-ISOATLAS_TARGET_CLONES void take_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
+ISOATLAS_TARGET_CLONES void take_differences(std::span<N> numbers, const Index3& size, const Orders& orders) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int order = 1; order <= orders[axis]; ++order) subtract(numbers.data(), lines_of(size, axis), order);
     }
 }
 
 template <class N>
-ISOATLAS_TARGET_CLONES void undo_differences(std::span<N> numbers, const BoxSize& size, const Orders& orders) {
+ISOATLAS_TARGET_CLONES void undo_differences(std::span<N> numbers, const Index3& size, const Orders& orders) {
     for (int axis = 2; axis >= 0; --axis) {
         if (axis == 0 && orders[0] > 0) add_along_rows(numbers.data(), size[1] * size[2], size[0], orders[0]);
         for (int order = axis == 0 ? 0 : orders[axis]; order >= 1; --order) add(numbers.data(), lines_of(size, axis), order);
@@ -116,14 +116,14 @@ ISOATLAS_TARGET_CLONES void undo_differences(std::span<N> numbers, const BoxSize
 }
 
 template <class N>
-ISOATLAS_TARGET_CLONES void arrange(std::span<const N> differences, const BoxSize& size, const Orders& orders, std::span<N> out) {
+ISOATLAS_TARGET_CLONES void arrange(std::span<const N> differences, const Index3& size, const Orders& orders, std::span<N> out) {
     N* to = out.data();
     for_each_part(size, orders, [&](std::int64_t first, std::int64_t length) { to = std::copy_n(differences.data() + first, length, to); });
     if (are_signed(orders)) std::transform(out.begin(), out.end(), out.begin(), without_sign<N>);
 }
 
 template <class N>
-ISOATLAS_TARGET_CLONES void disarrange(std::span<N> arranged, const BoxSize& size, const Orders& orders, std::span<N> out) {
+ISOATLAS_TARGET_CLONES void disarrange(std::span<N> arranged, const Index3& size, const Orders& orders, std::span<N> out) {
     if (are_signed(orders)) std::transform(arranged.begin(), arranged.end(), arranged.begin(), with_sign<N>);
     const N* from = arranged.data();
     for_each_part(size, orders, [&](std::int64_t first, std::int64_t length) {
@@ -132,11 +132,11 @@ ISOATLAS_TARGET_CLONES void disarrange(std::span<N> arranged, const BoxSize& siz
     });
 }
 
-#define ISOATLAS_INSTANTIATE(N)                                                                \
-    template void take_differences<N>(std::span<N>, const BoxSize&, const Orders&);            \
-    template void undo_differences<N>(std::span<N>, const BoxSize&, const Orders&);            \
-    template void arrange<N>(std::span<const N>, const BoxSize&, const Orders&, std::span<N>); \
-    template void disarrange<N>(std::span<N>, const BoxSize&, const Orders&, std::span<N>)
+#define ISOATLAS_INSTANTIATE(N)                                                               \
+    template void take_differences<N>(std::span<N>, const Index3&, const Orders&);            \
+    template void undo_differences<N>(std::span<N>, const Index3&, const Orders&);            \
+    template void arrange<N>(std::span<const N>, const Index3&, const Orders&, std::span<N>); \
+    template void disarrange<N>(std::span<N>, const Index3&, const Orders&, std::span<N>)
 ISOATLAS_INSTANTIATE(std::uint8_t);
 ISOATLAS_INSTANTIATE(std::uint16_t);
 ISOATLAS_INSTANTIATE(std::uint32_t);

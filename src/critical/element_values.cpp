@@ -16,7 +16,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Has this voxel a next sample along all these axes?
 bool has_next(const Extent& extent, std::int64_t voxel, unsigned axes) {
     if (voxel < 0 || voxel >= extent.voxels()) return false;
-    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const Index3 at = extent.voxel(voxel);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if ((axes >> axis & 1) != 0 && at[axis] + 1 >= extent.size[axis]) return false;
     }

@@ -9,17 +9,17 @@
 namespace isoatlas {
 
 template <class T>
-std::array<double, 8> TunnelFinder<T>::values(const std::array<std::int64_t, 3>& cell) const {
+std::array<double, 8> TunnelFinder<T>::values(const Index3& cell) const {
     std::array<double, 8> value{};
     for (int k = 0; k < 8; ++k) value[k] = static_cast<double>(grid_.corner(cell, k));
     return value;
 }
 
 template <class T>
-std::optional<OpenTunnel> TunnelFinder<T>::find(const std::array<std::int64_t, 3>& cell, int pattern, int joined) const {
+std::optional<OpenTunnel> TunnelFinder<T>::find(const Index3& cell, int pattern, int joined) const {
     CellElements elements{values(cell), {}, 0, 0, {}};
     const GridSteps steps(grid_.extent);
-    for (int k = 0; k < 8; ++k) elements.voxel[k] = steps.cell_corner(grid_.extent.index(cell[0], cell[1], cell[2]), k);
+    for (int k = 0; k < 8; ++k) elements.voxel[k] = steps.cell_corner(grid_.extent.index(cell), k);
     find_ambiguous_faces(elements);
     const CellBodies bodies = bodies_of_cell(elements, default_face_types(elements), tunnel_height_);
     const auto opened = [&](const BodyPoint& body, bool joins_highs) {

@@ -26,15 +26,15 @@ public:
     [[nodiscard]] bool finds_any() const { return grid_.is_3d() && std::isfinite(tunnel_height_); }
 
     /// cell: corner 0; all corners must be voxels. pattern, joined: the cell at tau.
-    [[nodiscard]] std::optional<OpenTunnel> operator()(const std::array<std::int64_t, 3>& cell, int pattern, int joined) const {
+    [[nodiscard]] std::optional<OpenTunnel> operator()(const Index3& cell, int pattern, int joined) const {
         if (!may_hold_tunnel(pattern, joined)) return std::nullopt;
         return find(cell, pattern, joined);
     }
     /// The samples at the corners.
-    [[nodiscard]] std::array<double, 8> values(const std::array<std::int64_t, 3>& cell) const;
+    [[nodiscard]] std::array<double, 8> values(const Index3& cell) const;
 
 private:
-    [[nodiscard]] std::optional<OpenTunnel> find(const std::array<std::int64_t, 3>& cell, int pattern, int joined) const;
+    [[nodiscard]] std::optional<OpenTunnel> find(const Index3& cell, int pattern, int joined) const;
 
     SampleGrid<T> grid_;
     double tau_, tunnel_height_;

@@ -17,7 +17,7 @@ public:
         for (int a = 0; a < 3; ++a) tiles_[a] = (extent.size[a] + side_[a] - 1) / side_[a];
     }
     static constexpr std::int64_t kLonger = 4;  // a fifth more surface than a cube
-    [[nodiscard]] std::int64_t count() const { return tiles_[0] * tiles_[1] * tiles_[2]; }
+    [[nodiscard]] std::int64_t count() const { return tiles_.product(); }
     [[nodiscard]] std::int64_t side(int axis) const { return side_[axis]; }
     [[nodiscard]] std::int64_t tile_of_voxel(std::int64_t voxel) const {
         const std::int64_t row = voxel / extent_.size[0], x = voxel % extent_.size[0];
@@ -28,18 +28,14 @@ public:
         return tile_of_voxel(code.is_body() ? code.cell() : code.kind() == CodeKind::face ? code.index() / 3 : code.index());
     }
     /// The first voxel of a tile, and the one behind its last, along each axis.
-    [[nodiscard]] std::array<std::int64_t, 3> begin(std::int64_t tile) const {
+    [[nodiscard]] Index3 begin(std::int64_t tile) const {
         return {tile % tiles_[0] * side_[0], tile / tiles_[0] % tiles_[1] * side_[1], tile / (tiles_[0] * tiles_[1]) * side_[2]};
     }
-    [[nodiscard]] std::array<std::int64_t, 3> end(std::int64_t tile) const {
-        std::array<std::int64_t, 3> last = begin(tile);
-        for (int a = 0; a < 3; ++a) last[a] = std::min(last[a] + side_[a], extent_.size[a]);
-        return last;
-    }
+    [[nodiscard]] Index3 end(std::int64_t tile) const { return min(begin(tile) + side_, extent_.size); }
 
 private:
     Extent extent_;
-    std::array<std::int64_t, 3> side_, tiles_{};
+    Index3 side_, tiles_{};
 };
 
 }  // namespace isoatlas

@@ -40,12 +40,8 @@ double second_differences(std::span<const T> samples, const Extent& extent) {
 
 template <class T>
 double local_variance(std::span<const T> samples, const Extent& extent, std::int64_t i) {
-    const std::array<std::int64_t, 3> p = extent.voxel(i);
-    std::array<std::int64_t, 3> low{}, high{};
-    for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::max<std::int64_t>(0, p[axis] - 1);
-        high[axis] = std::min(extent.size[axis] - 1, p[axis] + 1);
-    }
+    const Index3 p = extent.voxel(i);
+    const Index3 low = max(p - 1, Index3{}), high = min(p + 1, extent.size - 1);
     double count = 0, mean = 0, squares = 0;
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
         for (std::int64_t y = low[1]; y <= high[1]; ++y) {

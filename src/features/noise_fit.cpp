@@ -24,7 +24,7 @@ struct Window {
 };
 
 template <class T>
-Window window_at(std::span<const T> samples, const Extent& extent, const std::array<std::int64_t, 3>& p) {
+Window window_at(std::span<const T> samples, const Extent& extent, const Index3& p) {
     const std::int64_t deep = extent.rank == 3 ? 1 : 0;
     const double count = deep == 1 ? 27 : 9, squares_of_axis = deep == 1 ? 18 : 6;
     const auto centre = static_cast<double>(samples[extent.index(p[0], p[1], p[2])]);
@@ -56,7 +56,7 @@ std::vector<Window> windows_of(std::span<const T> samples, const Extent& extent)
     BudgetPoll memory;
     for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
         memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
-        const std::array<std::int64_t, 3> p = extent.voxel(i);
+        const Index3 p = extent.voxel(i);
         bool is_inside = true;
         for (int axis = 0; axis < extent.rank; ++axis) is_inside = is_inside && p[axis] > 0 && p[axis] + 1 < extent.size[axis];
         if (!is_inside) continue;

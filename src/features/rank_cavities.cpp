@@ -32,7 +32,7 @@ CavityEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays,
     entry.tau_low = -side.sublevel.height[row.event];
     entry.tau_high =
         side.tree.is_root(row.event) ? std::numeric_limits<double>::infinity() : -side.sublevel.height[side.tree.parent[row.event]];
-    const std::array<std::int64_t, 3> voxel = volume.info->extent.voxel(entry.id);
+    const Index3 voxel = volume.info->extent.voxel(entry.id);
     for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
     return entry;
 }

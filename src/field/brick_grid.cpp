@@ -7,7 +7,7 @@ namespace isoatlas {
 namespace {
 
 /// Is p before q in Morton order (bits of z, y, x interleaved)? The highest bit in which they differ decides (Chan 2002).
-bool comes_before(const std::array<std::int64_t, 3>& p, const std::array<std::int64_t, 3>& q) {
+bool comes_before(const Index3& p, const Index3& q) {
     int axis = 2;
     std::int64_t max = p[2] ^ q[2];
     for (const int other : {1, 0}) {
@@ -20,7 +20,7 @@ bool comes_before(const std::array<std::int64_t, 3>& p, const std::array<std::in
 }  // namespace
 
 Box BrickGrid::box(std::int64_t brick) const {
-    const std::array<std::int64_t, 3> at = place(brick);
+    const Index3 at = place(brick);
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
         box.begin[axis] = at[axis] * kBrickSize[axis];

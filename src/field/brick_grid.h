@@ -9,36 +9,32 @@
 
 namespace isoatlas {
 
-inline constexpr std::array<std::int64_t, 3> kBrickSize{16, 8, 8};  ///< samples along x, y, z
+inline constexpr Index3 kBrickSize{16, 8, 8};  ///< samples along x, y, z
 inline constexpr std::int64_t kBrickRow = kBrickSize[0];
-inline constexpr std::int64_t kBrickSamples = kBrickSize[0] * kBrickSize[1] * kBrickSize[2];
+inline constexpr std::int64_t kBrickSamples = kBrickSize.product();
 
 /// Samples [begin, end) of each axis.
 struct Box {
-    std::array<std::int64_t, 3> begin, end;
+    Index3 begin, end;
     [[nodiscard]] std::int64_t size(int axis) const { return end[axis] - begin[axis]; }
-    [[nodiscard]] std::array<std::int64_t, 3> size() const { return {size(0), size(1), size(2)}; }
-    [[nodiscard]] std::int64_t count() const { return size(0) * size(1) * size(2); }
+    [[nodiscard]] Index3 size() const { return end - begin; }
+    [[nodiscard]] std::int64_t count() const { return size().product(); }
 };
 
 struct BrickGrid {
     Extent extent;
-    std::array<std::int64_t, 3> size;  ///< bricks of each axis; brick = x + size[0] * (y + size[1] * z)
+    Index3 size;  ///< bricks of each axis; brick = x + size[0] * (y + size[1] * z)
 
     explicit BrickGrid(const Extent& volume) : extent(volume) {
         for (int axis = 0; axis < 3; ++axis) size[axis] = (volume.size[axis] + kBrickSize[axis] - 1) / kBrickSize[axis];
     }
-    [[nodiscard]] std::int64_t count() const { return size[0] * size[1] * size[2]; }
-    [[nodiscard]] std::int64_t brick(const std::array<std::int64_t, 3>& place) const {
-        return place[0] + size[0] * (place[1] + size[1] * place[2]);
-    }
+    [[nodiscard]] std::int64_t count() const { return size.product(); }
+    [[nodiscard]] std::int64_t brick(const Index3& place) const { return place[0] + size[0] * (place[1] + size[1] * place[2]); }
     /// The place of the brick that a voxel lies in.
-    [[nodiscard]] static std::array<std::int64_t, 3> place_of(const std::array<std::int64_t, 3>& voxel) {
+    [[nodiscard]] static Index3 place_of(const Index3& voxel) {
         return {voxel[0] / kBrickSize[0], voxel[1] / kBrickSize[1], voxel[2] / kBrickSize[2]};
     }
-    [[nodiscard]] std::array<std::int64_t, 3> place(std::int64_t brick) const {
-        return {brick % size[0], brick / size[0] % size[1], brick / size[0] / size[1]};
-    }
+    [[nodiscard]] Index3 place(std::int64_t brick) const { return {brick % size[0], brick / size[0] % size[1], brick / size[0] / size[1]}; }
     /// Samples along an axis of the bricks at a place along it.
     [[nodiscard]] std::int64_t length(int axis, std::int64_t place) const {
         const std::int64_t left = extent.size[axis] - place * kBrickSize[axis];

@@ -43,8 +43,7 @@ Geometry part_of(const Geometry& geometry, const SampleBox& box) {
 Volume crop(const Volume& volume, const SampleBox& box) {
     const Extent& whole = volume.info.extent;
     check(whole, box);
-    Extent extent = whole;
-    for (std::size_t axis = 0; axis < 3; ++axis) extent.size[axis] = box.end[axis] - box.begin[axis];
+    const Extent extent{whole.rank, box.size()};
     Volume part = make_volume(extent, volume.info.type);
     part.info = volume.info;
     part.info.extent = extent;

@@ -139,9 +139,9 @@ void check(const VolumeInfo& info, double sigma) {
 
 }  // namespace
 
-std::array<std::int64_t, 3> gaussian_radius(const VolumeInfo& info, double sigma) {
+Index3 gaussian_radius(const VolumeInfo& info, double sigma) {
     check(info, sigma);
-    std::array<std::int64_t, 3> radius{};
+    Index3 radius{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const bool is_flat = info.extent.size[axis] == 1;
         radius[axis] = is_flat ? 0 : static_cast<std::int64_t>(std::floor(kReach * sigma / info.geometry.spacing[axis] + 0.5));
@@ -150,7 +150,7 @@ std::array<std::int64_t, 3> gaussian_radius(const VolumeInfo& info, double sigma
 }
 
 void filter_in_place(VolumeInfo& info, std::byte* samples, double sigma, const Context& context) {
-    const std::array<std::int64_t, 3> radius = gaussian_radius(info, sigma);
+    const Index3 radius = gaussian_radius(info, sigma);
     std::array<Kernel, 3> kernels;
     for (std::size_t axis = 0; axis < 3; ++axis) kernels[axis] = kernel_of(sigma / info.geometry.spacing[axis], radius[axis]);
     visit_type(info.type, [&]<class T>(T) {
@@ -169,15 +169,10 @@ Volume gaussian_filter(const Volume& volume, double sigma, const Context& contex
 
 Volume gaussian_filter(const Volume& volume, const SampleBox& box, double sigma, const Context& context) {
     const Extent& extent = volume.info.extent;
-    const std::array<std::int64_t, 3> radius = gaussian_radius(volume.info, sigma);
+    const Index3 radius = gaussian_radius(volume.info, sigma);
     Volume part = crop(volume, box);
-    SampleBox wide{}, inside{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        wide.begin[axis] = std::max<std::int64_t>(box.begin[axis] - radius[axis], 0);
-        wide.end[axis] = std::min(box.end[axis] + radius[axis], extent.size[axis]);
-        inside.begin[axis] = box.begin[axis] - wide.begin[axis];
-        inside.end[axis] = box.end[axis] - wide.begin[axis];
-    }
+    const SampleBox wide{max(box.begin - radius, Index3{}), min(box.end + radius, extent.size)};
+    const SampleBox inside{box.begin - wide.begin, box.end - wide.begin};
     Volume around = crop(volume, wide);
     filter_in_place(around.info, around.bytes.data(), sigma, context);
     part.bytes = crop(around, inside).bytes;

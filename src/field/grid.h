@@ -15,7 +15,7 @@ template <class T>
 struct GridView {
     const T* samples;
     Extent extent;
-    std::array<std::int64_t, 3> origin{};  ///< voxel of the first sample, where the grid is a window of a larger one
+    Index3 origin{};  ///< voxel of the first sample, where the grid is a window of a larger one
 
     [[nodiscard]] const T* slice(std::int64_t z) const { return samples + z * extent.slice(); }
     [[nodiscard]] const T* row(std::int64_t y, std::int64_t z) const { return slice(z) + y * extent.size[0]; }

@@ -108,7 +108,7 @@ struct Above {
 /// Position of an element in voxel coordinates; a face point lies in the middle of its face, a body point in that of its cell.
 inline std::array<double, 3> element_position(ElementCode code, const Extent& extent) {
     const bool is_face = code.kind() == CodeKind::face;
-    const std::array<std::int64_t, 3> voxel = extent.voxel(code.is_body() ? code.cell() : is_face ? code.index() / 3 : code.index());
+    const Index3 voxel = extent.voxel(code.is_body() ? code.cell() : is_face ? code.index() / 3 : code.index());
     std::array<double, 3> position{static_cast<double>(voxel[0]), static_cast<double>(voxel[1]), static_cast<double>(voxel[2])};
     if (code.is_body()) {
         for (double& coordinate : position) coordinate += 0.5;

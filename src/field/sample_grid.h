@@ -38,14 +38,12 @@ struct SampleGrid {
     const T* samples;
     Extent extent;
     SampleLayout layout;
-    std::array<std::int64_t, 3> origin{};  ///< voxel of the first sample, where the grid is a window of a larger one
+    Index3 origin{};  ///< voxel of the first sample, where the grid is a window of a larger one
 
     [[nodiscard]] T at(std::int64_t x, std::int64_t y, std::int64_t z) const { return samples[layout.at(x, y, z)]; }
-    [[nodiscard]] T at(const std::array<std::int64_t, 3>& voxel) const { return at(voxel[0], voxel[1], voxel[2]); }
+    [[nodiscard]] T at(const Index3& voxel) const { return at(voxel[0], voxel[1], voxel[2]); }
     /// Sample at corner k of the cell whose corner 0 is a voxel, or adjacent to one.
-    [[nodiscard]] T corner(const std::array<std::int64_t, 3>& cell, int k) const {
-        return at(cell[0] + (k & 1), cell[1] + (k >> 1 & 1), cell[2] + (k >> 2));
-    }
+    [[nodiscard]] T corner(const Index3& cell, int k) const { return at(cell[0] + (k & 1), cell[1] + (k >> 1 & 1), cell[2] + (k >> 2)); }
     [[nodiscard]] SampleRow<T> row(std::int64_t y, std::int64_t z) const {
         return {samples + layout.axis[1](y) + layout.axis[2](z), layout.axis[0]};
     }

@@ -46,7 +46,7 @@ int handedness(const Geometry& geometry) {
 }
 
 double voxel_measure(const Geometry& geometry, const Extent& extent, std::int64_t index) {
-    const std::array<std::int64_t, 3> position = extent.voxel(index);
+    const Index3 position = extent.voxel(index);
     double measure = 1;
     for (int axis = 0; axis < extent.rank; ++axis) {
         const std::vector<double>& c = geometry.coordinates[axis];

@@ -86,14 +86,14 @@ struct FaceJoiner {
     double tau;
 
     /// Are the Highs of the face of an orientation with corner a at a voxel joined? The face is 4-hit, the Highs on the given diagonal.
-    [[nodiscard]] bool operator()(const std::array<std::int64_t, 3>& voxel, int orientation, Diagonal highs) const {
+    [[nodiscard]] bool operator()(const Index3& voxel, int orientation, Diagonal highs) const {
         const FaceAxes axes = kFaceAxes[orientation];
         const int b = 1 << axes.axis1, d = 1 << axes.axis2;
         return highs_are_joined(grid.corner(voxel, 0), grid.corner(voxel, b), grid.corner(voxel, b | d), grid.corner(voxel, d), highs, tau);
     }
 
     /// Joined mask of the split faces of a cell with corner 0 at `cell` (may be a padding position; split faces have real corners).
-    [[nodiscard]] int joined_mask(const std::array<std::int64_t, 3>& cell, int pattern, int split_faces) const {
+    [[nodiscard]] int joined_mask(const Index3& cell, int pattern, int split_faces) const {
         int joined = 0;
         for (int rest = split_faces; rest != 0; rest &= rest - 1) {
             const int f = std::countr_zero(static_cast<unsigned>(rest));

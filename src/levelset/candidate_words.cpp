@@ -13,7 +13,7 @@ BrickClass both(BrickClass a, BrickClass b) { return a == b ? a : BrickClass::di
 
 /// Per row of bricks and word: the class of the bricks that its cells touch.
 std::vector<BrickClass> classes_of_words(const LevelBricks& bricks, std::int64_t words) {
-    const std::array<std::int64_t, 3>& size = bricks.grid.size;
+    const Index3& size = bricks.grid.size;
     std::vector<BrickClass> classes;
     classes.reserve(static_cast<std::size_t>(words * size[1] * size[2]));
     for (std::int64_t row = 0; row < size[1] * size[2]; ++row) {

@@ -71,7 +71,7 @@ private:
     /// The extremes of bricks. A brick that is High as a whole has no better voxel; a divided one may have one for another component.
     void take_bricks() {
         const auto take = [&](bool high, const Extremum& extremum) {
-            const std::array<std::int64_t, 3> at = grid_.extent.voxel(extremum.voxel);
+            const Index3 at = grid_.extent.voxel(extremum.voxel);
             const RunRow row = runs_.row(at[1], at[2]);
             const std::int64_t run = row.run_at(at[0] + 1);
             ISOATLAS_CHECK(((run - row.first_run) & 1) == (high ? 1 : 0));

@@ -31,11 +31,9 @@ void measure_objects(const VolumeInfo& info, const Components& components, std::
             if (rectilinear) {
                 for (std::int64_t x = begin; x < end; ++x) object.measure += voxel_measure(geometry, extent, extent.index(x, yz[0], yz[1]));
             }
-            const std::array<std::int64_t, 3> low{begin, yz[0], yz[1]}, high{end - 1, yz[0], yz[1]};
-            for (int axis = 0; axis < 3; ++axis) {
-                object.box_low[axis] = std::min(object.box_low[axis], low[axis]);
-                object.box_high[axis] = std::max(object.box_high[axis], high[axis]);
-            }
+            const Index3 low{begin, yz[0], yz[1]}, high{end - 1, yz[0], yz[1]};
+            object.box_low = min(object.box_low, low);
+            object.box_high = max(object.box_high, high);
         }
     }
     if (rectilinear) return;

@@ -14,8 +14,8 @@ namespace isoatlas {
 
 /// A part of a volume that is processed as a volume of its own.
 struct Window {
-    Extent whole;                        ///< of the volume
-    std::array<std::int64_t, 3> origin;  ///< first voxel of the part
+    Extent whole;   ///< of the volume
+    Index3 origin;  ///< first voxel of the part
 };
 
 struct TauLevel {

@@ -18,7 +18,7 @@
 
 namespace isoatlas {
 
-inline constexpr std::array<std::int64_t, 3> kBundleSize{0, kBrickSize[1], 32};  ///< rows along y and z
+inline constexpr Index3 kBundleSize{0, kBrickSize[1], 32};  ///< rows along y and z
 
 /// Real: what differences and slopes are computed in.
 template <class T, class Real>

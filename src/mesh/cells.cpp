@@ -101,8 +101,7 @@ void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowOffsets& place)
 
 // The slope of the interpolant itself: inside a tunnel it has little to do with differences between voxels.
 template <class T>
-std::array<float, 3> CellWriter<T>::normal_at(const std::array<double, 8>& value, const std::array<std::int64_t, 3>& voxel,
-                                              const Vec3& position) const {
+std::array<float, 3> CellWriter<T>::normal_at(const std::array<double, 8>& value, const Index3& voxel, const Vec3& position) const {
     const Vec3 corner{static_cast<double>(voxel[0]), static_cast<double>(voxel[1]), static_cast<double>(voxel[2])};
     const Vec3 origin = map_.point(corner);
     std::array<double, 8> above = value;  // what all samples have in common must not cost digits
@@ -119,10 +118,10 @@ std::array<float, 3> CellWriter<T>::normal_at(const std::array<double, 8>& value
 }
 
 template <class T>
-void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
-                                 std::int64_t* point, Surface& surface) const {
+void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, const Index3& voxel, std::int64_t next, std::int64_t* point,
+                                 Surface& surface) const {
     const std::array<double, 8> value = tunnels_.values(voxel);
-    const std::array<std::int64_t, 3> corner{voxel[0] + origin_[0], voxel[1] + origin_[1], voxel[2] + origin_[2]};
+    const Index3 corner = voxel + origin_;
     const std::array<Vec3, 6> ring = ring_points(cell, *state.tunnel, state.pattern, state.joined, value, joiner_.tau);
     for (int i = 0; i < cell.ring_points; ++i) {
         const std::int64_t target = point[12 + i] = next++;
@@ -159,7 +158,7 @@ void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layo
 }
 
 template <class T>
-void CellWriter<T>::write_cell(const State& state, const std::array<std::int64_t, 3>& voxel, std::int64_t* point, std::int64_t& next_point,
+void CellWriter<T>::write_cell(const State& state, const Index3& voxel, std::int64_t* point, std::int64_t& next_point,
                                std::array<std::int64_t, 3>*& triangle, Surface& surface) const {
     const int second = flip_ ? 2 : 1, third = flip_ ? 1 : 2;
     const auto write_triangles = [&](const std::uint8_t* vertex, int count) {

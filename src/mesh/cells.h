@@ -44,18 +44,17 @@ private:
     /// Cell p of row (y, z), which is not plain.
     [[nodiscard]] State state_of(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, bool has_tunnels) const;
     /// Writes the triangles and points of a cell that is not plain. point: of its hits; next_point, triangle: places, moved on.
-    void write_cell(const State& state, const std::array<std::int64_t, 3>& voxel, std::int64_t* point, std::int64_t& next_point,
+    void write_cell(const State& state, const Index3& voxel, std::int64_t* point, std::int64_t& next_point,
                     std::array<std::int64_t, 3>*& triangle, Surface& surface) const;
     /// Writes the points of a cell with a tunnel behind its hits in `point`; next: the first of their places.
-    void write_points(const State& state, const TunnelCell& cell, const std::array<std::int64_t, 3>& voxel, std::int64_t next,
-                      std::int64_t* point, Surface& surface) const;
-    [[nodiscard]] std::array<float, 3> normal_at(const std::array<double, 8>& value, const std::array<std::int64_t, 3>& voxel,
-                                                 const Vec3& position) const;
+    void write_points(const State& state, const TunnelCell& cell, const Index3& voxel, std::int64_t next, std::int64_t* point,
+                      Surface& surface) const;
+    [[nodiscard]] std::array<float, 3> normal_at(const std::array<double, 8>& value, const Index3& voxel, const Vec3& position) const;
 
     FaceJoiner<T> joiner_;
     TunnelFinder<T> tunnels_;
     Extent extent_;
-    std::array<std::int64_t, 3> origin_;
+    Index3 origin_;
     const MeshDomain& domain_;
     const PhysicalMap& map_;
     SurfaceStyle style_;

@@ -35,7 +35,7 @@ class Extraction {
 public:
     Extraction(const TauLevel& level, const SampleGrid<T>& grid, const ExtractOptions& options, const Context& context,
                const Components* components)
-        : grid_{grid.samples, grid.extent, grid.layout, level.window ? level.window->origin : std::array<std::int64_t, 3>{}},
+        : grid_{grid.samples, grid.extent, grid.layout, level.window ? level.window->origin : Index3{}},
           tau_(level.tau),
           options_(options),
           context_(context),

@@ -17,7 +17,7 @@ std::string shortest(double value) {
 }
 
 std::string describe_voxel(const Extent& extent, std::int64_t voxel) {
-    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const Index3 at = extent.voxel(voxel);
     std::string text = "voxel " + std::to_string(voxel) + " (" + std::to_string(at[0]) + ", " + std::to_string(at[1]);
     return text + (extent.rank == 3 ? ", " + std::to_string(at[2]) : "") + ")";
 }
@@ -31,7 +31,7 @@ std::int32_t object_at(const TauLevel& level, const Components& components, std:
                                            .expected = "a voxel index from 0 to " + std::to_string(extent.voxels() - 1),
                                            .next = "list the objects at this isovalue and take one of their ids"});
     }
-    const std::array<std::int64_t, 3> at = extent.voxel(voxel);
+    const Index3 at = extent.voxel(voxel);
     const RunRow row = components.runs.row(at[1], at[2]);
     const std::int64_t run = row.run_at(at[0] + 1);
     if (((run - row.first_run) & 1) == 0) {

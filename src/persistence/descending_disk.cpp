@@ -64,7 +64,7 @@ template <class T>
 std::array<std::int64_t, 6> DescendingDisks<T>::ups(std::int64_t voxel) const {
     std::array<std::int64_t, 6> above;
     above.fill(-1);
-    const std::array<std::int64_t, 3> at = grid_.extent.voxel(voxel);
+    const Index3 at = grid_.extent.voxel(voxel);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t before = voxel - steps_.axis[axis], behind = voxel + steps_.axis[axis];
         if (at[axis] > 0 && is_above(before, voxel)) above[2 * axis] = before;

@@ -42,7 +42,7 @@ constexpr int kFurthest = 255;
 
 /// One sweep of a distance transform: the distance of a block is at most one more than those of its preceding 26-neighbours.
 /// step: 1 from the first block to the last, -1 back.
-void sweep(std::vector<std::uint8_t>& distance, const std::array<std::int64_t, 3>& count, std::int64_t step) {
+void sweep(std::vector<std::uint8_t>& distance, const Index3& count, std::int64_t step) {
     const auto [nx, ny, nz] = count;
     std::vector<std::uint8_t> before(nx + 2, kFurthest);  // nearest in the four rows before, between two borders
     const auto row_at = [&](std::int64_t y, std::int64_t z) { return distance.data() + nx * (y + ny * z); };
@@ -80,7 +80,7 @@ BlockRanges block_ranges(const Volume& volume, int threads) {
     const Extent& extent = volume.info.extent;
     BlockRanges blocks;
     for (int a = 0; a < 3; ++a) blocks.count[a] = std::max<std::int64_t>(1, (extent.size[a] - 2 + BlockRanges::kSide) / BlockRanges::kSide);
-    blocks.ranges.resize(blocks.count[0] * blocks.count[1] * blocks.count[2]);
+    blocks.ranges.resize(blocks.count.product());
     visit_samples(volume, [&](auto samples) {
         for_each_block(threads, blocks.count[1] * blocks.count[2], [&](std::int64_t row) { find_row(samples, extent, row, blocks); });
     });

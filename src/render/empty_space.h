@@ -15,7 +15,7 @@ namespace isoatlas {
 /// Lowest and highest sample of every block of kSide^3 cells, x fastest. Neighbours share the samples between them.
 struct BlockRanges {
     static constexpr std::int64_t kSide = 8;
-    std::array<std::int64_t, 3> count{};
+    Index3 count{};
     std::vector<std::array<double, 2>> ranges;
 
     [[nodiscard]] std::array<double, 2> whole() const;
@@ -79,7 +79,7 @@ private:
         int forwards[3];
     };
 
-    std::array<std::int64_t, 3> count_;
+    Index3 count_;
     std::vector<std::uint8_t> distance_;  ///< Chebyshev distance in blocks to the nearest visible one; 0: visible
 };
 

@@ -13,7 +13,7 @@ constexpr std::int64_t kStep = 4;  // samples between two points of the grid
 
 ShadowGrid::ShadowGrid(const Extent& extent, const std::function<double(const Vec3&)>& light_at, int threads) {
     for (int a = 0; a < 3; ++a) count_[a] = (extent.size[a] - 1) / kStep + 2;
-    light_.resize(count_[0] * count_[1] * count_[2]);
+    light_.resize(count_.product());
     for_each_block(threads, count_[1] * count_[2], [&](std::int64_t row) {
         for (std::int64_t x = 0; x < count_[0]; ++x) {
             const std::int64_t at[3] = {x, row % count_[1], row / count_[1]};

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] double light(const Vec3& voxel) const;
 
 private:
-    std::array<std::int64_t, 3> count_{};
+    Index3 count_{};
     std::vector<float> light_;
 };
 

@@ -47,12 +47,12 @@ Volume slice_of(const Volume& volume, int axis, std::int64_t index) {
     const Extent flat{.rank = 2, .size = {extent.size[plane.across], extent.size[plane.down], 1}};
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         std::vector<T> values(flat.voxels());
-        std::array<std::int64_t, 3> at{};
+        Index3 at{};
         at[axis] = index;
         for (std::int64_t v = 0; v < flat.size[1]; ++v) {
             for (std::int64_t u = 0; u < flat.size[0]; ++u) {
                 at[plane.across] = u, at[plane.down] = v;
-                values[flat.index(u, v, 0)] = samples[extent.index(at[0], at[1], at[2])];
+                values[flat.index(u, v, 0)] = samples[extent.index(at)];
             }
         }
         return make_volume<T>(flat, values);

@@ -31,7 +31,7 @@ struct NamedObject {
 
 /// A sample, and the objects that contain it.
 struct AtVoxel {
-    std::array<std::int64_t, 3> voxel{};
+    Index3 voxel{};
     Vec3 position{};                      ///< physical
     double value = 0;                     ///< in units of the file
     std::vector<std::int64_t> entries{};  ///< entries of the atlas that contain it, the smallest first

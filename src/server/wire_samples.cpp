@@ -32,7 +32,7 @@ std::string begun_with(const Header& header, std::size_t more) {
 }  // namespace
 
 std::string wire_slice(const Volume& slice, int axis, std::int64_t step) {
-    const std::array<std::int64_t, 3>& size = slice.info.extent.size;
+    const Index3& size = slice.info.extent.size;
     SliceHeader header;
     header.columns = static_cast<std::uint32_t>(size[axis == 0 ? 1 : 0]);
     header.rows = static_cast<std::uint32_t>(size[axis == 2 ? 1 : 2]);

@@ -76,8 +76,7 @@ void BrickReader<T>::check_places() const {
 template <class T>
 std::int64_t BrickReader<T>::voxel_at(std::int64_t brick, std::int64_t place) const {
     const Box box = grid_.box(brick);
-    const std::int64_t nx = box.size(0), ny = box.size(1);
-    return grid_.extent.index(box.begin[0] + place % nx, box.begin[1] + place / nx % ny, box.begin[2] + place / (nx * ny));
+    return grid_.extent.index(box.begin + isoatlas::Extent{3, box.size()}.voxel(place));
 }
 
 template <class T>
@@ -101,8 +100,8 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
     const auto i = static_cast<std::size_t>(brick);
     if (checksum(packed) != sums_[i]) damaged(store_, brick, "its checksum is wrong");
     std::array<T, kBrickSamples> samples;
-    const BoxSize size = grid_.box(brick).size();
-    const std::span<T> box(samples.data(), static_cast<std::size_t>(size[0] * size[1] * size[2]));
+    const Index3 size = grid_.box(brick).size();
+    const std::span<T> box(samples.data(), static_cast<std::size_t>(size.product()));
     if (!decode_brick<T>(packed, size, low_[i], box)) damaged(store_, brick, "it cannot be decoded");
     if (box[lowest_[i]] != low_[i] || box[highest_[i]] != high_[i]) damaged(store_, brick, kWrongExtremes);
     sink(brick, box);

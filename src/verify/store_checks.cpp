@@ -21,7 +21,7 @@ double number_of(const StoreNumbers& numbers, std::size_t i) {
 std::array<double, 2> range_of(const Volume& volume, const Box& box) {
     const Extent& extent = volume.info.extent;
     return visit_samples(volume, [&](auto samples) {
-        auto low = samples[static_cast<std::size_t>(extent.index(box.begin[0], box.begin[1], box.begin[2]))], high = low;
+        auto low = samples[static_cast<std::size_t>(extent.index(box.begin))], high = low;
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
             for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
                 const auto row =

@@ -48,7 +48,7 @@ std::vector<TileVoxel<T, Id>> voxels_of_tile(const GridView<T>& grid, const Tili
                                              std::span<const Id> maximum) {
     const auto begin = tiling.begin(tile), end = tiling.end(tile);
     std::vector<TileVoxel<T, Id>> voxels;
-    voxels.reserve(static_cast<std::size_t>((end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2])));
+    voxels.reserve(static_cast<std::size_t>((end - begin).product()));
     const std::int64_t nx = grid.extent.size[0], rows = end[1] - begin[1], length = end[0] - begin[0];
     std::vector<T> sample_buffer;
     std::vector<Id> maximum_buffer;

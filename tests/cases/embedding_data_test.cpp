@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using isoatlas::Volume;
-using Start = std::array<std::int64_t, 3>;
+using Start = isoatlas::Index3;
 
 constexpr std::uint64_t kSeed = 20261123;
 constexpr std::int64_t kSide = 20;

@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size < 12) return 0;
-    const isoatlas::BoxSize box{data[1] % 16 + 1, data[2] % 8 + 1, data[3] % 8 + 1};
+    const isoatlas::Index3 box{data[1] % 16 + 1, data[2] % 8 + 1, data[3] % 8 + 1};
     isoatlas::visit_type(static_cast<isoatlas::ValueType>(data[0] % 8), [&]<class T>(T low) {
         std::memcpy(&low, data + 4, sizeof low);
         std::vector<T> samples(static_cast<std::size_t>(box[0] * box[1] * box[2]));

@@ -57,7 +57,7 @@ isoatlas::Volume to_volume(const Grid& grid, isoatlas::ValueType type) {
 }
 
 Grid to_grid(const isoatlas::Volume& volume) {
-    Grid grid{volume.info.extent.rank, volume.info.extent.size, {}};
+    Grid grid{volume.info.extent.rank, volume.info.extent.size.along, {}};
     for (Index v = 0; v < grid.voxels(); ++v) grid.value.push_back(volume.value(v));
     return grid;
 }

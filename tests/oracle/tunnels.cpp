@@ -23,8 +23,7 @@ int shape_of(const isoatlas::OpenTunnel& tunnel) {
 }
 
 template <class T>
-std::optional<isoatlas::OpenTunnel> tunnel_of_cell(const isoatlas::SampleGrid<T>& grid, const std::array<std::int64_t, 3>& cell,
-                                                   double tau) {
+std::optional<isoatlas::OpenTunnel> tunnel_of_cell(const isoatlas::SampleGrid<T>& grid, const isoatlas::Index3& cell, double tau) {
     int pattern = 0;
     for (int k = 0; k < 8; ++k) pattern |= int{static_cast<double>(grid.corner(cell, k)) >= tau} << k;
     if (pattern == 0 || pattern == 255) return std::nullopt;

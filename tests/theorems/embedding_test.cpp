@@ -116,7 +116,7 @@ std::vector<double> stages_of(const TunnelSample& tunnel) {
 
 /// A tunnel cell alone, or in the middle of noise.
 Volume around(const TunnelSample& tunnel, bool alone, std::mt19937_64& random) {
-    const Extent extent{3, alone ? std::array<std::int64_t, 3>{2, 2, 2} : std::array<std::int64_t, 3>{4, 4, 4}};
+    const Extent extent{3, alone ? isoatlas::Index3{2, 2, 2} : isoatlas::Index3{4, 4, 4}};
     std::vector<double> samples(static_cast<std::size_t>(extent.voxels()));
     for (double& sample : samples) sample = 2 * uniform(random) - 1;
     const int first = alone ? 0 : 1;

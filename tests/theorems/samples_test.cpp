@@ -29,7 +29,7 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveEveryStepthSampleOfABox, ()) {
     const Volume part = atlas.samples(box, step);
     for (int a = 0; a < 3; ++a) RC_ASSERT(part.info.extent.size[a] == (box.end[a] - box.begin[a] + step - 1) / step);
     for (Index i = 0; i < part.info.extent.voxels(); ++i) {
-        const std::array<Index, 3> at = part.info.extent.voxel(i);
+        const isoatlas::Index3 at = part.info.extent.voxel(i);
         const auto whole = [&](int a) { return box.begin[a] + step * at[a]; };
         RC_ASSERT(part.value(i) == volume.value(extent.index(whole(0), whole(1), whole(2))));
     }
@@ -47,7 +47,7 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheMeansOfCubes, ()) {
     RC_ASSERT(static_cast<Index>(coarse.mean.size()) == coarse.extent.voxels());
     if (coarse.step > 8) return;  // means of means: at the far ends of fewer samples
     for (Index i = 0; i < coarse.extent.voxels(); ++i) {
-        const std::array<Index, 3> at = coarse.extent.voxel(i);
+        const isoatlas::Index3 at = coarse.extent.voxel(i);
         double sum = 0, count = 0;
         for (Index v = 0; v < coarse.step * coarse.step * coarse.step; ++v) {
             std::array<Index, 3> sample{v % coarse.step, v / coarse.step % coarse.step, v / (coarse.step * coarse.step)};

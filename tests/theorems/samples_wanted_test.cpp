@@ -12,11 +12,11 @@ using isoatlas::SamplesWanted;
 using isoatlas::Volume;
 
 /// Does the cell that begins at a voxel have a value in one of the ranges?
-bool has_values(const Volume& volume, const std::array<Index, 3>& first, const SamplesWanted& wanted) {
+bool has_values(const Volume& volume, const isoatlas::Index3& first, const SamplesWanted& wanted) {
     const Extent& extent = volume.info.extent;
     double low = INFINITY, high = -INFINITY;
     for (int corner = 0; corner < 8; ++corner) {
-        std::array<Index, 3> at = first;
+        isoatlas::Index3 at = first;
         for (int a = 0; a < 3; ++a) at[a] = std::min(at[a] + (corner >> a & 1), extent.size[a] - 1);
         const double value = volume.value(extent.index(at[0], at[1], at[2]));
         low = std::min(low, value), high = std::max(high, value);
@@ -24,7 +24,7 @@ bool has_values(const Volume& volume, const std::array<Index, 3>& first, const S
     return std::any_of(wanted.values.begin(), wanted.values.end(), [&](const auto& range) { return high >= range[0] && low <= range[1]; });
 }
 
-bool inside(const isoatlas::SampleBox& box, const std::array<Index, 3>& at) {
+bool inside(const isoatlas::SampleBox& box, const isoatlas::Index3& at) {
     for (int a = 0; a < 3; ++a) {
         if (at[a] < box.begin[a] || at[a] >= box.end[a]) return false;
     }
@@ -64,7 +64,7 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheRequestedSamples, ()) {
     if (wanted.values.empty() && wanted.boxes.empty()) RC_ASSERT(cost.bricks == 0);
     std::vector<bool> needed(static_cast<std::size_t>(extent.voxels()));
     for (Index i = 0; i < extent.voxels(); ++i) {
-        const std::array<Index, 3> at = extent.voxel(i);
+        const isoatlas::Index3 at = extent.voxel(i);
         const bool shown = has_values(volume, at, wanted);
         RC_ASSERT(has_values(part, at, wanted) == shown);
         if (std::any_of(wanted.boxes.begin(), wanted.boxes.end(), [&](const auto& box) { return inside(box, at); })) needed[i] = true;

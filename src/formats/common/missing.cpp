@@ -163,7 +163,7 @@ void MissingScan::replace(VolumeInfo& info, std::span<std::byte> samples) const 
 }
 
 void MissingScan::report(std::int64_t index, double value, bool is_no_data) const {
-    const std::array<std::int64_t, 3> voxel = info_.extent.voxel(index);
+    const Index3 voxel = info_.extent.voxel(index);
     const std::string position = "(" + std::to_string(voxel[0]) + ", " + std::to_string(voxel[1]) + ", " + std::to_string(voxel[2]) + ")";
     const std::string shown = calibrated_ && !is_no_data ? "NaN, infinite or the no-data value" : text_of(value);
     throw Error(ErrorKind::input, {.file = info_.path,

@@ -18,7 +18,7 @@ namespace isoatlas {
 
 /// Points of a grid: low[a] to low[a] + size[a] - 1 along axis a.
 struct VtkExtent {
-    std::array<std::int64_t, 3> low{}, size{};
+    Index3 low{}, size{};
     /// Samples at the points, or in the cells between them; a single slice along z has rank 2 (VTK has no other notation).
     [[nodiscard]] Extent samples(bool cells) const;
 };

@@ -11,8 +11,7 @@ namespace {
 
 template <class T>
 void bits_are_those_of_samples(T low, T high) {
-    const std::array<std::int64_t, 3> size{*rc::gen::inRange<std::int64_t>(1, 17), *rc::gen::inRange<std::int64_t>(1, 9),
-                                           *rc::gen::inRange<std::int64_t>(1, 9)};
+    const Index3 size{*rc::gen::inRange<std::int64_t>(1, 17), *rc::gen::inRange<std::int64_t>(1, 9), *rc::gen::inRange<std::int64_t>(1, 9)};
     std::vector<T> samples(static_cast<std::size_t>(kBrickSamples));
     for (T& sample : samples) sample = *rc::gen::element(low, T{0}, T{1}, high);
     const T min = *rc::gen::element(low, T{0}, T{1}, high);
@@ -45,7 +44,7 @@ struct Scene {
     std::vector<bool> is_high;  ///< per voxel
 
     [[nodiscard]] bool at(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        const std::array<std::int64_t, 3>& size = grid.extent.size;
+        const Index3& size = grid.extent.size;
         const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
         return inside && is_high[static_cast<std::size_t>(grid.extent.index(x, y, z))];
     }
@@ -69,7 +68,7 @@ bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
     for (std::int64_t z = box.begin[2] - reach_z; z < box.end[2] + reach_z; ++z) {
         for (std::int64_t y = box.begin[1] - 2; y < box.end[1] + 2; ++y) {
             for (std::int64_t x = box.begin[0] - 2; x < box.end[0] + 2; ++x) {
-                const std::array<std::int64_t, 3> at{x, y, z};
+                const Index3 at{x, y, z};
                 std::int64_t steps = 0, furthest = 0;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const std::int64_t away = std::max<std::int64_t>({0, box.begin[axis] - at[axis], at[axis] - box.end[axis] + 1});

@@ -13,7 +13,7 @@ namespace {
 
 template <class T>
 struct Brick {
-    BoxSize size;
+    Index3 size;
     std::vector<T> samples;
 };
 
@@ -88,7 +88,7 @@ RC_GTEST_PROP(BrickCodec, EveryCodeGivesTheSameBits, ()) {
 
 template <class T>
 void decode_anything(std::span<const std::byte> bytes) {
-    BoxSize size;
+    Index3 size;
     for (std::int64_t& n : size) n = *rc::gen::inRange<std::int64_t>(1, 9);
     std::vector<T> samples(static_cast<std::size_t>(size[0] * size[1] * size[2]));
     (void)decode_brick<T>(bytes, size, T{1}, samples);

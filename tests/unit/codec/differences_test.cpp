@@ -11,7 +11,7 @@ namespace isoatlas {
 namespace {
 
 struct Boxed {
-    BoxSize size;
+    Index3 size;
     Orders orders;
     std::vector<std::uint8_t> numbers;
 };
@@ -26,7 +26,7 @@ Boxed arbitrary_box() {
 }
 
 /// The difference along the axes from `axis` on, by its definition.
-int difference(const Boxed& box, std::array<std::int64_t, 3> at, std::size_t axis) {
+int difference(const Boxed& box, Index3 at, std::size_t axis) {
     if (axis == 3) return box.numbers[static_cast<std::size_t>(at[0] + box.size[0] * (at[1] + box.size[1] * at[2]))];
     static constexpr std::array<std::array<int, 3>, 3> kWeights{{{1, 0, 0}, {1, -1, 0}, {1, -2, 1}}};
     const auto order = static_cast<std::size_t>(std::min<std::int64_t>(box.orders[axis], at[axis]));

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-using Field = std::function<double(const std::array<std::int64_t, 3>&)>;
+using Field = std::function<double(const Index3&)>;
 
 /// About normal: the sum of twelve uniform numbers.
 class Normal {
@@ -39,8 +39,8 @@ Volume volume_of(std::int64_t size, const Field& field, const std::function<doub
     return volume;
 }
 
-double boxes(const std::array<std::int64_t, 3>& p) { return 100.0 * static_cast<double>((p[0] / 12 + p[1] / 12 + p[2] / 12) % 5); }
-double slope(const std::array<std::int64_t, 3>& p) { return 4.0 * static_cast<double>(p[0]) + 3.0 * static_cast<double>(p[1]); }
+double boxes(const Index3& p) { return 100.0 * static_cast<double>((p[0] / 12 + p[1] / 12 + p[2] / 12) % 5); }
+double slope(const Index3& p) { return 4.0 * static_cast<double>(p[0]) + 3.0 * static_cast<double>(p[1]); }
 
 TEST(Noise, OfCleanBoxesIsNone) {
     const Volume volume = volume_of(48, boxes, [](double) { return 0; });

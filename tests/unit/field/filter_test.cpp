@@ -103,7 +103,7 @@ RC_GTEST_PROP(Crop, KeepsSamplesWhereTheyLieInSpace, ()) {
     const SampleBox box = arbitrary_box(volume.info.extent);
     const Volume part = isoatlas::crop(volume, box);
     for (Index v = 0; v < part.info.extent.voxels(); ++v) {
-        std::array<Index, 3> at = part.info.extent.voxel(v);
+        isoatlas::Index3 at = part.info.extent.voxel(v);
         const isoatlas::Vec3 here{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
         for (std::size_t a = 0; a < 3; ++a) at[a] += box.begin[a];
         const isoatlas::Vec3 there{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};

@@ -24,7 +24,7 @@ LevelBricks arbitrary_bricks() {
 std::set<BrickClass> classes_around(const LevelBricks& bricks, std::int64_t p, std::int64_t y, std::int64_t z) {
     std::set<BrickClass> classes;
     for (int k = 0; k < 8; ++k) {
-        const std::array<std::int64_t, 3> voxel{p - 1 + (k & 1), y + (k >> 1 & 1), z + (k >> 2)};
+        const Index3 voxel{p - 1 + (k & 1), y + (k >> 1 & 1), z + (k >> 2)};
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis) inside = inside && voxel[axis] >= 0 && voxel[axis] < bricks.grid.extent.size[axis];
         classes.insert(inside ? bricks.classes[bricks.grid.brick(BrickGrid::place_of(voxel))] : BrickClass::low);
@@ -34,7 +34,7 @@ std::set<BrickClass> classes_around(const LevelBricks& bricks, std::int64_t p, s
 
 RC_GTEST_PROP(CandidateWords, HoldAllCellsThatMayBeActive, ()) {
     const LevelBricks bricks = arbitrary_bricks();
-    const std::array<std::int64_t, 3>& size = bricks.grid.extent.size;
+    const Index3& size = bricks.grid.extent.size;
     const std::int64_t words = (size[0] + 2 + 63) / 64;
     const CandidateWords busy(bricks, words), all(words);
     for (std::int64_t z = -1; z < size[2]; z += *rc::gen::inRange(1, 9)) {

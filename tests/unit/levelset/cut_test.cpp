@@ -7,7 +7,7 @@
 namespace isoatlas {
 namespace {
 
-Volume volume_of(int rank, std::array<std::int64_t, 3> size, const std::vector<std::uint8_t>& samples) {
+Volume volume_of(int rank, Index3 size, const std::vector<std::uint8_t>& samples) {
     Extent extent;
     extent.rank = rank;
     extent.size = size;
@@ -44,10 +44,10 @@ TEST(Cut, AShellWithASeedInside) {
     EXPECT_EQ(shell.b1, 0);
     EXPECT_EQ(shell.b2, 1);
     EXPECT_EQ(shell.chi, 2);
-    EXPECT_EQ(shell.box_low, (std::array<std::int64_t, 3>{0, 0, 0}));
-    EXPECT_EQ(shell.box_high, (std::array<std::int64_t, 3>{4, 4, 4}));
+    EXPECT_EQ(shell.box_low, (Index3{0, 0, 0}));
+    EXPECT_EQ(shell.box_high, (Index3{4, 4, 4}));
     EXPECT_EQ(seed.id, extent.index(2, 2, 2));
-    EXPECT_EQ(seed.box_low, (std::array<std::int64_t, 3>{2, 2, 2}));
+    EXPECT_EQ(seed.box_low, (Index3{2, 2, 2}));
     EXPECT_EQ(seed.box_high, seed.box_low);
     EXPECT_EQ(seed.chi, 1);
     ASSERT_EQ(cut.contours.size(), 3U);

@@ -11,7 +11,7 @@ namespace isoatlas {
 namespace {
 
 template <class T, class Function>
-Volume field(std::array<std::int64_t, 3> size, Function&& value, int rank = 3) {
+Volume field(Index3 size, Function&& value, int rank = 3) {
     Extent extent;
     extent.rank = rank;
     extent.size = size;

@@ -190,7 +190,7 @@ TEST_F(ServiceTest, VolumesAreMeansInABytePerValue) {
 TEST_F(ServiceTest, WhatHoldsAVoxelIsWhatACutSays) {
     const auto entries = nlohmann::json::parse(ask("/api/atlas").bytes)["entries"];
     const ObjectEntry object = atlas_->objects().entries[0];
-    const std::array<std::int64_t, 3> at = atlas_->info().extent.voxel(object.id);
+    const Index3 at = atlas_->info().extent.voxel(object.id);
     const std::string voxel = std::to_string(at[0]) + "," + std::to_string(at[1]) + "," + std::to_string(at[2]);
     const std::string id = std::to_string(object.id), tau = nlohmann::json(object.best_tau).dump();
     const auto found = nlohmann::json::parse(

@@ -63,7 +63,7 @@ TEST_F(Store, IsReadAsItWasWritten) {
     EXPECT_EQ(disk_.count(), 1U);
     const Container store(path_);
     const VolumeInfo& volume = store.contents().volume;
-    EXPECT_EQ(volume.extent.size, (std::array<std::int64_t, 3>{3, 4, 5}));
+    EXPECT_EQ(volume.extent.size, (Index3{3, 4, 5}));
     EXPECT_EQ(volume.type, ValueType::i16);
     EXPECT_EQ(volume.geometry.spacing, (Vec3{0.5, 0.25, 2}));
     EXPECT_EQ(volume.geometry.unit, "mm");
