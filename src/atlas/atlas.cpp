@@ -200,7 +200,7 @@ Volume Atlas::volume(const SamplesWanted& wanted, const Context& context, QueryC
     volume.info = info();
     StoredSamples& samples = *data_->samples;
     LevelQuery spent;
-    const std::vector<std::uint8_t> bricks = bricks_in_view(samples.grid(), wanted, [&](std::int64_t b) { return samples.range(b); });
+    const BrickFlags bricks = bricks_in_view(samples.grid(), wanted, [&](BrickId b) { return samples.range(b); });
     samples.read_some(bricks, volume.bytes, context, spent);
     spent.visited = spent.samples;
     data_->count(spent, 0, cost);

@@ -132,7 +132,7 @@ struct StoreDump::Data {
         const BrickGrid grid(store.contents().volume.extent);
         const std::string name = "brick " + std::to_string(brick);
         if (brick < 0 || brick >= grid.count()) no_part(name, "there is no such brick", "0 to " + std::to_string(grid.count() - 1));
-        const Box box = grid.box(brick);
+        const Box box = grid.box(BrickId(brick));
         StorePart part;
         part.kind = StorePart::Kind::brick;
         part.name = name;
@@ -169,7 +169,7 @@ struct StoreDump::Data {
             }
             place[axis] = voxel / kBrickSize[axis];
         }
-        return brick_part(grid.brick(place));
+        return brick_part(grid.brick(place).number());
     }
 
     template <class T>
@@ -182,8 +182,8 @@ struct StoreDump::Data {
     [[nodiscard]] StoreNumbers read_brick(std::int64_t brick, std::int64_t first, std::int64_t end) const {
         return visit_type(store.contents().volume.type, [&]<class T>(T) {
             std::vector<T> samples;
-            BrickReader<T>(store).read(
-                {brick}, {}, [&](std::int64_t, std::span<const T> all) { samples.assign(all.begin() + first, all.begin() + end); });
+            BrickReader<T>(store).read({BrickId(brick)}, {},
+                                       [&](BrickId, std::span<const T> all) { samples.assign(all.begin() + first, all.begin() + end); });
             return widened(samples);
         });
     }

@@ -18,14 +18,14 @@ BrickCache::BrickCache(std::int64_t count, std::int64_t brick_bytes, VirtualArra
       budget_(budget),
       array_(array),
       mutex_(mutex),
-      users_(static_cast<std::size_t>(last_page(count) + 1)),
+      users_(static_cast<std::size_t>(last_page(BrickId(count)) + 1)),
       state_(static_cast<std::size_t>(count)) {}
 
-void BrickCache::add_pages(std::int64_t brick) {
+void BrickCache::add_pages(BrickId brick) {
     for (std::int64_t page = first_page(brick); page <= last_page(brick); ++page) pages_ += users_[static_cast<std::size_t>(page)]++ == 0;
 }
 
-void BrickCache::drop_pages(std::int64_t brick, PageRange& unused) {
+void BrickCache::drop_pages(BrickId brick, PageRange& unused) {
     for (std::int64_t page = first_page(brick); page <= last_page(brick); ++page) {
         if (--users_[static_cast<std::size_t>(page)] > 0) continue;
         --pages_;
@@ -43,13 +43,13 @@ void BrickCache::release(const PageRange& unused) {
                    static_cast<std::size_t>((unused.end - unused.begin) * page_bytes_));
 }
 
-std::vector<std::int64_t> BrickCache::admit(std::span<const std::int64_t> bricks, BrickLease& lease) {
-    std::vector<std::int64_t> missing;
+std::vector<BrickId> BrickCache::admit(std::span<const BrickId> bricks, BrickLease& lease) {
+    std::vector<BrickId> missing;
     lease.cache_ = this;
     lease.bricks_.insert(lease.bricks_.end(), bricks.begin(), bricks.end());
     ++now_;
-    for (const std::int64_t b : bricks) {
-        State& state = state_[static_cast<std::size_t>(b)];
+    for (const BrickId b : bricks) {
+        State& state = state_[b];
         state.used = now_;
         ++state.leases;
         if (state.present) continue;
@@ -60,36 +60,36 @@ std::vector<std::int64_t> BrickCache::admit(std::span<const std::int64_t> bricks
     return missing;
 }
 
-void BrickCache::settle(std::span<const std::int64_t> bricks) {
-    for (const std::int64_t b : bricks) state_[static_cast<std::size_t>(b)].present = true;
+void BrickCache::settle(std::span<const BrickId> bricks) {
+    for (const BrickId b : bricks) state_[b].present = true;
 }
 
-void BrickCache::abandon(std::span<const std::int64_t> bricks) {
+void BrickCache::abandon(std::span<const BrickId> bricks) {
     PageRange unused;
-    for (const std::int64_t b : bricks) drop_pages(b, unused);
+    for (const BrickId b : bricks) drop_pages(b, unused);
     release(unused);
 }
 
-void BrickCache::end(std::span<const std::int64_t> bricks) {
-    for (const std::int64_t b : bricks) --state_[static_cast<std::size_t>(b)].leases;
+void BrickCache::end(std::span<const BrickId> bricks) {
+    for (const BrickId b : bricks) --state_[b].leases;
     trim();
 }
 
 void BrickCache::trim() {
     if (budget_ <= 0 || bytes() <= budget_) return;
-    std::vector<std::int64_t> idle;
-    for (std::size_t b = 0; b < state_.size(); ++b) {
-        if (state_[b].present && state_[b].leases == 0) idle.push_back(static_cast<std::int64_t>(b));
+    std::vector<BrickId> idle;
+    for (const BrickId b : state_.ids()) {
+        if (state_[b].present && state_[b].leases == 0) idle.push_back(b);
     }
     // For equal age the last one first, because neighbours share pages.
-    std::sort(idle.begin(), idle.end(), [this](std::int64_t p, std::int64_t q) {
-        const std::uint64_t p_used = state_[static_cast<std::size_t>(p)].used, q_used = state_[static_cast<std::size_t>(q)].used;
+    std::sort(idle.begin(), idle.end(), [this](BrickId p, BrickId q) {
+        const std::uint64_t p_used = state_[p].used, q_used = state_[q].used;
         return p_used != q_used ? p_used < q_used : p > q;
     });
     PageRange unused;
-    for (const std::int64_t b : idle) {
+    for (const BrickId b : idle) {
         if (bytes() <= budget_) break;
-        state_[static_cast<std::size_t>(b)].present = false;
+        state_[b].present = false;
         drop_pages(b, unused);
     }
     release(unused);
@@ -97,10 +97,10 @@ void BrickCache::trim() {
 
 void BrickCache::clear() {
     PageRange unused;
-    for (std::size_t b = 0; b < state_.size(); ++b) {
+    for (const BrickId b : state_.ids()) {
         if (!state_[b].present || state_[b].leases > 0) continue;
         state_[b].present = false;
-        drop_pages(static_cast<std::int64_t>(b), unused);
+        drop_pages(b, unused);
     }
     release(unused);
 }

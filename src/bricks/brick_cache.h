@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/virtual_array.h"
+#include "field/brick_grid.h"
 
 namespace isoatlas {
 
@@ -27,7 +28,7 @@ public:
 private:
     friend class BrickCache;
     BrickCache* cache_ = nullptr;
-    std::vector<std::int64_t> bricks_;
+    std::vector<BrickId> bricks_;
 };
 
 /// Not thread safe except for the end of leases: the owner's mutex guards every call and is locked when a lease ends.
@@ -38,9 +39,9 @@ public:
 
     /// Allocates and leases bricks, and returns those that are not present: the caller fills them, then calls settle(), or abandon() on
     /// failure. Unleased bricks are evicted when the budget is exceeded; leased ones may exceed it.
-    [[nodiscard]] std::vector<std::int64_t> admit(std::span<const std::int64_t> bricks, BrickLease& lease);
-    void settle(std::span<const std::int64_t> bricks);
-    void abandon(std::span<const std::int64_t> bricks);
+    [[nodiscard]] std::vector<BrickId> admit(std::span<const BrickId> bricks, BrickLease& lease);
+    void settle(std::span<const BrickId> bricks);
+    void abandon(std::span<const BrickId> bricks);
 
     /// Evicts all unleased bricks.
     void clear();
@@ -54,17 +55,17 @@ private:
         std::uint32_t leases = 0;
         bool present = false;
     };
-    void end(std::span<const std::int64_t> bricks);
+    void end(std::span<const BrickId> bricks);
     /// Pages of a brick: first to last.
-    [[nodiscard]] std::int64_t first_page(std::int64_t brick) const { return brick * brick_bytes_ / page_bytes_; }
-    [[nodiscard]] std::int64_t last_page(std::int64_t brick) const { return ((brick + 1) * brick_bytes_ - 1) / page_bytes_; }
-    void add_pages(std::int64_t brick);
+    [[nodiscard]] std::int64_t first_page(BrickId brick) const { return brick.number() * brick_bytes_ / page_bytes_; }
+    [[nodiscard]] std::int64_t last_page(BrickId brick) const { return ((brick.number() + 1) * brick_bytes_ - 1) / page_bytes_; }
+    void add_pages(BrickId brick);
     /// A run of unused pages.
     struct PageRange {
         std::int64_t begin = 0, end = 0;
     };
     /// Adds the pages of a brick to `unused`, which is released when it is not contiguous with them.
-    void drop_pages(std::int64_t brick, PageRange& unused);
+    void drop_pages(BrickId brick, PageRange& unused);
     void release(const PageRange& unused);
     void trim();
 
@@ -72,7 +73,7 @@ private:
     VirtualArray& array_;
     std::mutex& mutex_;
     std::vector<std::uint16_t> users_;  ///< per page: number of present bricks on it
-    std::vector<State> state_;
+    IdArray<BrickId, State> state_;
     std::uint64_t now_ = 0;
     std::int64_t pages_ = 0;
 };

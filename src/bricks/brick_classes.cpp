@@ -43,20 +43,19 @@ std::uint16_t near_layers(std::size_t axis, std::int64_t d, int steps) {
 
 }  // namespace
 
-std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vector<BrickClass>& classes) {
+BrickFlags touching_others(const BrickGrid& grid, IdSpan<BrickId, const BrickClass> classes) {
     constexpr std::uint8_t kLow = 1, kHigh = 2;
-    std::vector<std::uint8_t> has(classes.size());
-    std::transform(classes.begin(), classes.end(), has.begin(), [](BrickClass own) {
-        return own == BrickClass::divided ? kLow | kHigh : own == BrickClass::high ? kHigh : kLow;
-    });
-    std::vector<std::uint8_t> touching = with_halo(grid, has, kLow);
-    for (std::size_t b = 0; b < touching.size(); ++b) touching[b] = classes[b] != BrickClass::divided && touching[b] != has[b];
+    BrickFlags has(classes.size());
+    for (const BrickId b : classes.ids())
+        has[b] = classes[b] == BrickClass::divided ? kLow | kHigh : classes[b] == BrickClass::high ? kHigh : kLow;
+    BrickFlags touching = with_halo(grid, has, kLow);
+    for (const BrickId b : touching.ids()) touching[b] = classes[b] != BrickClass::divided && touching[b] != has[b];
     return touching;
 }
 
-bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides, std::int64_t brick) {
+bool touches_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<BrickId, const BrickFaces> sides, BrickId brick) {
     const BrickGrid& grid = bricks.grid;
-    const BrickClass own = bricks.classes[static_cast<std::size_t>(brick)];
+    const BrickClass own = bricks.classes[brick];
     const Index3 place = grid.place(brick);
     const Box box = grid.box(brick);
     const auto is_beside = [&](const Index3& d) {
@@ -67,7 +66,7 @@ bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std:
             axes += d[axis] != 0;
             if (at[axis] < 0 || at[axis] >= grid.size[axis]) return own == BrickClass::high;  // outside is Low
         }
-        const auto other = static_cast<std::size_t>(grid.brick(at));
+        const BrickId other = grid.brick(at);
         if (bricks.classes[other] != BrickClass::divided) return bricks.classes[other] != own;
         const auto& layers = own == BrickClass::high ? sides[other].low : sides[other].high;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -87,21 +86,20 @@ bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std:
     return false;
 }
 
-std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides,
-                                         int threads) {
-    std::vector<std::uint8_t> wanted = touching_others(bricks.grid, bricks.classes);
-    for_bricks(bricks.grid, threads, [&](std::int64_t b) {
-        const auto i = static_cast<std::size_t>(b);
-        if (wanted[i]) wanted[i] = touches_surface(high, bricks, sides, b);
+std::vector<BrickId> beside_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<BrickId, const BrickFaces> sides, int threads) {
+    BrickFlags wanted = touching_others(bricks.grid, bricks.classes);
+    for_bricks(bricks.grid, threads, [&](BrickId b) {
+        if (wanted[b]) wanted[b] = touches_surface(high, bricks, sides, b);
     });
     return flagged(wanted);
 }
 
-std::vector<std::uint8_t> with_halo(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside) {
+BrickFlags with_halo(const BrickGrid& grid, BrickFlags of_bricks, std::uint8_t outside) {
+    BigVector<std::uint8_t>& flags = of_bricks.items();
     const std::size_t axes = grid.extent.rank == 2 ? 2 : 3;
     std::size_t stride = 1;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-        const std::vector<std::uint8_t> before = flags;
+        const BigVector<std::uint8_t> before = flags;
         const auto size = static_cast<std::size_t>(grid.size[axis]), line = stride * size;
         for (std::size_t first = 0; first < flags.size(); first += line) {
             const auto add = [&](std::size_t i, std::size_t from) { flags[first + i] |= before[first + from]; };
@@ -111,21 +109,20 @@ std::vector<std::uint8_t> with_halo(const BrickGrid& grid, std::vector<std::uint
         }
         stride = line;
     }
-    return flags;
+    return of_bricks;
 }
 
-std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags) {
-    std::vector<std::int64_t> list;
-    for (std::size_t b = 0; b < flags.size(); ++b) {
-        if (flags[b]) list.push_back(static_cast<std::int64_t>(b));
+std::vector<BrickId> flagged(IdSpan<BrickId, const std::uint8_t> flags) {
+    std::vector<BrickId> list;
+    for (const BrickId b : flags.ids()) {
+        if (flags[b]) list.push_back(b);
     }
     return list;
 }
 
-void for_bricks(const BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit) {
-    const std::int64_t layer = grid.size[0] * grid.size[1];
+void for_bricks(const BrickGrid& grid, int threads, const std::function<void(BrickId)>& visit) {
     for_each_block(threads, grid.size[2], [&](std::int64_t z) {
-        for (std::int64_t b = z * layer; b < (z + 1) * layer; ++b) visit(b);
+        for (const BrickId b : grid.bricks_of_layer(z)) visit(b);
     });
 }
 

@@ -17,22 +17,21 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 }
 
 /// Flags bricks that are entirely High or Low and adjacent to a brick of another class or, if High, at the border of the grid.
-[[nodiscard]] std::vector<std::uint8_t> touching_others(const BrickGrid& grid, const std::vector<BrickClass>& classes);
+[[nodiscard]] BrickFlags touching_others(const BrickGrid& grid, IdSpan<BrickId, const BrickClass> classes);
 
 /// Does the halo of a brick (bricks/brick_surroundings.h) contain samples of the other class? sides: of the divided bricks.
-[[nodiscard]] bool touches_surface(const HighBits& high, const LevelBricks& bricks, const std::vector<BrickFaces>& sides,
-                                   std::int64_t brick);
+[[nodiscard]] bool touches_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<BrickId, const BrickFaces> sides, BrickId brick);
 /// All such bricks.
-[[nodiscard]] std::vector<std::int64_t> beside_surface(const HighBits& high, const LevelBricks& bricks,
-                                                       const std::vector<BrickFaces>& sides, int threads);
+[[nodiscard]] std::vector<BrickId> beside_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<BrickId, const BrickFaces> sides,
+                                                  int threads);
 
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
-[[nodiscard]] std::vector<std::uint8_t> with_halo(const BrickGrid& grid, std::vector<std::uint8_t> flags, std::uint8_t outside = 0);
+[[nodiscard]] BrickFlags with_halo(const BrickGrid& grid, BrickFlags flags, std::uint8_t outside = 0);
 
-/// The indices of the flagged bricks.
-[[nodiscard]] std::vector<std::int64_t> flagged(const std::vector<std::uint8_t>& flags);
+/// The flagged bricks, in ascending order.
+[[nodiscard]] std::vector<BrickId> flagged(IdSpan<BrickId, const std::uint8_t> flags);
 
 /// Calls visit(brick) for all bricks, a layer at a time.
-void for_bricks(const BrickGrid& grid, int threads, const std::function<void(std::int64_t)>& visit);
+void for_bricks(const BrickGrid& grid, int threads, const std::function<void(BrickId)>& visit);
 
 }  // namespace isoatlas

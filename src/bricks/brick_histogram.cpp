@@ -43,8 +43,9 @@ private:
 template <class T>
 std::vector<std::int64_t> brick_histogram(const BrickReader<T>& bricks, std::span<const double> edges, const Context& context,
                                           IoCounters& counters) {
-    std::vector<std::int64_t> counts(edges.size() + 1), wanted;
-    for (std::int64_t b = 0; b < bricks.grid().count(); ++b) {
+    std::vector<std::int64_t> counts(edges.size() + 1);
+    std::vector<BrickId> wanted;
+    for (const BrickId b : bricks.grid().bricks()) {
         const std::size_t part = part_of(edges, static_cast<double>(bricks.low(b)));
         if (part == part_of(edges, static_cast<double>(bricks.high(b))))
             counts[part] += bricks.grid().box(b).count();
@@ -53,7 +54,7 @@ std::vector<std::int64_t> brick_histogram(const BrickReader<T>& bricks, std::spa
     }
     const PartOf<T> part(edges);
     std::mutex mutex;
-    counters += bricks.read(std::move(wanted), context, [&](std::int64_t, std::span<const T> samples) {
+    counters += bricks.read(std::move(wanted), context, [&](BrickId, std::span<const T> samples) {
         std::vector<std::int64_t> own(counts.size());
         for (const T sample : samples) ++own[part(sample)];
         const std::lock_guard lock(mutex);

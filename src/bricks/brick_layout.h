@@ -16,9 +16,9 @@ public:
 
     /// Size of the slot of a brick.
     [[nodiscard]] std::int64_t samples_of_brick() const { return kSlice * slices_; }
-    [[nodiscard]] std::int64_t first_sample(std::int64_t brick) const { return brick * samples_of_brick(); }
+    [[nodiscard]] std::int64_t first_sample(BrickId brick) const { return brick.number() * samples_of_brick(); }
     /// First sample of a row of a brick; y, z: in the brick.
-    [[nodiscard]] std::int64_t row(std::int64_t brick, std::int64_t y, std::int64_t z) const {
+    [[nodiscard]] std::int64_t row(BrickId brick, std::int64_t y, std::int64_t z) const {
         return first_sample(brick) + y * kBrickRow + z * kSlice;
     }
     /// The same positions by voxel coordinates.

@@ -14,8 +14,8 @@ struct BrickPart {
     explicit BrickPart(const BrickGrid& all) : BrickPart(all, {{0, 0, 0}, all.size}) {}
     BrickPart(const BrickGrid& all, const Box& bricks)
         : whole(all), first(bricks.begin), origin(all.box(all.brick(bricks.begin)).begin), grid(extent_of(all, bricks)) {}
-    /// Brick index in the whole grid.
-    [[nodiscard]] std::int64_t number(std::int64_t brick) const { return whole.brick(grid.place(brick) + first); }
+    /// Of a brick of the part: its number in the whole grid.
+    [[nodiscard]] BrickId number(BrickId brick) const { return whole.brick(grid.place(brick) + first); }
 
     /// Voxel index in the part of a voxel of the whole.
     [[nodiscard]] std::int64_t voxel(std::int64_t whole_voxel) const { return grid.extent.index(whole.extent.voxel(whole_voxel) - origin); }

@@ -1,7 +1,6 @@
 #include "bricks/brick_samples.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/check.h"
 #include "base/sample_types.h"
@@ -24,14 +23,14 @@ Box steps_in(const Box& brick, const Box& box, std::int64_t step) {
     return steps;
 }
 
-std::vector<std::int64_t> bricks_with_steps(const BrickGrid& grid, const Box& box, std::int64_t step) {
-    std::vector<std::int64_t> wanted;
+std::vector<BrickId> bricks_with_steps(const BrickGrid& grid, const Box& box, std::int64_t step) {
+    std::vector<BrickId> wanted;
     const Index3 first = BrickGrid::place_of(box.begin);
     const Index3 last = BrickGrid::place_of(box.end - 1);
     for (std::int64_t z = first[2]; z <= last[2]; ++z) {
         for (std::int64_t y = first[1]; y <= last[1]; ++y) {
             for (std::int64_t x = first[0]; x <= last[0]; ++x) {
-                const std::int64_t brick = grid.brick({x, y, z});
+                const BrickId brick = grid.brick({x, y, z});
                 if (steps_in(grid.box(brick), box, step).count() > 0) wanted.push_back(brick);
             }
         }
@@ -59,7 +58,7 @@ void read_samples(const BrickReader<T>& bricks, const Box& box, std::int64_t ste
                   IoCounters& counters) {
     const BrickGrid& grid = bricks.grid();
     const std::int64_t columns = steps_along(box.size(0), step), rows = steps_along(box.size(1), step);
-    counters += bricks.read(bricks_with_steps(grid, box, step), context, [&](std::int64_t brick, std::span<const T> samples) {
+    counters += bricks.read(bricks_with_steps(grid, box, step), context, [&](BrickId brick, std::span<const T> samples) {
         const Box own = grid.box(brick), steps = steps_in(own, box, step);
         const auto inside = [&](int axis, std::int64_t s) { return box.begin[axis] + s * step - own.begin[axis]; };
         for (std::int64_t z = steps.begin[2]; z < steps.end[2]; ++z) {
@@ -78,9 +77,9 @@ void read_means(const BrickReader<T>& bricks, std::int64_t step, std::int64_t la
     const BrickGrid& grid = bricks.grid();
     const Box whole{{0, 0, 0}, grid.extent.size};
     const std::int64_t columns = steps_along(grid.extent.size[0], step), rows = steps_along(grid.extent.size[1], step);
-    std::vector<std::int64_t> wanted(static_cast<std::size_t>(grid.size[0] * grid.size[1]));
-    std::iota(wanted.begin(), wanted.end(), grid.brick({0, 0, layer}));
-    counters += bricks.read(std::move(wanted), context, [&](std::int64_t brick, std::span<const T> samples) {
+    std::vector<BrickId> wanted;
+    for (const BrickId brick : grid.bricks_of_layer(layer)) wanted.push_back(brick);
+    counters += bricks.read(std::move(wanted), context, [&](BrickId brick, std::span<const T> samples) {
         const Box own = grid.box(brick), cubes = steps_in(own, whole, step);
         for (std::int64_t z = cubes.begin[2]; z < cubes.end[2]; ++z) {
             for (std::int64_t y = cubes.begin[1]; y < cubes.end[1]; ++y) {

@@ -8,7 +8,7 @@ namespace isoatlas {
 namespace {
 
 /// Value range of the cells of a brick: cells at its end have corners in the next bricks.
-std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, const std::vector<std::array<double, 2>>& ranges) {
+std::array<double, 2> range_of_cells(const BrickGrid& grid, BrickId brick, IdSpan<BrickId, const std::array<double, 2>> ranges) {
     const Index3 first = grid.place(brick);
     std::array<double, 2> all = ranges[brick];
     for (int corner = 1; corner < 8; ++corner) {
@@ -19,7 +19,7 @@ std::array<double, 2> range_of_cells(const BrickGrid& grid, std::int64_t brick, 
     return all;
 }
 
-void flag_box(const BrickGrid& grid, const SampleBox& box, std::vector<std::uint8_t>& flags) {
+void flag_box(const BrickGrid& grid, const SampleBox& box, BrickFlags& flags) {
     Index3 begin{}, end{};
     for (int a = 0; a < 3; ++a) {
         begin[a] = std::max<std::int64_t>(0, box.begin[a]) / kBrickSize[a];
@@ -34,13 +34,12 @@ void flag_box(const BrickGrid& grid, const SampleBox& box, std::vector<std::uint
 
 }  // namespace
 
-std::vector<std::uint8_t> bricks_in_view(const BrickGrid& grid, const SamplesWanted& wanted,
-                                         const std::function<std::array<double, 2>(std::int64_t)>& range) {
-    std::vector<std::uint8_t> flags(static_cast<std::size_t>(grid.count()));
+BrickFlags bricks_in_view(const BrickGrid& grid, const SamplesWanted& wanted, const std::function<std::array<double, 2>(BrickId)>& range) {
+    BrickFlags flags(static_cast<std::size_t>(grid.count()), 0);
     if (!wanted.values.empty()) {
-        std::vector<std::array<double, 2>> ranges(flags.size());
-        for (std::int64_t b = 0; b < grid.count(); ++b) ranges[b] = range(b);
-        for (std::int64_t b = 0; b < grid.count(); ++b) {
+        IdArray<BrickId, std::array<double, 2>> ranges(flags.size());
+        for (const BrickId b : grid.bricks()) ranges[b] = range(b);
+        for (const BrickId b : grid.bricks()) {
             const std::array<double, 2> cells = range_of_cells(grid, b, ranges);
             flags[b] = std::any_of(wanted.values.begin(), wanted.values.end(),
                                    [&](const std::array<double, 2>& values) { return cells[1] >= values[0] && cells[0] <= values[1]; });

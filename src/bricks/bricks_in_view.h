@@ -12,7 +12,7 @@ namespace isoatlas {
 
 /// Flags of the bricks with wanted samples. range: lowest and highest sample of a brick.
 /// Cost: O(bricks * ranges).
-[[nodiscard]] std::vector<std::uint8_t> bricks_in_view(const BrickGrid& grid, const SamplesWanted& wanted,
-                                                       const std::function<std::array<double, 2>(std::int64_t)>& range);
+[[nodiscard]] BrickFlags bricks_in_view(const BrickGrid& grid, const SamplesWanted& wanted,
+                                        const std::function<std::array<double, 2>(BrickId)>& range);
 
 }  // namespace isoatlas

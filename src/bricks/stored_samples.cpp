@@ -26,7 +26,7 @@ public:
           bricks_(store),
           grid_(bricks_.grid()),
           layout_(grid_),
-          array_(static_cast<std::size_t>(layout_.first_sample(grid_.count())) * sizeof(T)),
+          array_(static_cast<std::size_t>(layout_.samples_of_brick() * grid_.count()) * sizeof(T)),
           cache_(grid_.count(), layout_.samples_of_brick() * static_cast<std::int64_t>(sizeof(T)), array_, cache_bytes, mutex_) {}
 
     [[nodiscard]] SampleView view() const override { return {info_, array_.data(), layout_.by_voxel()}; }
@@ -45,8 +45,8 @@ public:
         const std::optional<double> before = std::exchange(kept.tau, tau);
         if (!kept.level) {
             Classified all = classify_part(BrickPart(grid_), threshold, context, query);
-            kept.beside.assign(all.level.bricks.classes.size(), 0);
-            for (const std::int64_t b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
+            kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
+            for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
             kept.level = std::move(all.level);
             kept.sides = std::move(all.sides);
             return grid_.count();
@@ -55,15 +55,15 @@ public:
         bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
         high.set_candidates(bricks);
         hold(divided_bricks(BrickPart(grid_), bricks), context, query);
-        const std::vector<std::uint8_t> changed = bricks_between(threshold_for<T>(*before), threshold);
+        const BrickFlags changed = bricks_between(threshold_for<T>(*before), threshold);
         refill(changed, bricks.classes, threshold.min, context.threads, kept);
-        const std::vector<std::uint8_t> near = with_halo(grid_, changed);
-        const std::vector<std::uint8_t> touching = touching_others(grid_, bricks.classes);
-        for_bricks(grid_, context.threads, [&](std::int64_t b) {
+        const BrickFlags near = with_halo(grid_, changed);
+        const BrickFlags touching = touching_others(grid_, bricks.classes);
+        for_bricks(grid_, context.threads, [&](BrickId b) {
             if (near[b]) kept.beside[b] = touching[b] && touches_surface(high, bricks, kept.sides, b);
         });
         hold(flagged(kept.beside), context, query);
-        return std::count(changed.begin(), changed.end(), std::uint8_t{1});
+        return std::ranges::count(changed.items(), std::uint8_t{1});
     }
 
     void add_extremes(LevelBricks& bricks, const Context& context) const override {
@@ -82,7 +82,7 @@ public:
         result.info.extent = part.grid.extent;
         add_extremes(part, 1, result.level.bricks);
         result.samples.resize(static_cast<std::size_t>(part.grid.extent.voxels()) * sizeof(T));
-        for (const std::int64_t b : classified.needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
+        for (const BrickId b : classified.needed) copy_brick(b, part, reinterpret_cast<T*>(result.samples.data()));
         query += own;
         query.visited += own.visited;
         return result;
@@ -90,7 +90,7 @@ public:
 
     [[nodiscard]] Foreseen foresee(double tau) const override {
         const LevelBricks bricks = bricks_of(BrickPart(grid_), threshold_for<T>(tau), 1);
-        const std::vector<std::int64_t> beside = flagged(touching_others(grid_, bricks.classes));
+        const std::vector<BrickId> beside = flagged(touching_others(grid_, bricks.classes));
         const IoCounters min = bricks_.cost_of(divided_bricks(BrickPart(grid_), bricks));
         Foreseen foreseen{min, min};
         foreseen.max += bricks_.max_of_part(beside);
@@ -98,12 +98,12 @@ public:
     }
 
     [[nodiscard]] std::array<double, 2> range() const override {
-        T low = bricks_.low(0), high = bricks_.high(0);
-        for (std::int64_t b = 1; b < grid_.count(); ++b) low = std::min(low, bricks_.low(b)), high = std::max(high, bricks_.high(b));
+        T low = bricks_.low(BrickId(0)), high = bricks_.high(BrickId(0));
+        for (const BrickId b : grid_.bricks()) low = std::min(low, bricks_.low(b)), high = std::max(high, bricks_.high(b));
         return {static_cast<double>(low), static_cast<double>(high)};
     }
 
-    [[nodiscard]] std::array<double, 2> range(std::int64_t brick) const override {
+    [[nodiscard]] std::array<double, 2> range(BrickId brick) const override {
         return {static_cast<double>(bricks_.low(brick)), static_cast<double>(bricks_.high(brick))};
     }
 
@@ -122,16 +122,13 @@ public:
         counters += bricks_.read_all(std::span<T>(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T)), context);
     }
 
-    void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
+    void read_some(IdSpan<BrickId, const std::uint8_t> bricks, std::span<std::byte> out, const Context& context,
+                   IoCounters& counters) override {
         T* whole = reinterpret_cast<T*>(out.data());
-        std::vector<std::int64_t> wanted;
-        for (std::int64_t b = 0; b < grid_.count(); ++b) {
-            if (bricks[b] != 0) wanted.push_back(b);
-        }
-        for_bricks(grid_, context.threads, [&](std::int64_t b) {
+        for_bricks(grid_, context.threads, [&](BrickId b) {
             if (bricks[b] == 0) fill_with(bricks_.low(b), grid_.box(b), whole);
         });
-        counters += bricks_.read_into(whole, std::move(wanted), context);
+        counters += bricks_.read_into(whole, flagged(bricks), context);
     }
 
     void read_box(const Box& box, std::int64_t step, std::span<std::byte> out, const Context& context, IoCounters& counters) override {
@@ -162,7 +159,7 @@ private:
     [[nodiscard]] T* samples() { return reinterpret_cast<T*>(array_.data()); }
 
     /// Decodes the samples of a brick into its slot.
-    void place(std::int64_t brick, std::span<const T> values) {
+    void place(BrickId brick, std::span<const T> values) {
         if (static_cast<std::int64_t>(values.size()) == layout_.samples_of_brick()) {
             std::copy(values.begin(), values.end(), samples() + layout_.first_sample(brick));
             return;
@@ -180,27 +177,27 @@ private:
     }
 
     /// For bricks in ascending order; adjacent ones are merged into one call.
-    void take_memory(const std::vector<std::int64_t>& bricks, int threads) {
+    void take_memory(const std::vector<BrickId>& bricks, int threads) {
         constexpr std::int64_t kTogether = 1024;
         const auto count = static_cast<std::int64_t>(bricks.size());
         for_each_block(threads, (count + kTogether - 1) / kTogether, [&](std::int64_t block) {
             const std::int64_t end = std::min((block + 1) * kTogether, count);
             for (std::int64_t i = block * kTogether; i < end;) {
                 std::int64_t next = i + 1;
-                while (next < end && bricks[next] == bricks[next - 1] + 1) ++next;
+                while (next < end && bricks[next] == bricks[next - 1].next()) ++next;
                 array_.commit(static_cast<std::size_t>(layout_.first_sample(bricks[i])) * sizeof(T),
-                              static_cast<std::size_t>(layout_.first_sample(next - i)) * sizeof(T));
+                              static_cast<std::size_t>(layout_.samples_of_brick() * (next - i)) * sizeof(T));
                 i = next;
             }
         });
     }
 
     /// Loads bricks and leases them to the query.
-    void load(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
-        const std::vector<std::int64_t> missing = cache_.admit(wanted, query.held);
+    void load(const std::vector<BrickId>& wanted, const Context& context, LevelQuery& query) {
+        const std::vector<BrickId> missing = cache_.admit(wanted, query.held);
         try {
             take_memory(missing, context.threads);
-            query += bricks_.read(missing, context, [this](std::int64_t brick, std::span<const T> values) { place(brick, values); });
+            query += bricks_.read(missing, context, [this](BrickId brick, std::span<const T> values) { place(brick, values); });
         } catch (...) {
             cache_.abandon(missing);
             throw;
@@ -208,60 +205,60 @@ private:
         cache_.settle(missing);
     }
     /// The same, and counts them as read by the query.
-    void hold(const std::vector<std::int64_t>& wanted, const Context& context, LevelQuery& query) {
+    void hold(const std::vector<BrickId>& wanted, const Context& context, LevelQuery& query) {
         load(wanted, context, query);
-        for (const std::int64_t b : wanted) query.visited += grid_.box(b).count();
+        for (const BrickId b : wanted) query.visited += grid_.box(b).count();
     }
 
-    [[nodiscard]] BrickClass class_of(std::int64_t brick, const Threshold<T>& threshold) const {
+    [[nodiscard]] BrickClass class_of(BrickId brick, const Threshold<T>& threshold) const {
         if (threshold.none_high || bricks_.high(brick) < threshold.min) return BrickClass::low;
         return bricks_.low(brick) >= threshold.min ? BrickClass::high : BrickClass::divided;
     }
 
     struct Classified {
         StoredLevel level;
-        std::vector<BrickFaces> sides;     ///< of the divided bricks
-        std::vector<std::int64_t> needed;  ///< bricks whose samples a surface with normals needs; they are present
+        IdArray<BrickId, BrickFaces> sides;  ///< of the divided bricks
+        std::vector<BrickId> needed;         ///< bricks whose samples a surface with normals needs; they are present
     };
 
     Classified classify_part(const BrickPart& part, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
         LevelBricks around = bricks_of(part, threshold, context.threads);
         HighBits bits(around);
-        Classified result{{std::move(bits), std::move(around)}, std::vector<BrickFaces>(static_cast<std::size_t>(part.grid.count())), {}};
+        Classified result{
+            {std::move(bits), std::move(around)}, IdArray<BrickId, BrickFaces>(static_cast<std::size_t>(part.grid.count())), {}};
         auto& [high, bricks] = result.level;
         result.needed = divided_bricks(part, bricks);
         hold(result.needed, context, query);
         fill(high, part, bricks.classes, threshold.min, context.threads, result.sides);
-        std::vector<std::int64_t> beside = beside_surface(high, bricks, result.sides, context.threads);
-        for (std::int64_t& b : beside) b = part.number(b);
+        std::vector<BrickId> beside = beside_surface(high, bricks, result.sides, context.threads);
+        for (BrickId& b : beside) b = part.number(b);
         hold(beside, context, query);
         result.needed.insert(result.needed.end(), beside.begin(), beside.end());
         return result;
     }
 
     /// Indices in the whole grid.
-    static std::vector<std::int64_t> divided_bricks(const BrickPart& part, const LevelBricks& bricks) {
-        std::vector<std::int64_t> divided;
-        for (std::int64_t b = 0; b < part.grid.count(); ++b) {
+    static std::vector<BrickId> divided_bricks(const BrickPart& part, const LevelBricks& bricks) {
+        std::vector<BrickId> divided;
+        for (const BrickId b : part.grid.bricks()) {
             if (bricks.classes[b] == BrickClass::divided) divided.push_back(part.number(b));
         }
         return divided;
     }
 
     /// Bricks with a sample whose class differs between two isovalues.
-    [[nodiscard]] std::vector<std::uint8_t> bricks_between(Threshold<T> low, Threshold<T> high) const {
+    [[nodiscard]] BrickFlags bricks_between(Threshold<T> low, Threshold<T> high) const {
         if (low.none_high || (!high.none_high && high.min < low.min)) std::swap(low, high);
-        std::vector<std::uint8_t> between(static_cast<std::size_t>(grid_.count()));
+        BrickFlags between(static_cast<std::size_t>(grid_.count()), 0);
         if (low.none_high || (!high.none_high && low.min == high.min)) return between;
-        for (std::int64_t b = 0; b < grid_.count(); ++b)
-            between[b] = bricks_.high(b) >= low.min && (high.none_high || bricks_.low(b) < high.min);
+        for (const BrickId b : grid_.bricks()) between[b] = bricks_.high(b) >= low.min && (high.none_high || bricks_.low(b) < high.min);
         return between;
     }
 
-    void refill(const std::vector<std::uint8_t>& changed, const std::vector<BrickClass>& classes, T min, int threads, KeptLevel& kept) {
+    void refill(const BrickFlags& changed, IdSpan<BrickId, const BrickClass> classes, T min, int threads, KeptLevel& kept) {
         HighBits& high = kept.level->high;
         for_each_block(threads, grid_.size[1] * grid_.size[2], [&](std::int64_t row_of_bricks) {
-            for (std::int64_t b = row_of_bricks * grid_.size[0]; b < (row_of_bricks + 1) * grid_.size[0]; ++b) {
+            for (const BrickId b : grid_.bricks_of_row(row_of_bricks)) {
                 if (!changed[b]) continue;
                 const Box box = grid_.box(b);
                 if (classes[b] == BrickClass::divided)
@@ -279,15 +276,15 @@ private:
 
     /// Classification by the ranges of the bricks alone.
     [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold, int threads) const {
-        LevelBricks bricks{part.grid, std::vector<BrickClass>(static_cast<std::size_t>(part.grid.count())), {}, {}};
-        for_bricks(part.grid, threads, [&](std::int64_t b) { bricks.classes[b] = class_of(part.number(b), threshold); });
+        LevelBricks bricks{part.grid, IdArray<BrickId, BrickClass>(static_cast<std::size_t>(part.grid.count())), {}, {}};
+        for_bricks(part.grid, threads, [&](BrickId b) { bricks.classes[b] = class_of(part.number(b), threshold); });
         return bricks;
     }
     void add_extremes(const BrickPart& part, int threads, LevelBricks& bricks) const {
-        bricks.highest.resize(bricks.classes.size());
-        bricks.lowest.resize(bricks.classes.size());
-        for_bricks(part.grid, threads, [&](std::int64_t b) {
-            const std::int64_t brick = part.number(b);
+        bricks.highest.items().resize(bricks.classes.size());
+        bricks.lowest.items().resize(bricks.classes.size());
+        for_bricks(part.grid, threads, [&](BrickId b) {
+            const BrickId brick = part.number(b);
             if (bricks.classes[b] != BrickClass::low)
                 bricks.highest[b] = {part.voxel(bricks_.highest_voxel(brick)), static_cast<double>(bricks_.high(brick))};
             if (bricks.classes[b] != BrickClass::high)
@@ -302,7 +299,7 @@ private:
         }
     }
 
-    void copy_brick(std::int64_t brick, const BrickPart& part, T* to) {
+    void copy_brick(BrickId brick, const BrickPart& part, T* to) {
         const Box box = grid_.box(brick);
         const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
@@ -313,23 +310,24 @@ private:
         }
     }
 
-    void fill(HighBits& high, const BrickPart& part, const std::vector<BrickClass>& classes, T min, int threads,
-              std::vector<BrickFaces>& sides) {
+    void fill(HighBits& high, const BrickPart& part, IdSpan<BrickId, const BrickClass> classes, T min, int threads,
+              IdSpan<BrickId, BrickFaces> sides) {
         const BrickGrid& grid = part.grid;
         for_each_block(threads, grid.size[1] * grid.size[2], [&](std::int64_t row_of_bricks) {
-            const std::int64_t first = row_of_bricks * grid.size[0];
-            const Box box = grid.box(first);
+            const auto brick = [&](std::int64_t i) { return BrickId(row_of_bricks * grid.size[0] + i); };
+            const Box box = grid.box(brick(0));
             std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-                if (classes[first + i] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones(grid, i));
+                if (classes[brick(i)] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones(grid, i));
             }
             for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
                 for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) std::copy(whole.begin(), whole.end(), high.row(y, z));
             }
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-                if (classes[first + i] != BrickClass::divided) continue;
-                if (i + 1 < grid.size[0] && classes[first + i + 1] == BrickClass::divided) prefetch_brick(part.number(first + i + 1));
-                sides[first + i] = fill_brick(high, grid.box(first + i), part.number(first + i), min);
+                const BrickId b = brick(i);
+                if (classes[b] != BrickClass::divided) continue;
+                if (i + 1 < grid.size[0] && classes[b.next()] == BrickClass::divided) prefetch_brick(part.number(b.next()));
+                sides[b] = fill_brick(high, grid.box(b), part.number(b), min);
             }
         });
     }
@@ -339,13 +337,13 @@ private:
         return 0xffff >> (kBrickRow - std::min(kBrickRow, grid.extent.size[0] - i * kBrickRow));
     }
 
-    void prefetch_brick(std::int64_t brick) {
+    void prefetch_brick(BrickId brick) {
         constexpr std::int64_t kLine = 64 / static_cast<std::int64_t>(sizeof(T));
         const T* const place = samples() + layout_.first_sample(brick);
         for (std::int64_t i = 0; i < layout_.samples_of_brick(); i += kLine) prefetch(place + i);
     }
     /// box: of the brick in the part that `high` belongs to.
-    BrickFaces fill_brick(HighBits& high, const Box& box, std::int64_t brick, T min) {
+    BrickFaces fill_brick(HighBits& high, const Box& box, BrickId brick, T min) {
         const BrickBits bits = bits_of_brick(samples() + layout_.first_sample(brick), box.size(), min);
         put_brick(bits, box, high);
         return sides_of(bits, box.size());

@@ -40,8 +40,8 @@ struct StoredWindow {
 struct KeptLevel {
     std::optional<StoredLevel> level{};  ///< none yet
     std::optional<double> tau{};
-    std::vector<std::uint8_t> beside{};  ///< per brick: not divided, but its samples are needed
-    std::vector<BrickFaces> sides{};     ///< of the divided bricks
+    BrickFlags beside{};                   ///< not divided, but its samples are needed
+    IdArray<BrickId, BrickFaces> sides{};  ///< of the divided bricks
 };
 
 /// A running query: its cost and its leased bricks.
@@ -77,13 +77,13 @@ public:
     /// Lowest and highest sample; reads nothing.
     [[nodiscard]] virtual std::array<double, 2> range() const = 0;
     /// The same of a brick.
-    [[nodiscard]] virtual std::array<double, 2> range(std::int64_t brick) const = 0;
+    [[nodiscard]] virtual std::array<double, 2> range(BrickId brick) const = 0;
     /// Any sample; reads its brick when it is not present.
     [[nodiscard]] virtual double sample(std::int64_t voxel, IoCounters& counters) = 0;
     /// All samples, x fastest.
     virtual void read_all(std::span<std::byte> samples, const Context& context, IoCounters& counters) = 0;
     /// All samples of the flagged bricks; all others are the lowest sample of their brick.
-    virtual void read_some(std::span<const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
+    virtual void read_some(IdSpan<BrickId, const std::uint8_t> bricks, std::span<std::byte> samples, const Context& context,
                            IoCounters& counters) = 0;
     /// bricks/brick_samples.h; out: samples of the type of the store.
     virtual void read_box(const Box& box, std::int64_t step, std::span<std::byte> out, const Context& context, IoCounters& counters) = 0;

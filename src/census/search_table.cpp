@@ -87,8 +87,9 @@ BrickCounts count_bricks(const Volume& volume, std::span<const double> isovalues
     const BrickGrid grid(volume.info.extent);
     IntervalCounts loaded(isovalues), read(isovalues);
     for_each_slab(context, kSearchPhases["active cells"], {grid.size[2], grid.size[0] * grid.size[1]}, [&](const Slab& slab) {
-        const std::int64_t layer = grid.size[0] * grid.size[1];
-        for (std::int64_t b = slab.z_begin * layer; b < slab.z_end * layer; ++b) count_brick(volume, grid.box(b), loaded, read);
+        for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
+            for (const BrickId b : grid.bricks_of_layer(z)) count_brick(volume, grid.box(b), loaded, read);
+        }
     });
     return {loaded.counts(), read.counts()};
 }

@@ -19,7 +19,7 @@ bool comes_before(const Index3& p, const Index3& q) {
 
 }  // namespace
 
-Box BrickGrid::box(std::int64_t brick) const {
+Box BrickGrid::box(BrickId brick) const {
     const Index3 at = place(brick);
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -29,10 +29,11 @@ Box BrickGrid::box(std::int64_t brick) const {
     return box;
 }
 
-std::vector<std::int64_t> BrickGrid::file_order() const {
-    std::vector<std::int64_t> order(static_cast<std::size_t>(count()));
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
-    std::sort(order.begin(), order.end(), [this](std::int64_t p, std::int64_t q) { return comes_before(place(p), place(q)); });
+std::vector<BrickId> BrickGrid::file_order() const {
+    std::vector<BrickId> order;
+    order.reserve(static_cast<std::size_t>(count()));
+    for (const BrickId brick : bricks()) order.push_back(brick);
+    std::sort(order.begin(), order.end(), [this](BrickId p, BrickId q) { return comes_before(place(p), place(q)); });
     return order;
 }
 

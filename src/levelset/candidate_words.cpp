@@ -20,7 +20,8 @@ std::vector<BrickClass> classes_of_words(const LevelBricks& bricks, std::int64_t
         const auto class_at = [&](std::int64_t x) {
             if (x < 0 || x >= size[0]) return BrickClass::low;
             const bool ends_early = (x + 1) * kBrickRow > bricks.grid.extent.size[0];  // the outside begins before the end of a full brick
-            return ends_early ? both(bricks.classes[x + size[0] * row], BrickClass::low) : bricks.classes[x + size[0] * row];
+            const BrickClass own = bricks.classes[BrickId(x + size[0] * row)];
+            return ends_early ? both(own, BrickClass::low) : own;
         };
         for (std::int64_t w = 0; w < words; ++w) {  // positions 64 w to 64 w + 64, and position p is voxel p - 1
             BrickClass word = class_at(kBricksOfWord * w - 1);

@@ -78,11 +78,11 @@ private:
             offer(high, components_.of_run[run], extremum);
         };
         divided_.assign(static_cast<std::size_t>(bricks_->grid.size[1] * bricks_->grid.size[2]), {kNone, kNone});
-        for (std::size_t b = 0; b < bricks_->classes.size(); ++b) {
+        for (const BrickId b : bricks_->classes.ids()) {
             if (bricks_->classes[b] != BrickClass::low) take(true, bricks_->highest[b]);
             if (bricks_->classes[b] != BrickClass::high) take(false, bricks_->lowest[b]);
             if (bricks_->classes[b] != BrickClass::divided) continue;
-            auto& [high, low] = divided_[b / static_cast<std::size_t>(bricks_->grid.size[0])];
+            auto& [high, low] = divided_[b.index() / static_cast<std::size_t>(bricks_->grid.size[0])];
             if (beats(true, bricks_->highest[b], high)) high = bricks_->highest[b];
             if (beats(false, bricks_->lowest[b], low)) low = bricks_->lowest[b];
         }
@@ -98,7 +98,7 @@ private:
         Extremum found = kNone;
         if (!beats(high, high ? row_high : row_low, known)) return found;
         for (std::int64_t x = begin; x < end;) {
-            const std::int64_t b = x / kBrickRow + bricks_->grid.size[0] * row_of_bricks;
+            const BrickId b(x / kBrickRow + bricks_->grid.size[0] * row_of_bricks);
             const std::int64_t next = std::min(end, (x / kBrickRow + 1) * kBrickRow);
             if (bricks_->classes[b] == BrickClass::divided && beats(high, high ? bricks_->highest[b] : bricks_->lowest[b], known)) {
                 const Extremum here = extreme_of_stretch(x, next, high, y, z);

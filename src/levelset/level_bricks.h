@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "field/brick_grid.h"
 
@@ -19,10 +18,10 @@ struct Extremum {
 };
 
 struct LevelBricks {
-    BrickGrid grid;                         ///< of the volume, or of the window of the query
-    std::vector<BrickClass> classes;        ///< per brick
-    std::vector<Extremum> highest, lowest;  ///< per brick: of one that has a High, of one that has a Low; voxels are those of the grid.
-                                            ///< Empty where no representatives are needed
+    BrickGrid grid;  ///< of the volume, or of the window of the query
+    IdArray<BrickId, BrickClass> classes;
+    IdArray<BrickId, Extremum> highest, lowest;  ///< of one that has a High, of one that has a Low; voxels are those of the grid.
+                                                 ///< Empty where no representatives are needed
 };
 
 }  // namespace isoatlas

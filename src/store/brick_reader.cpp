@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <numeric>
 
 #include "base/cancel.h"
 #include "base/check.h"
@@ -25,9 +24,9 @@ constexpr std::size_t kExpectedReads = 512;
 constexpr std::int64_t kExpectedBytes = 16 << 20;
 constexpr std::int64_t kExpectedGap = 16 << 10;  ///< max gap between two reads that are merged into one request
 
-[[noreturn]] void damaged(const Container& store, std::int64_t brick, const char* what) {
+[[noreturn]] void damaged(const Container& store, BrickId brick, const char* what) {
     throw Error(ErrorKind::input, {.file = store.path(),
-                                   .where = "brick " + std::to_string(brick),
+                                   .where = "brick " + std::to_string(brick.number()),
                                    .what = what,
                                    .next = "the store is damaged: build it again from the volume"});
 }
@@ -51,22 +50,23 @@ BrickReader<T>::BrickReader(const Container& store)
     const auto count = static_cast<std::size_t>(grid_.count());
     if (offset_.size() != count || sums_.size() != count || bytes_.size() != count || low_.size() != count || high_.size() != count ||
         lowest_.size() != count || highest_.size() != count)
-        damaged(store, 0, "the numbers of bricks do not agree");
+        damaged(store, BrickId(0), "the numbers of bricks do not agree");
     const auto bytes = static_cast<std::uint64_t>(data_.bytes());
-    for (std::size_t i = 0; i < count; ++i) {
-        if (offset_[i] > bytes || bytes_[i] > bytes - offset_[i]) damaged(store, static_cast<std::int64_t>(i), "it lies outside the data");
+    for (const BrickId brick : grid_.bricks()) {
+        const std::size_t i = brick.index();
+        if (offset_[i] > bytes || bytes_[i] > bytes - offset_[i]) damaged(store, brick, "it lies outside the data");
     }
     check_places();
 }
 
 template <class T>
 void BrickReader<T>::check_places() const {
-    std::int64_t brick = 0;
+    BrickId brick(0);
     for (std::int64_t z = 0; z < grid_.size[2]; ++z) {
         for (std::int64_t y = 0; y < grid_.size[1]; ++y) {
             const std::int64_t rows = grid_.length(1, y) * grid_.length(2, z);
             for (std::int64_t x = 0; x < grid_.size[0]; ++x, ++brick) {
-                const auto i = static_cast<std::size_t>(brick);
+                const std::size_t i = brick.index();
                 if (std::max(lowest_[i], highest_[i]) >= rows * grid_.length(0, x)) damaged(store_, brick, "its extremes lie outside");
             }
         }
@@ -74,16 +74,16 @@ void BrickReader<T>::check_places() const {
 }
 
 template <class T>
-std::int64_t BrickReader<T>::voxel_at(std::int64_t brick, std::int64_t place) const {
+std::int64_t BrickReader<T>::voxel_at(BrickId brick, std::int64_t place) const {
     const Box box = grid_.box(brick);
     return grid_.extent.index(box.begin + isoatlas::Extent{3, box.size()}.voxel(place));
 }
 
 template <class T>
-auto BrickReader<T>::extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const -> std::vector<Extent> {
+auto BrickReader<T>::extents_of(std::span<const BrickId> bricks, std::int64_t longest) const -> std::vector<Extent> {
     std::vector<Extent> extents;
     for (std::size_t i = 0; i < bricks.size(); ++i) {
-        const auto begin = static_cast<std::int64_t>(offset_[static_cast<std::size_t>(bricks[i])]), end = begin + bytes_of(bricks[i]);
+        const auto begin = static_cast<std::int64_t>(offset_[bricks[i].index()]), end = begin + bytes_of(bricks[i]);
         if (!extents.empty() && begin - extents.back().end <= kGap && end - extents.back().begin <= longest) {
             extents.back().last = i + 1;
             extents.back().end = std::max(extents.back().end, end);
@@ -95,9 +95,9 @@ auto BrickReader<T>::extents_of(std::span<const std::int64_t> bricks, std::int64
 }
 
 template <class T>
-void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packed,
-                            const std::function<void(std::int64_t, std::span<const T>)>& sink) const {
-    const auto i = static_cast<std::size_t>(brick);
+void BrickReader<T>::decode(BrickId brick, std::span<const std::byte> packed,
+                            const std::function<void(BrickId, std::span<const T>)>& sink) const {
+    const std::size_t i = brick.index();
     if (checksum(packed) != sums_[i]) damaged(store_, brick, "its checksum is wrong");
     std::array<T, kBrickSamples> samples;
     const Index3 size = grid_.box(brick).size();
@@ -108,15 +108,15 @@ void BrickReader<T>::decode(std::int64_t brick, std::span<const std::byte> packe
 }
 
 template <class T>
-void BrickReader<T>::sort_by_offset(std::vector<std::int64_t>& bricks) const {
-    const auto offset = [&](std::int64_t brick) { return std::pair(offset_[static_cast<std::size_t>(brick)], brick); };
-    std::sort(bricks.begin(), bricks.end(), [&](std::int64_t p, std::int64_t q) { return offset(p) < offset(q); });
+void BrickReader<T>::sort_by_offset(std::vector<BrickId>& bricks) const {
+    const auto offset = [&](BrickId brick) { return std::pair(offset_[brick.index()], brick); };
+    std::sort(bricks.begin(), bricks.end(), [&](BrickId p, BrickId q) { return offset(p) < offset(q); });
 }
 
 template <class T>
-IoCounters BrickReader<T>::count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const {
+IoCounters BrickReader<T>::count(std::span<const BrickId> bricks, std::span<const Extent> extents) const {
     IoCounters counters{.bricks = static_cast<std::int64_t>(bricks.size())};
-    for (const std::int64_t brick : bricks) counters.samples += grid_.box(brick).count();
+    for (const BrickId brick : bricks) counters.samples += grid_.box(brick).count();
     for (const Extent& extent : extents) {
         counters.bytes += extent.end - extent.begin;
         counters.extents += extent.end > extent.begin;
@@ -125,17 +125,17 @@ IoCounters BrickReader<T>::count(std::span<const std::int64_t> bricks, std::span
 }
 
 template <class T>
-IoCounters BrickReader<T>::cost_of(std::vector<std::int64_t> bricks) const {
+IoCounters BrickReader<T>::cost_of(std::vector<BrickId> bricks) const {
     sort_by_offset(bricks);
     return count(bricks, extents_of(bricks, kLongest));
 }
 
 // A part may need more reads than the whole, at most one for each brick, and no bytes outside the gaps of the whole.
 template <class T>
-IoCounters BrickReader<T>::max_of_part(std::vector<std::int64_t> bricks) const {
+IoCounters BrickReader<T>::max_of_part(std::vector<BrickId> bricks) const {
     sort_by_offset(bricks);
     IoCounters max = count(bricks, extents_of(bricks, std::numeric_limits<std::int64_t>::max()));
-    max.extents = std::count_if(bricks.begin(), bricks.end(), [this](std::int64_t brick) { return bytes_of(brick) > 0; });
+    max.extents = std::count_if(bricks.begin(), bricks.end(), [this](BrickId brick) { return bytes_of(brick) > 0; });
     return max;
 }
 
@@ -162,8 +162,8 @@ void BrickReader<T>::prefetch(std::span<const Extent> extents, std::size_t first
 }
 
 template <class T>
-IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, const Context& context,
-                                const std::function<void(std::int64_t, std::span<const T>)>& sink) const {
+IoCounters BrickReader<T>::read(std::vector<BrickId> bricks, const Context& context,
+                                const std::function<void(BrickId, std::span<const T>)>& sink) const {
     sort_by_offset(bricks);
     const std::vector<Extent> extents = extents_of(bricks, kLongest);
     const IoCounters counters = count(bricks, extents);
@@ -178,8 +178,8 @@ IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, const Context&
             store_.read_unchecked(data_, extent.begin, bytes);
         }
         for (std::size_t i = extent.first; i < extent.last; ++i) {
-            const std::int64_t brick = bricks[i],
-                               begin = static_cast<std::int64_t>(offset_[static_cast<std::size_t>(brick)]) - extent.begin;
+            const BrickId brick = bricks[i];
+            const std::int64_t begin = static_cast<std::int64_t>(offset_[brick.index()]) - extent.begin;
             decode(brick, std::span(bytes).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(bytes_of(brick))), sink);
         }
     });
@@ -187,8 +187,8 @@ IoCounters BrickReader<T>::read(std::vector<std::int64_t> bricks, const Context&
 }
 
 template <class T>
-IoCounters BrickReader<T>::read_into(T* whole, std::vector<std::int64_t> bricks, const Context& context) const {
-    return read(std::move(bricks), context, [this, whole](std::int64_t brick, std::span<const T> samples) {
+IoCounters BrickReader<T>::read_into(T* whole, std::vector<BrickId> bricks, const Context& context) const {
+    return read(std::move(bricks), context, [this, whole](BrickId brick, std::span<const T> samples) {
         const Box box = grid_.box(brick);
         const T* from = samples.data();
         const auto bytes = static_cast<std::size_t>(box.size(0)) * sizeof(T);
@@ -206,16 +206,17 @@ IoCounters BrickReader<T>::read_all(std::span<T> whole, const Context& context) 
 }
 
 template <class T>
-std::vector<std::int64_t> BrickReader<T>::all_bricks() const {
-    std::vector<std::int64_t> all(static_cast<std::size_t>(grid_.count()));
-    std::iota(all.begin(), all.end(), std::int64_t{0});
+std::vector<BrickId> BrickReader<T>::all_bricks() const {
+    std::vector<BrickId> all;
+    all.reserve(static_cast<std::size_t>(grid_.count()));
+    for (const BrickId brick : grid_.bricks()) all.push_back(brick);
     return all;
 }
 
 template <class T>
 void BrickReader<T>::check(const Context& context) const {
-    (void)read(all_bricks(), context, [this](std::int64_t brick, std::span<const T> samples) {
-        const auto i = static_cast<std::size_t>(brick);
+    (void)read(all_bricks(), context, [this](BrickId brick, std::span<const T> samples) {
+        const std::size_t i = brick.index();
         if (extreme_places(samples) != ExtremePlaces{highest_[i], lowest_[i]}) damaged(store_, brick, kWrongExtremes);
     });
 }

@@ -19,26 +19,24 @@ public:
     explicit BrickReader(const Container& store);
 
     [[nodiscard]] const BrickGrid& grid() const { return grid_; }
-    [[nodiscard]] T low(std::int64_t brick) const { return low_[static_cast<std::size_t>(brick)]; }
-    [[nodiscard]] T high(std::int64_t brick) const { return high_[static_cast<std::size_t>(brick)]; }
+    [[nodiscard]] T low(BrickId brick) const { return low_[brick.index()]; }
+    [[nodiscard]] T high(BrickId brick) const { return high_[brick.index()]; }
 
     /// Cost of read() of a list.
-    [[nodiscard]] IoCounters cost_of(std::vector<std::int64_t> bricks) const;
+    [[nodiscard]] IoCounters cost_of(std::vector<BrickId> bricks) const;
     /// Upper bound of the cost of read() of a part of the list.
-    [[nodiscard]] IoCounters max_of_part(std::vector<std::int64_t> bricks) const;
+    [[nodiscard]] IoCounters max_of_part(std::vector<BrickId> bricks) const;
     /// Voxels of the highest and the lowest sample of a brick; ties as in the total order (field/order.h).
-    [[nodiscard]] std::int64_t highest_voxel(std::int64_t brick) const {
-        return voxel_at(brick, highest_[static_cast<std::size_t>(brick)]);
-    }
-    [[nodiscard]] std::int64_t lowest_voxel(std::int64_t brick) const { return voxel_at(brick, lowest_[static_cast<std::size_t>(brick)]); }
+    [[nodiscard]] std::int64_t highest_voxel(BrickId brick) const { return voxel_at(brick, highest_[brick.index()]); }
+    [[nodiscard]] std::int64_t lowest_voxel(BrickId brick) const { return voxel_at(brick, lowest_[brick.index()]); }
 
     /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that are
     /// close to each other in the file share one read. Throws Error: input (a damaged brick, or extremes not at their stored positions),
     /// cancelled.
-    IoCounters read(std::vector<std::int64_t> bricks, const Context& context,
-                    const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+    IoCounters read(std::vector<BrickId> bricks, const Context& context,
+                    const std::function<void(BrickId, std::span<const T>)>& sink) const;
     /// The same into the whole volume, x fastest, at the positions of the samples.
-    IoCounters read_into(T* whole, std::vector<std::int64_t> bricks, const Context& context) const;
+    IoCounters read_into(T* whole, std::vector<BrickId> bricks, const Context& context) const;
     /// All samples. whole.size(): the voxels of the volume.
     IoCounters read_all(std::span<T> whole, const Context& context) const;
     /// Reads all bricks; throws Error{input} where the positions of the extremes are wrong.
@@ -53,15 +51,14 @@ private:
     using Prefetched = std::vector<std::atomic<bool>>;
     /// On a blocking read: prefetches its bytes and those of the next ones.
     void prefetch(std::span<const Extent> extents, std::size_t first, Prefetched& prefetched) const;
-    [[nodiscard]] std::int64_t bytes_of(std::int64_t brick) const { return bytes_[static_cast<std::size_t>(brick)]; }
+    [[nodiscard]] std::int64_t bytes_of(BrickId brick) const { return bytes_[brick.index()]; }
     void check_places() const;
-    [[nodiscard]] std::vector<std::int64_t> all_bricks() const;
-    void sort_by_offset(std::vector<std::int64_t>& bricks) const;
-    [[nodiscard]] IoCounters count(std::span<const std::int64_t> bricks, std::span<const Extent> extents) const;
-    [[nodiscard]] std::vector<Extent> extents_of(std::span<const std::int64_t> bricks, std::int64_t longest) const;
-    [[nodiscard]] std::int64_t voxel_at(std::int64_t brick, std::int64_t place) const;
-    void decode(std::int64_t brick, std::span<const std::byte> packed,
-                const std::function<void(std::int64_t, std::span<const T>)>& sink) const;
+    [[nodiscard]] std::vector<BrickId> all_bricks() const;
+    void sort_by_offset(std::vector<BrickId>& bricks) const;
+    [[nodiscard]] IoCounters count(std::span<const BrickId> bricks, std::span<const Extent> extents) const;
+    [[nodiscard]] std::vector<Extent> extents_of(std::span<const BrickId> bricks, std::int64_t longest) const;
+    [[nodiscard]] std::int64_t voxel_at(BrickId brick, std::int64_t place) const;
+    void decode(BrickId brick, std::span<const std::byte> packed, const std::function<void(BrickId, std::span<const T>)>& sink) const;
 
     const Container& store_;
     const StoredArray& data_;

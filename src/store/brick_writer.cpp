@@ -35,7 +35,7 @@ struct Bricks {
     std::span<const T> samples;
     BrickGrid grid;
     int threads;
-    std::vector<std::int64_t> order;
+    std::vector<BrickId> order;
     std::vector<std::uint64_t> offset, sums;
     std::vector<std::uint16_t> packed_bytes;
     std::vector<std::uint8_t> heads;  ///< how a brick is coded
@@ -50,39 +50,39 @@ struct Bricks {
         low.resize(count), high.resize(count);
         lowest.resize(count), highest.resize(count);
         for_each_block(threads, (grid.count() + kTogether - 1) / kTogether, [this](std::int64_t block) {
-            for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) measure(i);
+            for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) measure(BrickId(i));
         });
-        for (const std::int64_t brick : order) {
-            offset[brick] = static_cast<std::uint64_t>(bytes);
-            bytes += packed_bytes[brick];
+        for (const BrickId brick : order) {
+            offset[brick.index()] = static_cast<std::uint64_t>(bytes);
+            bytes += packed_bytes[brick.index()];
         }
     }
 
-    void measure(std::int64_t brick) {
+    void measure(BrickId brick) {
         std::vector<T> values;
         copy_box(samples, grid.extent, grid.box(brick), values);
-        std::tie(low[brick], high[brick]) = extremes_of<T>(values);
+        std::tie(low[brick.index()], high[brick.index()]) = extremes_of<T>(values);
         if (!is_constant(brick)) {
-            const BrickCode code = choose_code<T>(values, grid.box(brick).size(), low[brick]);
-            heads[brick] = code.head;
-            packed_bytes[brick] = static_cast<std::uint16_t>(code.bytes);
+            const BrickCode code = choose_code<T>(values, grid.box(brick).size(), low[brick.index()]);
+            heads[brick.index()] = code.head;
+            packed_bytes[brick.index()] = static_cast<std::uint16_t>(code.bytes);
         }
         const ExtremePlaces places = extreme_places<T>(values);
-        lowest[brick] = places.lowest, highest[brick] = places.highest;
+        lowest[brick.index()] = places.lowest, highest[brick.index()] = places.highest;
     }
 
-    [[nodiscard]] bool is_constant(std::int64_t brick) const { return key_of(low[brick]) == key_of(high[brick]); }
+    [[nodiscard]] bool is_constant(BrickId brick) const { return key_of(low[brick.index()]) == key_of(high[brick.index()]); }
 
-    void encode(std::int64_t brick, std::vector<std::byte>& packed) {
+    void encode(BrickId brick, std::vector<std::byte>& packed) {
         packed.clear();
         if (!is_constant(brick)) {
             std::vector<T> values;
             const Box box = grid.box(brick);
             copy_box(samples, grid.extent, box, values);
-            encode_brick<T>(values, box.size(), low[brick], heads[brick], packed);
-            ISOATLAS_CHECK(packed.size() == packed_bytes[brick]);
+            encode_brick<T>(values, box.size(), low[brick.index()], heads[brick.index()], packed);
+            ISOATLAS_CHECK(packed.size() == packed_bytes[brick.index()]);
         }
-        sums[brick] = checksum(packed);
+        sums[brick.index()] = checksum(packed);
     }
 
     void feed(const ByteSink& put) {

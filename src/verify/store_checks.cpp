@@ -57,11 +57,11 @@ CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples) 
     const StoreDump store(atlas.info().path);
     const StoreNumbers low = store.read(store.find("volume/low"), 0, grid.count()),
                        high = store.read(store.find("volume/high"), 0, grid.count());
-    for (std::int64_t b = 0; b < grid.count(); ++b) {
+    for (const BrickId b : grid.bricks()) {
         const std::array<double, 2> range = range_of(samples, grid.box(b));
-        const double stored_low = number_of(low, static_cast<std::size_t>(b)), stored_high = number_of(high, static_cast<std::size_t>(b));
+        const double stored_low = number_of(low, b.index()), stored_high = number_of(high, b.index());
         if (stored_low == range[0] && stored_high == range[1]) continue;
-        check.fail("brick " + std::to_string(b) + " has samples " + std::to_string(range[0]) + " to " + std::to_string(range[1]) +
+        check.fail("brick " + std::to_string(b.number()) + " has samples " + std::to_string(range[0]) + " to " + std::to_string(range[1]) +
                    " and its stored range is " + std::to_string(stored_low) + " to " + std::to_string(stored_high));
     }
     return check.result("ranges of " + std::to_string(grid.count()) + " bricks, for every isovalue");

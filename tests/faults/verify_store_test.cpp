@@ -91,7 +91,7 @@ protected:
         const std::size_t size = opened.numbers<std::uint16_t>("volume/bytes")[0];
         const auto begin = static_cast<std::size_t>(opened.numbers<std::uint64_t>("volume/offset")[0]);
         const std::span<std::byte> brick = opened.numbers<std::byte>("volume/data").subspan(begin, size);
-        const Index3 box = BrickGrid({3, {24, 24, 24}}).box(0).size();
+        const Index3 box = BrickGrid({3, {24, 24, 24}}).box(BrickId(0)).size();
         const std::uint8_t low = opened.numbers<std::uint8_t>("volume/low")[0], high = opened.numbers<std::uint8_t>("volume/high")[0];
         std::vector<std::uint8_t> samples(static_cast<std::size_t>(box[0] * box[1] * box[2]));
         ASSERT_TRUE(decode_brick<std::uint8_t>(brick, box, low, samples));

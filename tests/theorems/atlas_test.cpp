@@ -184,7 +184,7 @@ std::vector<bool> bricks_near_surface(const Grid& grid, double tau) {
     const Index flat = grid.rank == 2 ? 0 : 2;
     std::vector<bool> near(static_cast<std::size_t>(bricks.count()));
     for (Index b = 0; b < bricks.count(); ++b) {
-        const isoatlas::Box box = bricks.box(b);
+        const isoatlas::Box box = bricks.box(isoatlas::BrickId(b));
         const bool first = is_high(box.begin[0], box.begin[1], box.begin[2]);
         for (Index z = box.begin[2] - flat; z < box.end[2] + flat; ++z) {
             for (Index y = box.begin[1] - 2; y < box.end[1] + 2; ++y) {

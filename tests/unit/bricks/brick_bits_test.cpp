@@ -85,9 +85,9 @@ bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
 RC_GTEST_PROP(BricksBesideASurface, HaveAnotherClassAmongWhatMatters, ()) {
     const Scene scene = arbitrary_scene();
     HighBits high(scene.grid.extent);
-    LevelBricks bricks{scene.grid, std::vector<BrickClass>(static_cast<std::size_t>(scene.grid.count())), {}, {}};
-    std::vector<BrickFaces> sides(bricks.classes.size());
-    for (std::int64_t b = 0; b < scene.grid.count(); ++b) {
+    LevelBricks bricks{scene.grid, IdArray<BrickId, BrickClass>(static_cast<std::size_t>(scene.grid.count())), {}, {}};
+    IdArray<BrickId, BrickFaces> sides(bricks.classes.size());
+    for (const BrickId b : scene.grid.bricks()) {
         const Box box = scene.grid.box(b);
         BrickBits bits{};
         bool any = false, all = true;
@@ -102,13 +102,13 @@ RC_GTEST_PROP(BricksBesideASurface, HaveAnotherClassAmongWhatMatters, ()) {
                 }
             }
         }
-        bricks.classes[static_cast<std::size_t>(b)] = all ? BrickClass::high : any ? BrickClass::divided : BrickClass::low;
+        bricks.classes[b] = all ? BrickClass::high : any ? BrickClass::divided : BrickClass::low;
         put_brick(bits, box, high);
-        sides[static_cast<std::size_t>(b)] = sides_of(bits, box.size());
+        sides[b] = sides_of(bits, box.size());
     }
-    std::vector<std::int64_t> expected;
-    for (std::int64_t b = 0; b < scene.grid.count(); ++b) {
-        const BrickClass own = bricks.classes[static_cast<std::size_t>(b)];
+    std::vector<BrickId> expected;
+    for (const BrickId b : scene.grid.bricks()) {
+        const BrickClass own = bricks.classes[b];
         if (own != BrickClass::divided && is_significant_to_another(scene, scene.grid.box(b), own == BrickClass::high))
             expected.push_back(b);
     }

@@ -14,9 +14,9 @@ LevelBricks arbitrary_bricks() {
     Extent extent;
     extent.size = {*rc::gen::inRange<std::int64_t>(1, 300), *rc::gen::inRange<std::int64_t>(1, 50), *rc::gen::inRange<std::int64_t>(1, 50)};
     LevelBricks bricks{BrickGrid(extent), {}, {}, {}};
-    bricks.classes.assign(static_cast<std::size_t>(bricks.grid.count()), *rc::gen::element(BrickClass::low, BrickClass::high));
+    bricks.classes.items().assign(static_cast<std::size_t>(bricks.grid.count()), *rc::gen::element(BrickClass::low, BrickClass::high));
     const auto others = *rc::gen::container<std::vector<int>>(rc::gen::inRange<int>(0, 3 * static_cast<int>(bricks.classes.size())));
-    for (const int other : others) bricks.classes[static_cast<std::size_t>(other / 3)] = static_cast<BrickClass>(other % 3);
+    for (const int other : others) bricks.classes[BrickId(other / 3)] = static_cast<BrickClass>(other % 3);
     return bricks;
 }
 
@@ -61,7 +61,7 @@ TEST(CandidateWords, AreNoneWhereEverythingIsLow) {
     Extent extent;
     extent.size = {200, 40, 40};
     LevelBricks bricks{BrickGrid(extent), {}, {}, {}};
-    bricks.classes.assign(static_cast<std::size_t>(bricks.grid.count()), BrickClass::low);
+    bricks.classes.items().assign(static_cast<std::size_t>(bricks.grid.count()), BrickClass::low);
     bricks.classes[bricks.grid.brick({9, 1, 1})] = BrickClass::divided;  // voxels 144 to 159, positions 145 to 160: word 2
     const CandidateWords busy(bricks, 4);
     EXPECT_TRUE(busy.of(6, 12).empty());

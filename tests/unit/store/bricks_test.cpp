@@ -43,9 +43,9 @@ public:
         const Container store(path_);
         visit_samples(volume, [&]<class T>(std::span<const T>) {
             const BrickReader<T> reader(store);
-            std::vector<std::int64_t> all;
-            for (std::int64_t b = 0; b < reader.grid().count(); ++b) all.push_back(b);
-            reader.read(all, {}, [&](std::int64_t brick, std::span<const T> samples) {
+            std::vector<BrickId> all;
+            for (const BrickId b : reader.grid().bricks()) all.push_back(b);
+            reader.read(all, {}, [&](BrickId brick, std::span<const T> samples) {
                 const Box box = reader.grid().box(brick);
                 std::size_t i = 0;
                 for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
@@ -93,13 +93,13 @@ RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
         for (auto& high : max) high.first = -1e300;
         for (std::int64_t v = 0; v < volume.info.extent.voxels(); ++v) {
             const auto at = volume.info.extent.voxel(v);
-            const auto b = static_cast<std::size_t>(reader.grid().brick(BrickGrid::place_of(at)));
+            const std::size_t b = reader.grid().brick(BrickGrid::place_of(at)).index();
             min[b] = std::min(min[b], std::pair(volume.value(v), v));
             max[b] = std::max(max[b], std::pair(volume.value(v), v));
         }
-        for (std::int64_t b = 0; b < reader.grid().count(); ++b) {
-            RC_ASSERT(reader.highest_voxel(b) == max[static_cast<std::size_t>(b)].second);
-            RC_ASSERT(reader.lowest_voxel(b) == min[static_cast<std::size_t>(b)].second);
+        for (const BrickId b : reader.grid().bricks()) {
+            RC_ASSERT(reader.highest_voxel(b) == max[b.index()].second);
+            RC_ASSERT(reader.lowest_voxel(b) == min[b.index()].second);
         }
         reader.check({.threads = 1});
     });
@@ -133,12 +133,12 @@ TEST_F(Bricks, NeighboursAreReadTogether) {
     write(volume);
     const Container store(path_);
     const BrickReader<std::uint8_t> reader(store);
-    std::vector<std::int64_t> corner;
-    for (std::int64_t b = 0; b < reader.grid().count(); ++b) {
+    std::vector<BrickId> corner;
+    for (const BrickId b : reader.grid().bricks()) {
         const auto place = reader.grid().place(b);
         if (place[0] < 4 && place[1] < 4 && place[2] < 4) corner.push_back(b);
     }
-    const IoCounters counters = reader.read(corner, {}, [](std::int64_t, std::span<const std::uint8_t>) {});
+    const IoCounters counters = reader.read(corner, {}, [](BrickId, std::span<const std::uint8_t>) {});
     EXPECT_EQ(counters.bricks, 64);
     EXPECT_EQ(counters.extents, 1);
     EXPECT_LT(counters.bytes, 64 * kBrickSamples);

@@ -84,11 +84,11 @@ RC_GTEST_PROP(ExpectedReads, AreThoseThatCome, ()) {
     const ReplacedFileSystem is_slow(slow);
     const Container store(kPath);
     const BrickReader<std::uint8_t> reader(store);
-    std::vector<std::int64_t> bricks(static_cast<std::size_t>(reader.grid().count()));
-    std::iota(bricks.begin(), bricks.end(), 0);
+    std::vector<BrickId> bricks;
+    for (const BrickId brick : reader.grid().bricks()) bricks.push_back(brick);
     const int kept = *rc::gen::element(1, 3, 30, 100);     // of a hundred
     std::mt19937 random(*rc::gen::arbitrary<unsigned>());  // one number: thousands would take hours to shrink
-    std::erase_if(bricks, [&](std::int64_t) { return static_cast<int>(random() % 100) >= kept; });
+    std::erase_if(bricks, [&](BrickId) { return static_cast<int>(random() % 100) >= kept; });
     std::fill(disk.present.begin(), disk.present.end(), false);
     disk = {disk.present, disk.present};
 
@@ -96,8 +96,8 @@ RC_GTEST_PROP(ExpectedReads, AreThoseThatCome, ()) {
     alone.threads = 1;
     const auto sum_of = [&](IoCounters& counters) {
         std::int64_t sum = 0;
-        counters = reader.read(bricks, alone, [&](std::int64_t brick, std::span<const std::uint8_t> samples) {
-            sum = std::accumulate(samples.begin(), samples.end(), sum + brick);
+        counters = reader.read(bricks, alone, [&](BrickId brick, std::span<const std::uint8_t> samples) {
+            sum = std::accumulate(samples.begin(), samples.end(), sum + brick.number());
         });
         return sum;
     };
