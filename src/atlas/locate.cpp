@@ -15,13 +15,13 @@ public:
     Paths(const Atlas& atlas, const Context& context)
         : samples_(AtlasAccess::samples(atlas)), extent_(atlas.info().extent), context_(context) {}
 
-    [[nodiscard]] Extremum at(std::int64_t voxel) { return {voxel, samples_.sample(voxel, spent_)}; }
+    [[nodiscard]] Extremum at(std::int64_t voxel) { return {VoxelId(voxel), samples_.sample(voxel, spent_)}; }
 
     /// The highest neighbour above (below: the lowest one below); the voxel itself: none.
     [[nodiscard]] Extremum next(const Extremum& from, bool up) {
         stop_if_cancelled(context_);
         Extremum best = from;
-        const Index3 at = extent_.voxel(from.voxel);
+        const Index3 at = extent_.voxel(from.voxel.number());
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const std::int64_t by : {-1, 1}) {
                 Index3 other = at;
@@ -63,12 +63,12 @@ Locator::Locator(const Atlas& atlas, std::int64_t voxel, const Context& context)
     value_ = start.value;
     Extremum top = start;
     for (Extremum next = paths.next(top, true); next.voxel != top.voxel; next = paths.next(top, true)) top = next;
-    maximum_ = {top.voxel, top.value};
+    maximum_ = {top.voxel.number(), top.value};
     Extremum bottom = start;
-    while (!paths.is_at_border(bottom.voxel)) {
+    while (!paths.is_at_border(bottom.voxel.number())) {
         const Extremum next = paths.next(bottom, false);
         if (next.voxel == bottom.voxel) {
-            minimum_ = {bottom.voxel, bottom.value};
+            minimum_ = {bottom.voxel.number(), bottom.value};
             break;
         }
         bottom = next;

@@ -16,14 +16,14 @@ std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, dou
     const Extent& extent = window.info.extent;
     const Index3 at = extent.voxel(voxel);
     const RunRow home = components.runs.row(at[1], at[2]);
-    const std::int64_t run = home.run_at(at[0] + 1);
-    if (((run - home.first_run) & 1) == 0) return std::nullopt;
-    const std::int32_t object = components.of_run[run];
+    const RunId run = home.run_at(at[0] + 1);
+    if (!home.is_high(run)) return std::nullopt;
+    const ObjectNumber object = components.object_of(run);
     Box box{extent.size, {0, 0, 0}};
     for (std::int64_t r = 0; r < components.runs.rows(); ++r) {
         const RunRow row = components.runs.row(r);
         for (std::int64_t i = 1; i < row.changes; i += 2) {
-            if (components.of_run[row.first_run + i] != object) continue;
+            if (components.object_of(row.run(i)) != object) continue;
             const Index3 low{row.change[i - 1] - std::int64_t{1}, r % extent.size[1], r / extent.size[1]};
             const Index3 high{row.change[i] - std::int64_t{1}, low[1] + 1, low[2] + 1};
             box.begin = min(box.begin, low);

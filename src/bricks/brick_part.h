@@ -18,7 +18,9 @@ struct BrickPart {
     [[nodiscard]] BrickId number(BrickId brick) const { return whole.brick(grid.place(brick) + first); }
 
     /// Voxel index in the part of a voxel of the whole.
-    [[nodiscard]] std::int64_t voxel(std::int64_t whole_voxel) const { return grid.extent.index(whole.extent.voxel(whole_voxel) - origin); }
+    [[nodiscard]] VoxelId voxel(VoxelId whole_voxel) const {
+        return VoxelId(grid.extent.index(whole.extent.voxel(whole_voxel.number()) - origin));
+    }
 
 private:
     static Extent extent_of(const BrickGrid& all, const Box& bricks) {

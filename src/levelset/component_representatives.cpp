@@ -8,11 +8,11 @@
 namespace isoatlas {
 namespace {
 
-constexpr Extremum kNone{-1, 0};
+constexpr Extremum kNone{VoxelId::none(), 0};
 
 /// The representative of Highs is their highest voxel, of Lows their lowest.
 bool beats(bool high, const Extremum& a, const Extremum& b) {
-    if (a.voxel == -1 || b.voxel == -1) return a.voxel != -1;
+    if (!a.voxel.exists() || !b.voxel.exists()) return a.voxel.exists();
     return high ? a.is_above(b) : b.is_above(a);
 }
 
@@ -21,32 +21,32 @@ class Namer {
 public:
     Namer(const SampleGrid<T>& grid, const LevelBricks* bricks, const Components& components)
         : grid_(grid), bricks_(bricks), components_(components), runs_(components.runs) {
-        highest_.assign(static_cast<std::size_t>(components.objects()), kNone);
-        lowest_.assign(static_cast<std::size_t>(components.lows()), kNone);
+        highest_.items().assign(static_cast<std::size_t>(components.objects()), kNone);
+        lowest_.items().assign(static_cast<std::size_t>(components.lows()), kNone);
         if (bricks_ != nullptr) take_bricks();
     }
 
     /// From the samples: extremes of runs first, on several threads, then of components.
     void take_runs(const Context& context) {
         constexpr auto kNowhere = std::numeric_limits<std::uint32_t>::max();
-        std::vector<std::uint32_t> found(static_cast<std::size_t>(runs_.count()), kNowhere);
+        IdArray<RunId, std::uint32_t> found(static_cast<std::size_t>(runs_.count()), kNowhere);
         const std::int64_t ny = grid_.extent.size[1];
         for_each_row(context, kCutPhases["objects"], grid_.extent, [&](std::int64_t y, std::int64_t z) {
             for_named_runs(y + ny * z, [&](const RunRow& row, std::int64_t i, bool high) {
                 const Extremum best = extreme_of_run(row, i, high, y, z);
-                if (best.voxel != -1) found[row.first_run + i] = static_cast<std::uint32_t>(best.voxel - grid_.extent.index(0, y, z));
+                if (best.voxel.exists()) found[row.run(i)] = static_cast<std::uint32_t>(best.voxel.number() - grid_.extent.index(0, y, z));
             });
         });
         for (std::int64_t r = 0; r < runs_.rows(); ++r) {
             for_named_runs(r, [&](const RunRow& row, std::int64_t i, bool high) {
-                const std::uint32_t x = found[row.first_run + i];
-                if (x != kNowhere) offer(high, components_.of_run[row.first_run + i], extremum_at(r * grid_.extent.size[0] + x));
+                const std::uint32_t x = found[row.run(i)];
+                if (x != kNowhere) offer(high, row.run(i), extremum_at(r * grid_.extent.size[0] + x));
             });
         }
     }
 
-    [[nodiscard]] const std::vector<Extremum>& highest() const { return highest_; }
-    [[nodiscard]] const std::vector<Extremum>& lowest() const { return lowest_; }
+    [[nodiscard]] const IdArray<ObjectNumber, Extremum>& highest() const { return highest_; }
+    [[nodiscard]] const IdArray<LowNumber, Extremum>& lowest() const { return lowest_; }
 
 private:
     /// Not the runs of the outside: it has no representative.
@@ -55,27 +55,33 @@ private:
         const RunRow row = runs_.row(r);
         for (std::int64_t i = 1; i < row.changes; ++i) {
             const bool high = i & 1;
-            if (high || components_.of_run[row.first_run + i] != 0) visit(row, i, high);
+            if (high || components_.low_of(row.run(i)) != LowNumber(0)) visit(row, i, high);
         }
     }
 
     [[nodiscard]] Extremum extremum_at(std::int64_t voxel) const {
-        return {voxel, static_cast<double>(grid_.at(grid_.extent.voxel(voxel)))};
+        return {VoxelId(voxel), static_cast<double>(grid_.at(grid_.extent.voxel(voxel)))};
     }
-    [[nodiscard]] Extremum& best(bool high, std::int32_t component) { return high ? highest_[component] : lowest_[component]; }
-    [[nodiscard]] const Extremum& best(bool high, std::int32_t component) const { return high ? highest_[component] : lowest_[component]; }
-    void offer(bool high, std::int32_t component, const Extremum& extremum) {
-        if (beats(high, extremum, best(high, component))) best(high, component) = extremum;
+    /// Of the component of a run so far.
+    [[nodiscard]] Extremum& best(bool high, RunId run) {
+        return high ? highest_[components_.object_of(run)] : lowest_[components_.low_of(run)];
+    }
+    [[nodiscard]] const Extremum& best(bool high, RunId run) const {
+        return high ? highest_[components_.object_of(run)] : lowest_[components_.low_of(run)];
+    }
+    void offer(bool high, RunId run, const Extremum& extremum) {
+        Extremum& known = best(high, run);
+        if (beats(high, extremum, known)) known = extremum;
     }
 
     /// The extremes of bricks. A brick that is High as a whole has no better voxel; a divided one may have one for another component.
     void take_bricks() {
         const auto take = [&](bool high, const Extremum& extremum) {
-            const Index3 at = grid_.extent.voxel(extremum.voxel);
+            const Index3 at = grid_.extent.voxel(extremum.voxel.number());
             const RunRow row = runs_.row(at[1], at[2]);
-            const std::int64_t run = row.run_at(at[0] + 1);
-            ISOATLAS_CHECK(((run - row.first_run) & 1) == (high ? 1 : 0));
-            offer(high, components_.of_run[run], extremum);
+            const RunId run = row.run_at(at[0] + 1);
+            ISOATLAS_CHECK(row.is_high(run) == high);
+            offer(high, run, extremum);
         };
         divided_.assign(static_cast<std::size_t>(bricks_->grid.size[1] * bricks_->grid.size[2]), {kNone, kNone});
         for (const BrickId b : bricks_->classes.ids()) {
@@ -92,7 +98,7 @@ private:
     [[nodiscard]] Extremum extreme_of_run(const RunRow& row, std::int64_t i, bool high, std::int64_t y, std::int64_t z) const {
         const std::int64_t begin = row.change[i - 1] - 1, end = row.change[i] - 1;
         if (bricks_ == nullptr) return extreme_of_stretch(begin, end, high, y, z);
-        const Extremum& known = best(high, components_.of_run[row.first_run + i]);
+        const Extremum& known = best(high, row.run(i));
         const std::int64_t row_of_bricks = y / kBrickSize[1] + bricks_->grid.size[1] * (z / kBrickSize[2]);
         const auto& [row_high, row_low] = divided_[row_of_bricks];
         Extremum found = kNone;
@@ -125,14 +131,15 @@ private:
     const LevelBricks* bricks_;
     const Components& components_;
     const Runs& runs_;
-    std::vector<Extremum> highest_, lowest_;
+    IdArray<ObjectNumber, Extremum> highest_;
+    IdArray<LowNumber, Extremum> lowest_;
     std::vector<std::array<Extremum, 2>> divided_;  ///< per row of bricks: highest and lowest voxel of its divided bricks
 };
 
-std::vector<std::int64_t> voxels_of(const std::vector<Extremum>& extrema) {
-    std::vector<std::int64_t> voxels;
-    voxels.reserve(extrema.size());
-    for (const Extremum& extremum : extrema) voxels.push_back(extremum.voxel);
+template <class Number>
+IdArray<Number, VoxelId> voxels_of(const IdArray<Number, Extremum>& extrema) {
+    IdArray<Number, VoxelId> voxels(extrema.size());
+    for (const Number component : extrema.ids()) voxels[component] = extrema[component].voxel;
     return voxels;
 }
 
@@ -145,7 +152,7 @@ void find_representatives(const TauLevel& level, const Context& context, Compone
         components.highest = voxels_of(namer.highest());
         components.lowest = voxels_of(namer.lowest());
     });
-    components.lowest[0] = -1;  // the outside has no representative
+    components.lowest[LowNumber(0)] = VoxelId::none();  // the outside has no representative
 }
 
 }  // namespace isoatlas

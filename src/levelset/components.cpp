@@ -17,7 +17,7 @@ void join_outside(RunSets& sets, const Runs& runs) {
         const std::int64_t y = r % ny, z = r / ny;
         const bool border_row = y == 0 || y == ny - 1 || (runs.extent.rank == 3 && (z == 0 || z == nz - 1));
         const std::int64_t last = border_row ? row.changes : std::min<std::int64_t>(row.changes, 1);
-        for (std::int64_t i = 0; i < last; i += 2) sets.join(0, row.first_run + i);
+        for (std::int64_t i = 0; i < last; i += 2) sets.join(0, row.run(i).number());
     }
     sets.join(0, runs.count() - 1);
 }
@@ -30,28 +30,37 @@ std::int32_t towards_outside(const Components& components, std::int64_t r, std::
     const std::int64_t below = runs.extent.rank == 3 ? r - runs.extent.size[1] : r - 1;
     if (below < 0) return 0;
     const RunRow row = runs.row(below);
-    const std::int64_t run = row.run_at(runs.row(r).change[i - 1]);
-    ISOATLAS_CHECK(((run - row.first_run) & 1) != (i & 1));
+    const RunId run = row.run_at(runs.row(r).change[i - 1]);
+    ISOATLAS_CHECK(row.is_high(run) != ((i & 1) != 0));
     return components.of_run[run];
+}
+
+/// Adds the component whose first run in scan order is run i of row r. Returns its number.
+std::int32_t add_component(Components& components, std::int64_t r, std::int64_t i) {
+    const bool is_high = (i & 1) != 0;
+    const std::int32_t outer = towards_outside(components, r, i);
+    if (is_high)
+        components.outer_low.push_back(LowNumber(outer));
+    else
+        components.outer_object.push_back(ObjectNumber(outer));
+    const std::size_t count = is_high ? components.outer_low.size() : components.outer_object.size();
+    ISOATLAS_CHECK(count < std::size_t{std::numeric_limits<std::int32_t>::max()});
+    return static_cast<std::int32_t>(count - 1);
 }
 
 void number_components(RunSets& sets, Components& components) {
     const Runs& runs = components.runs;
     join_outside(sets, runs);
-    components.of_run.resize(static_cast<std::size_t>(runs.count()));
-    components.of_run.front() = components.of_run.back() = 0;
-    components.outer_object.push_back(-1);
+    IdArray<RunId, std::int32_t>& of_run = components.of_run;
+    of_run.items().resize(static_cast<std::size_t>(runs.count()));  // the outside has the first run and the last one
+    of_run.items().front() = of_run.items().back() = 0;
+    components.outer_object.push_back(ObjectNumber::none());
     for (std::int64_t r = 0; r < runs.rows(); ++r) {
         const RunRow row = runs.row(r);
         for (std::int64_t i = 0; i < row.changes; ++i) {
-            const std::int64_t run = row.first_run + i, root = sets.find(run);
-            if (root == run && run != 0) {
-                std::vector<std::int32_t>& outer = i & 1 ? components.outer_low : components.outer_object;
-                outer.push_back(towards_outside(components, r, i));
-                ISOATLAS_CHECK(outer.size() < std::size_t{std::numeric_limits<std::int32_t>::max()});
-                components.of_run[run] = static_cast<std::int32_t>(outer.size() - 1);
-            }
-            components.of_run[run] = components.of_run[root];
+            const RunId run = row.run(i), root(sets.find(run.number()));
+            const bool is_new = root == run && run != RunId(0);
+            of_run[run] = is_new ? add_component(components, r, i) : of_run[root];
         }
     }
 }

@@ -10,35 +10,49 @@
 #include <vector>
 
 #include "base/check.h"
+#include "base/id_array.h"
 #include "levelset/runs.h"
 #include "levelset/tau_level.h"
 
 namespace isoatlas {
 
+// Numbers at one isovalue, unlike the ids in Cut, which are voxels.
+using ObjectNumber = StrongId<struct ObjectNumberTag, std::int32_t>;
+using LowNumber = StrongId<struct LowNumberTag, std::int32_t>;  ///< of a low component; 0: the outside
+using ContourNumber = StrongId<struct ContourNumberTag, std::int64_t>;
+
 struct Components {
     Runs runs;
-    std::vector<std::int32_t> of_run;        ///< object of a High run, low component of a Low run
-    std::vector<std::int32_t> outer_low;     ///< per object: the low component towards the outside
-    std::vector<std::int32_t> outer_object;  ///< per low component: the object around it; -1 for the outside
-    std::vector<std::int64_t> highest;       ///< per object: its highest voxel (ties: larger index)
-    std::vector<std::int64_t> lowest;        ///< per low component: its lowest voxel (ties: smaller index); -1 for the outside
+    IdArray<RunId, std::int32_t> of_run;            ///< object of a High run, low component of a Low run: object_of(), low_of()
+    IdArray<ObjectNumber, LowNumber> outer_low;     ///< the low component towards the outside
+    IdArray<LowNumber, ObjectNumber> outer_object;  ///< the object around it; none for the outside
+    IdArray<ObjectNumber, VoxelId> highest;         ///< its highest voxel (ties: larger index)
+    IdArray<LowNumber, VoxelId> lowest;             ///< its lowest voxel (ties: smaller index); none for the outside
 
+    [[nodiscard]] ObjectNumber object_of(RunId run) const { return ObjectNumber(of_run[run]); }
+    [[nodiscard]] LowNumber low_of(RunId run) const { return LowNumber(of_run[run]); }
     [[nodiscard]] std::int64_t objects() const { return static_cast<std::int64_t>(outer_low.size()); }
     [[nodiscard]] std::int64_t lows() const { return static_cast<std::int64_t>(outer_object.size()); }
     [[nodiscard]] std::int64_t contours() const { return objects() + lows() - 1; }
     /// The contour between an object and a low component that touch. Anything else is a bug: the contours form a tree.
-    [[nodiscard]] std::int64_t contour_between(std::int32_t object, std::int32_t low) const {
-        if (outer_low[object] == low) return object;
+    [[nodiscard]] ContourNumber contour_between(ObjectNumber object, LowNumber low) const {
+        if (outer_low[object] == low) return outer_contour(object);
         ISOATLAS_CHECK(outer_object[low] == object);
-        return objects() + low - 1;
+        return wall(low);
     }
-    [[nodiscard]] std::int64_t object_of_contour(std::int64_t contour) const {
-        return contour < objects() ? contour : outer_object[contour - objects() + 1];
+    [[nodiscard]] static ContourNumber outer_contour(ObjectNumber object) { return ContourNumber(object.number()); }
+    [[nodiscard]] ContourNumber wall(LowNumber cavity) const { return ContourNumber(objects() + cavity.number() - 1); }
+    [[nodiscard]] bool is_outer(ContourNumber contour) const { return contour.number() < objects(); }
+    [[nodiscard]] ObjectNumber object_of_contour(ContourNumber contour) const {
+        return is_outer(contour) ? ObjectNumber(contour.number()) : outer_object[cavity_of(contour)];
     }
     /// Id as in Cut: the highest voxel of the object, or the lowest of the cavity.
-    [[nodiscard]] std::int64_t contour_id(std::int64_t contour) const {
-        return contour < objects() ? highest[contour] : lowest[contour - objects() + 1];
+    [[nodiscard]] VoxelId contour_id(ContourNumber contour) const {
+        return is_outer(contour) ? highest[ObjectNumber(contour.number())] : lowest[cavity_of(contour)];
     }
+
+private:
+    [[nodiscard]] LowNumber cavity_of(ContourNumber wall) const { return LowNumber(wall.number() - objects() + 1); }
 };
 
 /// Components of the samples. Connected are: 6-neighbours (4 in 2D) of one class, and the diagonal of a 4-hit face that its face point
@@ -46,7 +60,7 @@ struct Components {
 /// tunnel joins. Cost: O(runs) beyond the bits, and O(active cells) for tunnels. Same result for any threads and slabs.
 [[nodiscard]] Components find_components(const TauLevel& level, double tunnel_height, const Context& context);
 
-/// Cursor along a row: the component of ascending positions. Outside the volume everything is low component 0.
+/// Cursor along a row: the component of ascending positions, as in Components::of_run. Outside the volume everything is low component 0.
 class ComponentCursor {
 public:
     ComponentCursor(const Components& components, std::int64_t y, std::int64_t z) {
@@ -55,7 +69,7 @@ public:
         const RunRow row = components.runs.row(y, z);
         next_change_ = row.change;
         end_ = row.change + row.changes;
-        component_ = components.of_run.data() + row.first_run;
+        component_ = &components.of_run[row.first_run];
     }
     /// Component at a position that is not smaller than the one of the call before.
     [[nodiscard]] std::int32_t at(std::int64_t position) {

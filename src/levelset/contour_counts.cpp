@@ -18,7 +18,7 @@ public:
     Tally& operator=(const Tally&) = delete;
     ~Tally() { flush(); }
 
-    void add(std::int64_t contour, int hits, int loops = 1) {
+    void add(ContourNumber contour, int hits, int loops = 1) {
         if (contour != contour_) {
             flush();
             contour_ = contour;
@@ -35,8 +35,14 @@ private:
         hits_ = loops_ = 0;
     }
     ContourCounts& totals_;
-    std::int64_t contour_ = -1, hits_ = 0, loops_ = 0;
+    ContourNumber contour_ = ContourNumber::none();
+    std::int64_t hits_ = 0, loops_ = 0;
 };
+
+/// The contour between two components, as a ComponentCursor gives them.
+ContourNumber contour_between(const Components& components, std::int32_t object, std::int32_t low) {
+    return components.contour_between(ObjectNumber(object), LowNumber(low));
+}
 
 /// tunnels: null where cells have none.
 template <class T>
@@ -54,7 +60,7 @@ void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels,
         for (int loop = 0; loop < loops.count; ++loop) {
             const std::array<int, 2>& ends = kEdgeCorners[loops.edge[loops.begin[loop]]];
             const bool first_is_high = pattern >> ends[0] & 1;
-            tally.add(components.contour_between(component[ends[first_is_high ? 0 : 1]], component[ends[first_is_high ? 1 : 0]]),
+            tally.add(contour_between(components, component[ends[first_is_high ? 0 : 1]], component[ends[first_is_high ? 1 : 0]]),
                       loops.size(loop));
         }
         if (tunnels == nullptr || p == 0 || p == high.extent().size[0]) return;
@@ -62,7 +68,7 @@ void count_cell_row(const FaceJoiner<T>& joiner, const TunnelFinder<T>* tunnels,
         if (!tunnel) return;
         const std::int32_t joined_component = component[std::countr_zero(tunnel->a)], ring = component[std::countr_zero(tunnel->ring)];
         tally.add(
-            tunnel->joins_highs ? components.contour_between(joined_component, ring) : components.contour_between(ring, joined_component),
+            tunnel->joins_highs ? contour_between(components, joined_component, ring) : contour_between(components, ring, joined_component),
             0, -2);
     });
 }
@@ -77,7 +83,7 @@ void count_square_row(const HighBits& high, const Components& components, std::i
         for (const auto& side : kSides) {
             const bool first_is_high = pattern >> side[0] & 1;
             if (first_is_high == (pattern >> side[1] & 1)) continue;
-            tally.add(components.contour_between(component[side[first_is_high ? 0 : 1]], component[side[first_is_high ? 1 : 0]]), 1);
+            tally.add(contour_between(components, component[side[first_is_high ? 0 : 1]], component[side[first_is_high ? 1 : 0]]), 1);
         }
     });
 }
@@ -102,7 +108,7 @@ void count_3d(const SampleGrid<T>& grid, double tau, double tunnel_height, const
         active += cells;
     });
     counts.active_cells = active;
-    for (std::int64_t& hits : counts.hits) {
+    for (std::int64_t& hits : counts.hits.items()) {
         ISOATLAS_CHECK(hits % 4 == 0);  // every edge lies in four cells
         hits /= 4;
     }
@@ -114,7 +120,7 @@ ContourCounts count_contours(const SampleView& volume, double tau, double tunnel
                              const Context& context) {
     const Extent& extent = volume.info->extent;
     const auto contours = static_cast<std::size_t>(components.contours());
-    ContourCounts counts{std::vector<std::int64_t>(contours), std::vector<std::int64_t>(contours), 0};
+    ContourCounts counts{{contours, 0}, {contours, 0}, 0};
     if (extent.rank == 2) {
         {
             Tally tally(counts);
@@ -123,7 +129,7 @@ ContourCounts count_contours(const SampleView& volume, double tau, double tunnel
                 count_square_row(high, components, y, tally);
             }
         }
-        for (std::size_t c = 0; c < contours; ++c) {
+        for (const ContourNumber c : counts.hits.ids()) {
             ISOATLAS_CHECK(counts.hits[c] % 2 == 0);
             counts.hits[c] /= 2;
             counts.loops[c] = 0;

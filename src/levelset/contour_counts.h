@@ -7,11 +7,11 @@
 namespace isoatlas {
 
 struct ContourCounts {
-    std::vector<std::int64_t> hits, loops;  ///< per contour of Components; 2D: loops stays 0
+    IdArray<ContourNumber, std::int64_t> hits, loops;  ///< 2D: loops stays 0
     std::int64_t active_cells = 0;
 
     /// Hits are the vertices, loops the faces; every hit has four face segments, each with two ends.
-    [[nodiscard]] std::int64_t chi(std::int64_t contour) const { return loops[contour] - hits[contour]; }
+    [[nodiscard]] std::int64_t chi(ContourNumber contour) const { return loops[contour] - hits[contour]; }
 };
 
 /// Counts over all active cells, padding cells included. A tunnel turns two loops of a contour into one annulus: two faces less. Throws

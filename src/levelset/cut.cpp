@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "critical/bodies.h"
 #include "field/slab_work.h"
@@ -13,19 +12,19 @@ namespace isoatlas {
 namespace {
 
 /// Voxels, physical size and bounds of every object, in the numbering of Components. In scan order: sums do not depend on threads.
-void measure_objects(const VolumeInfo& info, const Components& components, std::vector<CutObject>& objects) {
+void measure_objects(const VolumeInfo& info, const Components& components, IdArray<ObjectNumber, CutObject>& objects) {
     const Extent& extent = info.extent;
     const Geometry& geometry = info.geometry;
     const bool rectilinear = std::ranges::any_of(geometry.coordinates, [](const auto& axis) { return axis.size() > 1; });
     constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        objects[i] = {components.highest[i], 0, 0, 0, 0, 0, {kFar, kFar, kFar}, {-1, -1, -1}, 0, 0};
+    for (const ObjectNumber i : objects.ids()) {
+        objects[i] = {components.highest[i].number(), 0, 0, 0, 0, 0, {kFar, kFar, kFar}, {-1, -1, -1}, 0, 0};
     }
     for (std::int64_t r = 0; r < components.runs.rows(); ++r) {
         const RunRow row = components.runs.row(r);
         const std::array<std::int64_t, 2> yz{r % extent.size[1], r / extent.size[1]};
         for (std::int64_t i = 1; i < row.changes; i += 2) {
-            CutObject& object = objects[components.of_run[row.first_run + i]];
+            CutObject& object = objects[components.object_of(row.run(i))];
             const std::int64_t begin = row.change[i - 1] - 1, end = row.change[i] - 1;
             object.voxels += end - begin;
             if (rectilinear) {
@@ -38,13 +37,13 @@ void measure_objects(const VolumeInfo& info, const Components& components, std::
     }
     if (rectilinear) return;
     const double voxel = voxel_measure(geometry, extent, 0);
-    for (CutObject& object : objects) object.measure = voxel * static_cast<double>(object.voxels);
+    for (CutObject& object : objects.items()) object.measure = voxel * static_cast<double>(object.voxels);
 }
 
-CutContour describe_contour(const Components& components, const ContourCounts& counts, std::int64_t contour) {
-    const bool outer = contour < components.objects();
-    const std::int64_t object = components.highest[components.object_of_contour(contour)];
-    CutContour result{components.contour_id(contour), object, outer ? Shell::outer : Shell::inner, 0, counts.hits[contour]};
+CutContour describe_contour(const Components& components, const ContourCounts& counts, ContourNumber contour) {
+    const VoxelId object = components.highest[components.object_of_contour(contour)];
+    const Shell shell = components.is_outer(contour) ? Shell::outer : Shell::inner;
+    CutContour result{components.contour_id(contour).number(), object.number(), shell, 0, counts.hits[contour]};
     if (components.runs.extent.rank == 3) {
         const std::int64_t chi = counts.chi(contour);
         ISOATLAS_CHECK(chi <= 2 && chi % 2 == 0);
@@ -54,21 +53,21 @@ CutContour describe_contour(const Components& components, const ContourCounts& c
 }
 
 /// Fills `contours` in the order of `objects` and completes the Betti numbers of the objects.
-void group_contours(const Components& components, const ContourCounts& counts, const std::vector<std::int64_t>& order, Cut& cut) {
-    std::vector<std::vector<std::int64_t>> cavities(static_cast<std::size_t>(components.objects()));
-    for (std::int64_t low = 1; low < components.lows(); ++low) {
-        cavities[components.outer_object[low]].push_back(components.objects() + low - 1);
+void group_contours(const Components& components, const ContourCounts& counts, const std::vector<ObjectNumber>& order, Cut& cut) {
+    IdArray<ObjectNumber, std::vector<ContourNumber>> cavities(static_cast<std::size_t>(components.objects()));
+    for (const LowNumber low : components.outer_object.ids()) {
+        if (low != LowNumber(0)) cavities[components.outer_object[low]].push_back(components.wall(low));
     }
     const bool is_3d = components.runs.extent.rank == 3;
     for (std::size_t position = 0; position < order.size(); ++position) {
         CutObject& object = cut.objects[position];
-        std::vector<std::int64_t>& inner = cavities[order[position]];
-        std::ranges::sort(inner, {}, [&](std::int64_t contour) { return components.contour_id(contour); });
+        std::vector<ContourNumber>& inner = cavities[order[position]];
+        std::ranges::sort(inner, {}, [&](ContourNumber contour) { return components.contour_id(contour); });
         object.first_contour = static_cast<std::int64_t>(cut.contours.size());
         object.contour_count = 1 + static_cast<std::int64_t>(inner.size());
-        cut.contours.push_back(describe_contour(components, counts, order[position]));
+        cut.contours.push_back(describe_contour(components, counts, Components::outer_contour(order[position])));
         std::int64_t genus = cut.contours.back().genus;
-        for (const std::int64_t contour : inner) {
+        for (const ContourNumber contour : inner) {
             cut.contours.push_back(describe_contour(components, counts, contour));
             genus += cut.contours.back().genus;
         }
@@ -79,10 +78,10 @@ void group_contours(const Components& components, const ContourCounts& counts, c
     ISOATLAS_CHECK(static_cast<std::int64_t>(cut.contours.size()) == components.contours());
 }
 
-void label_voxels(const Components& components, const std::vector<std::int64_t>& order, const Context& context,
+void label_voxels(const Components& components, const std::vector<ObjectNumber>& order, const Context& context,
                   std::vector<std::int32_t>& label) {
     const Extent& extent = components.runs.extent;
-    std::vector<std::int32_t> position(order.size());
+    IdArray<ObjectNumber, std::int32_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = static_cast<std::int32_t>(i);
     label.assign(static_cast<std::size_t>(extent.voxels()), -1);
     for_each_row(context, kLabelPhases["labels"], extent, [&](std::int64_t y, std::int64_t z) {
@@ -90,7 +89,7 @@ void label_voxels(const Components& components, const std::vector<std::int64_t>&
         const std::int64_t first = extent.index(-1, y, z);  // position p is voxel p - 1
         for (std::int64_t i = 1; i < row.changes; i += 2) {
             std::fill(label.begin() + (first + row.change[i - 1]), label.begin() + (first + row.change[i]),
-                      position[components.of_run[row.first_run + i]]);
+                      position[components.object_of(row.run(i))]);
         }
     });
 }
@@ -102,16 +101,17 @@ Cut cut_level(const TauLevel& level, const CutOptions& options, const Context& c
     const Components components = find_components(level, tunnel_height, context);
     const ContourCounts counts = count_contours(level.volume, level.tau, tunnel_height, level.high, components, context);
 
-    std::vector<CutObject> objects(static_cast<std::size_t>(components.objects()));
+    IdArray<ObjectNumber, CutObject> objects(static_cast<std::size_t>(components.objects()));
     measure_objects(level.info(), components, objects);
-    std::vector<std::int64_t> order(objects.size());
-    std::iota(order.begin(), order.end(), std::int64_t{0});
-    std::ranges::sort(order, [&](std::int64_t a, std::int64_t b) {
+    std::vector<ObjectNumber> order;
+    order.reserve(objects.size());
+    for (const ObjectNumber object : objects.ids()) order.push_back(object);
+    std::ranges::sort(order, [&](ObjectNumber a, ObjectNumber b) {
         return objects[a].voxels != objects[b].voxels ? objects[a].voxels > objects[b].voxels : objects[a].id < objects[b].id;
     });
 
     Cut result{level.tau, options.interpolant, options.tunnel_height, {}, {}, counts.active_cells, {}};
-    for (const std::int64_t object : order) result.objects.push_back(objects[object]);
+    for (const ObjectNumber object : order) result.objects.push_back(objects[object]);
     group_contours(components, counts, order, result);
     if (options.label) label_voxels(components, order, context, result.label);
     return result;

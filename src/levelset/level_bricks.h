@@ -11,7 +11,7 @@ namespace isoatlas {
 enum class BrickClass : std::uint8_t { low, high, divided };
 
 struct Extremum {
-    std::int64_t voxel;
+    VoxelId voxel;
     double value;
     /// In the total order (field/order.h).
     [[nodiscard]] bool is_above(const Extremum& other) const { return value != other.value ? value > other.value : voxel > other.voxel; }

@@ -11,21 +11,26 @@
 #include <vector>
 
 #include "isoatlas/context.h"
+#include "isoatlas/id.h"
 #include "levelset/high_bits.h"
 
 namespace isoatlas {
 
+using RunId = StrongId<struct RunTag, std::int64_t>;
+
 struct RunRow {
     const std::uint32_t* change;  ///< positions where the class changes, ascending
     std::int64_t changes;
-    std::int64_t first_run;  ///< number of the run before the first change
+    RunId first_run;  ///< the run before the first change
 
     /// Which run of the row contains a position: 0 to `changes`.
     [[nodiscard]] std::int64_t index_at(std::int64_t position) const {
         return std::upper_bound(change, change + changes, position) - change;
     }
-    /// Its number.
-    [[nodiscard]] std::int64_t run_at(std::int64_t position) const { return first_run + index_at(position); }
+    [[nodiscard]] RunId run_at(std::int64_t position) const { return run(index_at(position)); }
+    /// Run i of the row.
+    [[nodiscard]] RunId run(std::int64_t i) const { return RunId(first_run.number() + i); }
+    [[nodiscard]] bool is_high(RunId run) const { return ((run.number() - first_run.number()) & 1) != 0; }
     /// Does run i of the row contain padding?
     [[nodiscard]] bool is_outside(std::int64_t i) const { return i == 0 || i == changes; }
 };
@@ -38,7 +43,7 @@ struct Runs {
     [[nodiscard]] std::int64_t rows() const { return extent.size[1] * extent.size[2]; }
     [[nodiscard]] std::int64_t count() const { return first_change.back() + 1; }
     [[nodiscard]] RunRow row(std::int64_t r) const {
-        return {change.data() + first_change[r], first_change[r + 1] - first_change[r], first_change[r]};
+        return {change.data() + first_change[r], first_change[r + 1] - first_change[r], RunId(first_change[r])};
     }
     [[nodiscard]] RunRow row(std::int64_t y, std::int64_t z) const { return row(y + extent.size[1] * z); }
 };

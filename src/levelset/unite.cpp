@@ -36,8 +36,8 @@ private:
     /// thread, and their last run is the first of the next row.
     void join(const RunRow& a, std::int64_t i, const RunRow& b, std::int64_t j) {
         if (a.is_outside(i) && b.is_outside(j)) return;
-        const std::int64_t from = a.is_outside(i) ? b.first_run : a.first_run + i, to = b.is_outside(j) ? a.first_run : b.first_run + j;
-        sets_.join(from, to);
+        const RunId from = a.is_outside(i) ? b.first_run : a.run(i), to = b.is_outside(j) ? a.first_run : b.run(j);
+        sets_.join(from.number(), to.number());
     }
 
     /// Overlapping runs of one class, and the 4-hit faces between two neighbouring rows (orientation xy or xz).

@@ -7,7 +7,7 @@
 
 namespace isoatlas {
 
-using RunSets = UnionFind<std::int64_t>;
+using RunSets = UnionFind<std::int64_t>;  ///< by the numbers of RunIds
 
 /// Sets of connected runs; the root of a set is its first run in scan order. Highs and Lows never share a set; runs of Lows at the border
 /// of the volume are not yet joined to each other, and what touches padding is joined to the first run of its own row.

@@ -28,7 +28,7 @@ public:
         for (int r = 0; r < kRows; ++r) cursors_.emplace_back(components, y + (r & 1), z + (r >> 1));
     }
     /// Does one of the chosen contours pass through cell p? p must not be smaller than in the call before.
-    [[nodiscard]] bool meets(std::int64_t p, int pattern, const std::vector<std::uint8_t>& chosen) {
+    [[nodiscard]] bool meets(std::int64_t p, int pattern, IdSpan<ContourNumber, const std::uint8_t> chosen) {
         std::array<std::int32_t, 2 * kRows> corner;
         for (int r = 0; r < kRows; ++r) {
             corner[2 * r] = cursors_[r].at(p);
@@ -38,7 +38,8 @@ public:
             for (int step = 1; step < 2 * kRows; step *= 2) {
                 const int other = c ^ step;
                 const bool high = pattern >> c & 1, other_high = pattern >> other & 1;
-                if (high && !other_high && chosen[components_.contour_between(corner[c], corner[other])]) return true;
+                if (!high || other_high) continue;
+                if (chosen[components_.contour_between(ObjectNumber(corner[c]), LowNumber(corner[other]))]) return true;
             }
         }
         return false;
@@ -51,7 +52,7 @@ private:
 
 template <int kRows>
 std::int64_t count_row(const MeshDomain& domain, const CellRow<kRows>& rows, CornerCursor<kRows> corners,
-                       const std::vector<std::uint8_t>& chosen) {
+                       IdSpan<ContourNumber, const std::uint8_t> chosen) {
     std::int64_t count = 0;
     for_active_cells(rows, domain.cells, [&](std::int64_t p, int pattern) { count += corners.meets(p, pattern, chosen); });
     return count;
@@ -67,8 +68,8 @@ std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context
     });
 }
 
-std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Components& components, const std::vector<std::uint8_t>& chosen,
-                         const Context& context) {
+std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Components& components,
+                         IdSpan<ContourNumber, const std::uint8_t> chosen, const Context& context) {
     const MeshDomain domain(level.high, boundary);
     return sum_rows(domain, context, [&](std::int64_t y, std::int64_t z) {
         if (domain.is_2d()) return count_row<2>(domain, square_row(level.high, y), {components, y, 0}, chosen);

@@ -201,7 +201,8 @@ void extract_level(const TauLevel& level, const ExtractOptions& options, const C
     const bool selects = selects_components(options);
     std::optional<Components> components;
     if (needs_names(options)) components = find_components(level, tunnel_height_of(options.interpolant, options.tunnel_height), context);
-    const std::vector<std::uint8_t> chosen = selects ? chosen_contours(level, *components, options) : std::vector<std::uint8_t>{};
+    IdArray<ContourNumber, std::uint8_t> chosen;
+    if (selects) chosen = chosen_contours(level, *components, options);
     visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
         Extraction<T>(level, grid, options, context, components ? &*components : nullptr).run(surface);
     });

@@ -23,7 +23,7 @@ std::string describe_voxel(const Extent& extent, std::int64_t voxel) {
 }
 
 /// The object (number) that contains a voxel.
-std::int32_t object_at(const TauLevel& level, const Components& components, std::int64_t voxel) {
+ObjectNumber object_at(const TauLevel& level, const Components& components, std::int64_t voxel) {
     const Extent& extent = level.info().extent;
     if (voxel < 0 || voxel >= extent.voxels()) {
         throw Error(ErrorKind::not_found, {.where = "object " + std::to_string(voxel),
@@ -33,8 +33,8 @@ std::int32_t object_at(const TauLevel& level, const Components& components, std:
     }
     const Index3 at = extent.voxel(voxel);
     const RunRow row = components.runs.row(at[1], at[2]);
-    const std::int64_t run = row.run_at(at[0] + 1);
-    if (((run - row.first_run) & 1) == 0) {
+    const RunId run = row.run_at(at[0] + 1);
+    if (!row.is_high(run)) {
         const Calibration& calibration = level.info().calibration;
         throw Error(ErrorKind::not_found,
                     {.where = describe_voxel(extent, voxel),
@@ -42,10 +42,10 @@ std::int32_t object_at(const TauLevel& level, const Components& components, std:
                              shortest(calibration.reported(level.tau)) + ", so no object contains it",
                      .next = "lower the isovalue, or list the objects at this isovalue and take one of their ids"});
     }
-    return components.of_run[run];
+    return components.object_of(run);
 }
 
-std::int64_t contour_with_id(const std::unordered_map<std::int64_t, std::int64_t>& numbers, const TauLevel& level, std::int64_t id) {
+ContourNumber contour_with_id(const std::unordered_map<std::int64_t, ContourNumber>& numbers, const TauLevel& level, std::int64_t id) {
     const auto found = numbers.find(id);
     if (found != numbers.end()) return found->second;
     throw Error(ErrorKind::not_found,
@@ -61,7 +61,9 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
                     Surface& surface) {
     const RowHits hits(domain, y, z);
     const auto write = [&](bool first_is_high, std::int32_t first, std::int32_t second, std::int64_t& point) {
-        surface.contour[point++] = first_is_high ? components.contour_between(first, second) : components.contour_between(second, first);
+        const ObjectNumber object(first_is_high ? first : second);
+        const LowNumber low(first_is_high ? second : first);
+        surface.contour[point++] = components.contour_between(object, low).number();
     };
     ComponentCursor here(components, y, z), here_y = here, here_z = here, next_y(components, y + 1, z), next_z(components, y, z + 1);
     std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
@@ -81,31 +83,30 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
     });
 }
 
-std::vector<std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options) {
+IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options) {
     if (options.objects.empty() && options.contours.empty() && options.shell == ShellChoice::all) return {};
-    const std::int64_t contours = components.contours();
-    std::vector<std::uint8_t> object_chosen(static_cast<std::size_t>(components.objects()), options.objects.empty());
+    IdArray<ObjectNumber, std::uint8_t> object_chosen(static_cast<std::size_t>(components.objects()), options.objects.empty());
     for (const std::int64_t voxel : options.objects) object_chosen[object_at(level, components, voxel)] = 1;
 
-    std::vector<std::uint8_t> chosen(static_cast<std::size_t>(contours), options.contours.empty());
+    IdArray<ContourNumber, std::uint8_t> chosen(static_cast<std::size_t>(components.contours()), options.contours.empty());
     if (!options.contours.empty()) {
-        std::unordered_map<std::int64_t, std::int64_t> numbers;
-        for (std::int64_t contour = 0; contour < contours; ++contour) numbers.emplace(components.contour_id(contour), contour);
+        std::unordered_map<std::int64_t, ContourNumber> numbers;
+        for (const ContourNumber contour : chosen.ids()) numbers.emplace(components.contour_id(contour).number(), contour);
         for (const std::int64_t id : options.contours) chosen[contour_with_id(numbers, level, id)] = 1;
     }
-    for (std::int64_t contour = 0; contour < contours; ++contour) {
-        const bool outer = contour < components.objects();
+    for (const ContourNumber contour : chosen.ids()) {
+        const bool outer = components.is_outer(contour);
         const bool shell_chosen = options.shell == ShellChoice::all || (options.shell == ShellChoice::outer) == outer;
         chosen[contour] = chosen[contour] && shell_chosen && object_chosen[components.object_of_contour(contour)];
     }
     return chosen;
 }
 
-void keep_contours(const std::vector<std::uint8_t>& chosen, Surface& surface) {
+void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface) {
     std::vector<std::int64_t> place(surface.points.size(), -1);
     std::int64_t kept = 0;
     for (std::size_t i = 0; i < place.size(); ++i) {
-        if (!chosen[surface.contour[i]]) continue;
+        if (!chosen[ContourNumber(surface.contour[i])]) continue;
         place[i] = kept;
         surface.points[kept] = surface.points[i];
         surface.contour[kept] = surface.contour[i];
@@ -139,9 +140,9 @@ void write_ids(const Components& components, const Context& context, Surface& su
     for_each_slab(blocks, kSelectPhases["ids"], {(count + kBlock - 1) / kBlock, kBlock}, [&](const Slab& slab) {
         const std::int64_t end = std::min(count, slab.z_end * kBlock);
         for (std::int64_t i = slab.z_begin * kBlock; i < end; ++i) {
-            const std::int64_t contour = surface.contour[i];
-            surface.object[i] = components.highest[components.object_of_contour(contour)];
-            surface.contour[i] = components.contour_id(contour);
+            const ContourNumber contour(surface.contour[i]);
+            surface.object[i] = components.highest[components.object_of_contour(contour)].number();
+            surface.contour[i] = components.contour_id(contour).number();
         }
     });
 }

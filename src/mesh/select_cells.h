@@ -11,12 +11,13 @@ namespace isoatlas {
 void write_contours(const Components& components, const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowOffsets& place,
                     Surface& surface);
 
-/// The contours that the options select, as a flag per contour number; empty: all of them.
+/// The contours that the options select, as flags; empty: all of them.
 /// Throws Error: usage (not a voxel), not_found (a Low voxel, no such contour at tau).
-[[nodiscard]] std::vector<std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options);
+[[nodiscard]] IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components,
+                                                                   const ExtractOptions& options);
 
 /// Keeps the points of the chosen contours and what is between them. Surface::contour holds contour numbers.
-void keep_contours(const std::vector<std::uint8_t>& chosen, Surface& surface);
+void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface);
 
 /// Replaces contour numbers by ids as in Cut: fills Surface::object and Surface::contour.
 void write_ids(const Components& components, const Context& context, Surface& surface);

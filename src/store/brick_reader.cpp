@@ -74,9 +74,9 @@ void BrickReader<T>::check_places() const {
 }
 
 template <class T>
-std::int64_t BrickReader<T>::voxel_at(BrickId brick, std::int64_t place) const {
+VoxelId BrickReader<T>::voxel_at(BrickId brick, std::int64_t place) const {
     const Box box = grid_.box(brick);
-    return grid_.extent.index(box.begin + isoatlas::Extent{3, box.size()}.voxel(place));
+    return VoxelId(grid_.extent.index(box.begin + isoatlas::Extent{3, box.size()}.voxel(place)));
 }
 
 template <class T>

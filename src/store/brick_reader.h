@@ -27,8 +27,8 @@ public:
     /// Upper bound of the cost of read() of a part of the list.
     [[nodiscard]] IoCounters max_of_part(std::vector<BrickId> bricks) const;
     /// Voxels of the highest and the lowest sample of a brick; ties as in the total order (field/order.h).
-    [[nodiscard]] std::int64_t highest_voxel(BrickId brick) const { return voxel_at(brick, highest_[brick.index()]); }
-    [[nodiscard]] std::int64_t lowest_voxel(BrickId brick) const { return voxel_at(brick, lowest_[brick.index()]); }
+    [[nodiscard]] VoxelId highest_voxel(BrickId brick) const { return voxel_at(brick, highest_[brick.index()]); }
+    [[nodiscard]] VoxelId lowest_voxel(BrickId brick) const { return voxel_at(brick, lowest_[brick.index()]); }
 
     /// Calls sink(brick, samples of its box, x fastest) for every brick of the list, from several threads, in no order. Bricks that are
     /// close to each other in the file share one read. Throws Error: input (a damaged brick, or extremes not at their stored positions),
@@ -57,7 +57,7 @@ private:
     void sort_by_offset(std::vector<BrickId>& bricks) const;
     [[nodiscard]] IoCounters count(std::span<const BrickId> bricks, std::span<const Extent> extents) const;
     [[nodiscard]] std::vector<Extent> extents_of(std::span<const BrickId> bricks, std::int64_t longest) const;
-    [[nodiscard]] std::int64_t voxel_at(BrickId brick, std::int64_t place) const;
+    [[nodiscard]] VoxelId voxel_at(BrickId brick, std::int64_t place) const;
     void decode(BrickId brick, std::span<const std::byte> packed, const std::function<void(BrickId, std::span<const T>)>& sink) const;
 
     const Container& store_;

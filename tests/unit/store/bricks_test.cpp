@@ -98,8 +98,8 @@ RC_GTEST_FIXTURE_PROP(Bricks, KnowTheirHighestAndLowestVoxels, ()) {
             max[b] = std::max(max[b], std::pair(volume.value(v), v));
         }
         for (const BrickId b : reader.grid().bricks()) {
-            RC_ASSERT(reader.highest_voxel(b) == max[b.index()].second);
-            RC_ASSERT(reader.lowest_voxel(b) == min[b.index()].second);
+            RC_ASSERT(reader.highest_voxel(b).number() == max[b.index()].second);
+            RC_ASSERT(reader.lowest_voxel(b).number() == min[b.index()].second);
         }
         reader.check({.threads = 1});
     });
