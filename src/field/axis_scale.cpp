@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "field/sample_range.h"
 
 namespace isoatlas {
@@ -49,11 +49,11 @@ AxisScale axis_scale(const VolumeView& volume) {
         const auto low = static_cast<double>(min), high = static_cast<double>(max);
         const std::vector<double> edges = axis_edges(low, high);
         std::vector<std::int64_t> counts(edges.empty() ? 0 : edges.size() - 1, 0);
+        if (counts.empty()) return AxisScale{low, high, 0};
         const std::size_t stride = std::max<std::size_t>(1, samples.size() / kSamples) | 1;
-        BudgetPoll memory;
-        for (std::size_t v = 0; v < samples.size() && !counts.empty(); v += stride) {
-            memory.step(std::min(stride * sizeof(samples[v]), BudgetPoll::kTouch));
-            const auto sample = static_cast<double>(samples[v]);
+        const StepBytes step{bytes_of_stride<decltype(min)>(static_cast<std::int64_t>(stride))};
+        for (const std::size_t i : streamed((samples.size() + stride - 1) / stride, step)) {
+            const auto sample = static_cast<double>(samples[i * stride]);
             if (sample < edges.front()) continue;
             const auto after = static_cast<std::size_t>(std::ranges::upper_bound(edges, sample) - edges.begin());
             ++counts[std::min(after - 1, counts.size() - 1)];
