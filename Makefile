@@ -35,7 +35,7 @@ format: ## format all sources in place
 lint: ## clang-tidy over src and apps
 	@scripts/bootstrap.sh test
 	@cmake --preset dev >/dev/null
-	@scripts/lint.sh
+	@scripts/lint.py
 
 bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster; writes build/bench/*.json and docs/performance.md
 	@scripts/bench.sh

@@ -15,5 +15,5 @@ step "packages" scripts/bootstrap.sh test
 step "format" scripts/format.sh
 step "build" scripts/build.sh dev
 step "tests" ctest --preset dev
-step "lint" scripts/lint.sh build/dev
+step "lint" scripts/lint.py build/dev
 echo "All checks passed in $SECONDS s."

@@ -54,30 +54,29 @@ private:
     double steps_ = 0, low_ = 0, factor_ = 0;
 };
 
-/// Passes all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double): key(p) <
-/// key(q) implies before(p, q). allocate(n) is called once, before the first put. Puts come from several threads, in any order. Consumes
-/// the chunks. Cost: O(n log n) time, a second copy of the items.
-template <class T, class Key, class Before, class Allocate, class Put>
-void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
-                 const Put& put) {
-    constexpr std::size_t kBucket = 1 << 10, kMaxBuckets = 1 << 12, kSampled = 16, kGroups = 8;
-    std::size_t n = 0;
-    for (const BigVector<T>& chunk : chunks) n += chunk.size();
-    const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMaxBuckets);
+/// `count` buckets of about as many items each, from a sample of the keys of n items.
+template <class T, class Key>
+Buckets buckets_of(const std::vector<BigVector<T>>& chunks, std::size_t n, std::size_t count, const Key& key) {
+    constexpr std::size_t kSampled = 16;
     std::vector<double> sample;
     const std::size_t stride = std::max<std::size_t>(1, n / (kSampled * count));
-    BudgetPoll sampled;
+    BudgetPoll memory;
     for (const BigVector<T>& chunk : chunks) {
         for (std::size_t i = 0; i < chunk.size(); i += stride) {
-            sampled.step(stride * sizeof(T));
+            memory.step(stride * sizeof(T));
             sample.push_back(key(chunk[i]));
         }
     }
-    const Buckets buckets(std::move(sample), count);
+    return {std::move(sample), count};
+}
 
-    // Count per group of chunks and bucket, exclusive scan, scatter, sort every bucket.
+/// The items of the chunks, which it consumes, bucket after bucket. first[b]: where bucket b begins; the last is their number.
+template <class T, class BucketOf>
+BigVector<T> scatter(int threads, std::vector<BigVector<T>>& chunks, const BucketOf& bucket_of, std::span<std::size_t> first) {
+    constexpr std::size_t kGroups = 8;
     const std::size_t groups = std::min(chunks.size(), kGroups * static_cast<std::size_t>(thread_count(threads)));
-    std::vector<std::size_t> place(groups * count, 0), first(count + 1, 0);
+    const std::size_t count = first.size() - 1;
+    std::vector<std::size_t> place(groups * count, 0);
     const auto for_chunks_of = [&](std::int64_t g, const auto& visit) {
         for (std::size_t c = g * chunks.size() / groups; c < (g + 1) * chunks.size() / groups; ++c) visit(chunks[c]);
     };
@@ -86,7 +85,7 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         for_chunks_of(g, [&](const BigVector<T>& chunk) {
             for (const T& item : chunk) {
                 memory.step();
-                ++place[g * count + buckets.of(key(item))];
+                ++place[g * count + bucket_of(item)];
             }
         });
     });
@@ -95,20 +94,36 @@ void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, 
         first[b] = next;
         for (std::size_t g = 0; g < groups; ++g) next += std::exchange(place[g * count + b], next);
     }
-    first[count] = n;
-    BigVector<T> sorted(n);
+    first[count] = next;
+    BigVector<T> sorted(next);
     for_each_block(threads, static_cast<std::int64_t>(groups), [&](std::int64_t g) {
         BudgetPoll memory;
         PartWriters<T> writers(sorted, std::span(place).subspan(g * count, count));
         for_chunks_of(g, [&](BigVector<T>& chunk) {
             for (const T& item : chunk) {
                 memory.step();
-                writers.put(buckets.of(key(item)), item);
+                writers.put(bucket_of(item), item);
             }
             release(chunk);
         });
         writers.finish();
     });
+    return sorted;
+}
+
+/// Passes all items of the chunks to put(place of the first, items), sorted by before(p, q), which must agree with key (a double): key(p) <
+/// key(q) implies before(p, q). allocate(n) is called once, before the first put. Puts come from several threads, in any order. Consumes
+/// the chunks. Cost: O(n log n) time, a second copy of the items.
+template <class T, class Key, class Before, class Allocate, class Put>
+void sort_chunks(int threads, std::vector<BigVector<T>> chunks, const Key& key, const Before& before, const Allocate& allocate,
+                 const Put& put) {
+    constexpr std::size_t kBucket = 1 << 10, kMaxBuckets = 1 << 12;
+    std::size_t n = 0;
+    for (const BigVector<T>& chunk : chunks) n += chunk.size();
+    const std::size_t count = std::clamp<std::size_t>(n / kBucket, 1, kMaxBuckets);
+    const Buckets buckets = buckets_of(chunks, n, count, key);
+    std::vector<std::size_t> first(count + 1, 0);
+    BigVector<T> sorted = scatter(threads, chunks, [&](const T& item) { return buckets.of(key(item)); }, first);
     allocate(n);
     const std::size_t max = is_scratch(sorted.data()) ? sortable_items<T>(threads) : n;
     const auto bucket_of = [&](std::size_t b) { return std::span(sorted).subspan(first[b], first[b + 1] - first[b]); };

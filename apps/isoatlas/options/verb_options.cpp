@@ -1,0 +1,214 @@
+#include "options/verb_options.h"
+
+#include <map>
+#include <string_view>
+
+namespace isoatlas::cli {
+namespace {
+
+void add_output(CLI::App& app, Arguments& arguments, const std::string& formats, bool required) {
+    CLI::Option* option =
+        app.add_option("-o,--output", arguments.output, "Write to FILE (" + formats + "); an existing file is overwritten");
+    option->type_name("FILE");
+    if (required) option->required();
+}
+
+void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
+    add_number(app, "--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
+}
+
+void add_gaussian(CLI::App& app, Typed& typed) {
+    add_number(app, "--gaussian", typed.gaussian, "Gaussian filter first: standard deviation in the unit of the spacing")
+        ->type_name("SIGMA");
+}
+
+void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_gaussian(app, typed);
+    app.add_option("--memory", typed.memory, "Memory budget, such as 1G or 500M; default: half of the available memory")->type_name("SIZE");
+    app.add_flag("--restart", arguments.restart, "Discard the phases of an earlier build");
+}
+
+/// Options applied to the samples first.
+void add_shape(CLI::App& app, Typed& typed) {
+    add_gaussian(app, typed);
+    app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
+}
+
+void tree_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
+    add_selection(app, typed.selection, true);
+    add_output(app, arguments, ".json .graphml .csv .vtu", false);
+}
+
+void info_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
+    add_tau(app, typed, "Size of the surface at this isovalue and cost of reading it (stores)");
+}
+
+void objects_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_tau(app, typed, "List every object at this isovalue");
+    app.add_option("--top", typed.selection.top,
+                   "At most N lines (without --tau: 24); with a percent sign: keep the first P percent of all objects")
+        ->type_name("N|P%");
+    add_selection(app, typed.selection, false);
+    app.add_option("--curve", arguments.curve, "Write the number of objects for every threshold (.csv .svg .json)")->type_name("FILE");
+    app.add_flag("--all", arguments.all, "All objects, also those that noise alone may explain");
+    CLI::Option* cavities = app.add_flag("--cavities", arguments.cavities, "Cavities instead: voids and low-value regions inside objects");
+    app.add_flag("--both", arguments.both, "Objects and cavities")->excludes(cavities);
+}
+
+void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_tau(app, typed, "Isovalue; default: the best isovalue of the object");
+    add_number(app, "--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
+    add_number(app, "--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID");
+    app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
+    app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
+    app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
+    app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
+    add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
+}
+
+void render_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_picture(app, arguments, typed.picture);
+    add_camera(app, typed.picture);
+    add_output(app, arguments, ".png .webp", true);
+}
+
+void animate_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_animation(app, arguments);
+    add_selection(app, typed.selection, false);
+    add_picture(app, arguments, typed.picture);
+    add_output(app, arguments, ".gif .webp .png .apng .mp4", true);
+}
+
+void label_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
+    app.add_flag("--cavities", arguments.cavities, "With --tau: label the cavities instead, 1 is the largest");
+    app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
+    add_selection(app, typed.selection, true);
+    add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
+}
+
+void build_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_output(app, arguments, ".atlas", true);
+    add_build(app, arguments, typed);
+    app.add_flag("--dry-run", arguments.dry_run, "Only estimate memory, disk and time");
+}
+
+void atlas_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_number(app, "--top", arguments.top, "At most N objects (24)")->check(in_range(1, 1000))->type_name("N");
+    add_output(app, arguments, ".html", false);
+    add_build(app, arguments, typed);
+}
+
+void view_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (default: any free port)")
+        ->check(in_range(1, 65535))
+        ->type_name("N");
+    app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
+    app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store");
+    add_build(app, arguments, typed);
+}
+
+void ask_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) { add_output(app, arguments, "the response", false); }
+
+void handles_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    app.add_flag("--exact", arguments.exact, "Exact pairs by persistent homology (slower)");
+    add_number(app, "--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
+    app.add_option("--top", typed.selection.top, "At most N tunnels (24)")->type_name("N");
+    app.add_option("--persistence", typed.selection.persistence, "Only tunnels of at least this persistence, or P percent of the range")
+        ->type_name("H|P%");
+}
+
+void spectrum_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_number(app, "--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
+        ->check(in_range(std::int64_t{0}, std::int64_t{100000}))
+        ->type_name("N");
+    add_selection(app, typed.selection, true);
+    add_output(app, arguments, ".csv .svg .json", false);
+}
+
+void table131_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) { add_shape(app, typed); }
+
+void convert_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_shape(app, typed);
+    add_output(app, arguments, ".nrrd .npy .raw .mha .nii", true);
+}
+
+void phantom_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
+    app.add_flag("--list", arguments.list, "List the phantoms");
+    add_number(app, "--size", arguments.phantom.size, "Samples per axis")
+        ->check(in_range(std::int64_t{1}, std::int64_t{1} << 20))
+        ->type_name("N");
+    add_number(app, "--seed", arguments.phantom.seed, "Seed of random phantoms")->type_name("N");
+    add_number(app, "--genus", arguments.phantom.genus, "Number of handles (torus-chain)")->type_name("N");
+    add_number(app, "--shells", arguments.phantom.shells, "Number of shells (nested-shells)")->type_name("N");
+    add_number(app, "--noise", arguments.phantom.noise, "Uniform noise of +- this fraction of the range")->type_name("F");
+    add_number(app, "--quantise", arguments.phantom.quantise, "Number of grey levels, 2..65536")->type_name("N");
+    add_output(app, arguments, ".nrrd .npy .raw .mha .nii", false);
+}
+
+void verify_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
+    add_number(app, "--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
+        ->check(in_range(1, 100000))
+        ->type_name("N");
+    app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree recomputed from the samples");
+    add_number(app, "--seed", arguments.seed, "Stores: seed for drawing isovalues and objects (1)")->type_name("N");
+}
+
+}  // namespace
+
+void add_talking(CLI::App& app, Arguments& arguments) {
+    app.add_flag("--json", arguments.json, "One JSON document on standard output, errors included")->group("Output options");
+    app.add_flag("-q,--quiet", arguments.quiet, "No progress, no hints")->group("Output options");
+    app.add_flag("-v,--verbose", arguments.verbose, "Print time and memory")->group("Output options");
+    app.add_flag("--no-color", arguments.no_color, "No colours (also: NO_COLOR in the environment)")->group("Output options");
+    add_number(app, "--threads", arguments.threads, "Number of threads; 0: one per processor. Results do not depend on it")
+        ->check(in_range(0, 4096))
+        ->type_name("N")
+        ->group("Output options");
+}
+
+void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
+    const char* group = "Input options";
+    app.add_option("--dims", typed.dims, "Samples per axis of a RAW file, x fastest: 512x512x100")->type_name("NX[xNY[xNZ]]")->group(group);
+    app.add_option("--type", typed.type, "Sample type of a RAW file: uint8 int8 uint16 int16 uint32 int32 float32 float64")
+        ->type_name("T")
+        ->group(group);
+    app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
+    add_number(app, "--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
+    app.add_option("--spacing", typed.spacing, "Spacing of the samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
+    app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
+    add_number(app, "--time-step", typed.time_step, "Volume of a 4D file, from 0")->type_name("N")->group(group);
+    app.add_flag("--skip-rest", arguments.open.skip_rest, "Ignore bytes after the samples; without it they are an error")->group(group);
+    app.add_flag("--follow-links", arguments.open.follow_links, "Follow headers and links to files outside their folder")->group(group);
+    app.add_option("--missing", typed.missing, "Replace NaN and infinite samples by VALUE; below: less than every value")
+        ->type_name("VALUE|below")
+        ->group(group);
+    add_number(app, "--no-data", typed.no_data, "Stored value that marks missing samples (with --missing)")
+        ->type_name("VALUE")
+        ->group(group);
+    app.add_flag("--voxel", arguments.voxel_units, "Measure in voxels, not in the units of the file")->group(group);
+}
+
+void add_interpolant(CLI::App& app, Typed& typed) {
+    app.add_option("--interpolant", typed.interpolant, "Connectivity inside cells: trilinear (default), or faces for the face rule alone")
+        ->type_name("NAME")
+        ->group("Input options");
+    app.add_option("--tunnel-height", typed.tunnel_height, "Ignore tunnels through cells of at most this height (trilinear)")
+        ->type_name("H|P%")
+        ->group("Input options");
+}
+
+void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments, Typed& typed) {
+    using Add = void (*)(CLI::App&, Arguments&, Typed&);
+    static const std::map<std::string_view, Add> list{
+        {"tree", tree_options},         {"info", info_options},         {"objects", objects_options}, {"extract", extract_options},
+        {"render", render_options},     {"animate", animate_options},   {"label", label_options},     {"build", build_options},
+        {"atlas", atlas_options},       {"view", view_options},         {"ask", ask_options},         {"handles", handles_options},
+        {"spectrum", spectrum_options}, {"table131", table131_options}, {"convert", convert_options}, {"phantom", phantom_options},
+        {"verify", verify_options},
+    };
+    if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
+}
+
+}  // namespace isoatlas::cli

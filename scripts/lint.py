@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""clang-tidy over src and apps: scripts/lint.py [BUILD_FOLDER], which has the compile commands (default build/dev).
+
+Most of the time goes into the headers of the standard library, so the files of a folder are read together: groups of GROUP files in one
+translation unit. Files that cannot stand in one (a name in both unnamed namespaces) are halved until they can."""
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TIDY = "clang-tidy-19"
+GROUP = 8
+
+
+def groups(commands):
+    """{(folder, options): files}: files that are compiled alike."""
+    found = collections.defaultdict(set)
+    for entry in commands:
+        file = pathlib.Path(entry["file"])
+        if not file.is_relative_to(ROOT / "src") and not file.is_relative_to(ROOT / "apps"):
+            continue
+        command = re.sub(r"(-Winvalid-pch )?-include \S+cmake_pch\.hxx", "", entry["command"])  # each file includes what it uses
+        words = [word for word in shlex.split(command) if not word.endswith("ccache")][1:]
+        output = words.index("-o")
+        del words[output:output + 2]
+        options = tuple(word for word in words if word not in ("-c", str(file)) and not re.match(r"-[Og]", word))
+        found[file.parent, options].add(file)
+    for (_, options), files in sorted(found.items()):
+        ordered = sorted(files)
+        for first in range(0, len(ordered), GROUP):
+            yield options, ordered[first:first + GROUP]
+
+
+def lint(options, files):
+    """The findings in these files, as text."""
+    with tempfile.NamedTemporaryFile("w", suffix=".cpp") as unit:
+        unit.writelines(f'#include "{file}"\n' for file in files)
+        unit.flush()
+        done = subprocess.run([TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "--checks=-bugprone-suspicious-include", unit.name, "--", *options, "-w"],
+                              capture_output=True, text=True)
+    if done.returncode == 0:
+        return ""
+    if "[clang-diagnostic-error" in done.stdout and len(files) > 1:
+        half = len(files) // 2
+        return lint(options, files[:half]) + lint(options, files[half:])
+    return done.stdout or done.stderr
+
+
+def main():
+    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build" / "dev")
+    commands = json.loads((build / "compile_commands.json").read_text())
+    units = list(groups(commands))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        findings = [text for text in pool.map(lambda unit: lint(*unit), units) if text]
+    print("".join(findings), end="")
+    print(f"lint: {sum(len(files) for _, files in units)} files, {'findings above' if findings else 'no finding'}")
+    if findings:
+        sys.exit("lint: the findings are above; each must be mended (or, with a reason, marked NOLINT)")
+
+
+if __name__ == "__main__":
+    main()
