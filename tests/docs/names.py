@@ -13,12 +13,12 @@ import sys
 
 from links import Checkout, line_of, self_test
 
-TYPE = re.compile(r"^(?:template <[^\n]*>\n?)?(?:class|struct|enum class|concept|using) (\w+)(?=[^;\n:]*[{=]|[^;\n]* : )", re.M)
+TYPE = re.compile(r"^(?:template <[^\n]*>\n?)?(?:class|struct|enum class|concept|using) (?!std::)(\w+)(?=[^;\n:]*[{=]|[^;\n]* : )", re.M)
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]*\d*|[a-z]+")
 # words of plain English, and those that every programmer knows
 PLAIN = set("""
     Allocator Analysis Animation Array Atlas Background Bar Build Camera Check Clock Coarse Colour Context Contour Cut Detail
-    Environment Error Estimate Extent Extract Geometry Image Info Kind Label Mat3 Material Mesh Missing Number Numbers Object Open
+    Environment Error Estimate Extent Extract Geometry Image Index3 Info Kind Label Mat3 Material Mesh Missing Number Numbers Object Open
     Options Origin Output Page Phantom Policy Preview Progress Projection Rank Reader Render Report Result Scale Scene Server Sink Slice
     Spectrum State Store Surface Text Tree Type Value Vec3 Verify View Volume
 """.split())

@@ -25,7 +25,7 @@ LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for roo
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
-    "base": "array bounds context error output_file sink text version",
+    "base": "array bounds context error id index3 output_file sink text version",
     "field": "filter interpolant isovalue samples_wanted shell volume",
     "tree": "criticality",
     "analysis": "active analysis",
