@@ -48,7 +48,7 @@ private:
 Answer answer_of(const isoatlas::Analysis& analysis) {
     Answer answer{analysis.element_count(), 0, analysis.event_count(), analysis.contour_arc_count()};
     std::int64_t euler = 0;
-    for (std::int64_t id = 0; id < answer.elements; ++id) {
+    for (const isoatlas::ElementId id : isoatlas::ids<isoatlas::ElementId>(answer.elements)) {
         const isoatlas::Element element = analysis.element(id);
         euler += element.l0 - element.h0;
         answer.maxima += element.h0 == 0 ? 1 : 0;

@@ -21,10 +21,10 @@ struct ActiveContour {
 
 /// An object as in CutObject, without what only its voxels determine.
 struct ActiveObject {
-    std::int64_t id;     ///< index of its highest voxel
-    std::int64_t event;  ///< the event whose zone contains tau
-    ZoneRange zone;      ///< the isovalues at which it is what it is here: one step down for this object is to zone.tau_low
-    double above;        ///< one step up along its largest part: the value of that part's event; zone.tau_high when there is none
+    std::int64_t id;  ///< index of its highest voxel
+    EventId event;    ///< the event whose zone contains tau
+    ZoneRange zone;   ///< the isovalues at which it is what it is here: one step down for this object is to zone.tau_low
+    double above;     ///< one step up along its largest part: the value of that part's event; zone.tau_high when there is none
     std::int64_t chi, b1, b2;
     std::int64_t min_voxels, max_voxels;  ///< bounds of its voxels; equal when the trees determine them
     std::int64_t contours;                ///< how many it has

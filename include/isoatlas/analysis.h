@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "isoatlas/criticality.h"
+#include "isoatlas/id.h"
 #include "isoatlas/interpolant.h"
 #include "isoatlas/volume.h"
 
@@ -37,13 +38,13 @@ struct Element {
 /// A level: the genera of the contours that arrive from above and leave below, sorted. Only non-trivial ones are kept.
 struct Level {
     double value;
-    std::int64_t event;                 ///< the event it belongs to
+    EventId event;                      ///< the event it belongs to
     std::vector<std::int64_t> in, out;  ///< genus of each contour just above / just below
 };
 
 /// An arc of the contour tree: one contour while it lives, for tau in (value_low, value_high].
 struct ContourArc {
-    std::int64_t upper, lower;  ///< element ids of its ends; lower == element_count(): the outside of the volume
+    ElementId upper, lower;  ///< its ends; lower == ElementId(element_count()): the outside of the volume
     double value_high, value_low;
     std::int64_t genus;
 };
@@ -56,15 +57,15 @@ struct ZoneRange {
 
 /// A node of the criticality tree: at `value`, topology of one object changes. Its zone is the interval below it in which nothing changes.
 struct Event {
-    std::int64_t id;
+    EventId id;
     double value;
     std::array<double, 3> position;  ///< voxel coordinates of its highest critical element
     Criticality kind;
-    std::int64_t parent;                     ///< next event of the same object going down; -1: root
-    std::span<const std::int64_t> children;  ///< the events (objects) that arrive here from above; valid while the Analysis lives
-    std::int64_t objects_in;                 ///< number of children
-    std::int64_t lows_out;                   ///< low components that leave the event's levels just below
-    std::int64_t delta_chi;                  ///< change of the Euler characteristic of the High set
+    EventId parent;                     ///< next event of the same object going down; none: root
+    std::span<const EventId> children;  ///< the events (objects) that arrive here from above; valid while the Analysis lives
+    std::int64_t objects_in;            ///< number of children
+    std::int64_t lows_out;              ///< low components that leave the event's levels just below
+    std::int64_t delta_chi;             ///< change of the Euler characteristic of the High set
     ZoneRange zone;
     std::int64_t chi, b1, b2;    ///< of the object inside the zone (b0 = 1); 2D: b2 = 0
     std::int64_t contours;       ///< number of contours of the object inside the zone
@@ -96,7 +97,7 @@ public:
 
     /// Critical elements in descending order of the total order; id = position in this order.
     [[nodiscard]] std::int64_t element_count() const;
-    [[nodiscard]] Element element(std::int64_t id) const;
+    [[nodiscard]] Element element(ElementId id) const;
 
     /// Arcs of the contour tree between elements of different value (zero-length arcs are contracted into levels).
     [[nodiscard]] std::int64_t contour_arc_count() const;
@@ -108,16 +109,16 @@ public:
 
     /// Events in descending order: children have smaller ids than their parent; the last one is the root.
     [[nodiscard]] std::int64_t event_count() const;
-    [[nodiscard]] Event event(std::int64_t id) const;
-    /// Calls visit(event id, genus histogram of the contours of its object inside its zone, ascending genus) for every event in id order.
+    [[nodiscard]] Event event(EventId id) const;
+    /// Calls visit(event, genus histogram of the contours of its object inside its zone, ascending genus) for every event in id order.
     /// Cost: O(events + levels) plus what is visited.
-    void visit_object_contours(const std::function<void(std::int64_t, std::span<const GenusCount>)>& visit) const;
+    void visit_object_contours(const std::function<void(EventId, std::span<const GenusCount>)>& visit) const;
 
     /// Are the voxels of zones and objects counted? (Made with zones, or read from a store.)
     [[nodiscard]] bool counts_voxels() const;
-    /// The zone (event id) of a voxel: the event e with value(parent(e)) < value(voxel) <= value(e) in the voxel's object.
+    /// The zone of a voxel: the event e with value(parent(e)) < value(voxel) <= value(e) in the voxel's object.
     /// Throws Error{usage} when the analysis was made without zones, or read from a store.
-    [[nodiscard]] std::int64_t zone(std::int64_t voxel) const;
+    [[nodiscard]] EventId zone(VoxelId voxel) const;
 
     [[nodiscard]] const Data& data() const { return *data_; }
     [[nodiscard]] Data& data() { return *data_; }

@@ -21,7 +21,7 @@ namespace isoatlas {
 struct Handle {
     double opens, closes;
     std::array<double, 3> opened_at, closed_at;
-    std::int64_t event;    ///< at which it opens, of the object whose tunnel it is then
+    EventId event;         ///< at which it opens, of the object whose tunnel it is then
     bool is_open = false;  ///< of one object alone: it is still open where the object merges, which `closes` is then
     [[nodiscard]] double persistence() const { return opens - closes; }
 };
@@ -32,8 +32,8 @@ struct Handle {
 
 struct ExactHandles {
     double min_persistence = 0;
-    /// Only the object of this event at the low end of its zone: all that happens in it down to there. -1: the whole volume.
-    std::int64_t event = -1;
+    /// Only the object of this event at the low end of its zone: all that happens in it down to there. None: the whole volume.
+    EventId event = EventId::none();
     /// Refuse more tunnels than that: their number is known from the trees at once, the time is not.
     std::int64_t max = 1'000'000;
 };
@@ -57,7 +57,7 @@ struct FoundHandles {
                                         const std::function<Volume()>& samples, const Context& context = {});
 
 /// The largest object whose highest voxel is that one: the event just before it merges with a higher object, the root for the highest
-/// voxel of all; -1: the voxel is not the highest of any object. Cost: O(elements + events).
-[[nodiscard]] std::int64_t event_of_highest(const Analysis& analysis, std::int64_t voxel);
+/// voxel of all; none: the voxel is not the highest of any object. Cost: O(elements + events).
+[[nodiscard]] EventId event_of_highest(const Analysis& analysis, VoxelId voxel);
 
 }  // namespace isoatlas

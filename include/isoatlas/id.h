@@ -7,7 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <functional>
 
 namespace isoatlas {
 
@@ -41,6 +41,38 @@ private:
     Number number_;
 };
 
+/// The ids first .. end - 1, for a loop.
+template <class I>
+class IdRange {
+public:
+    class Iterator {
+    public:
+        constexpr explicit Iterator(I at) noexcept : at_(at) {}
+        constexpr I operator*() const noexcept { return at_; }
+        constexpr Iterator& operator++() noexcept {
+            ++at_;
+            return *this;
+        }
+        friend constexpr bool operator==(const Iterator&, const Iterator&) = default;
+
+    private:
+        I at_;
+    };
+    constexpr explicit IdRange(std::size_t count) noexcept : first_(0), end_(count) {}
+    constexpr IdRange(I first, I end) noexcept : first_(first), end_(end) {}
+    [[nodiscard]] constexpr Iterator begin() const noexcept { return Iterator(first_); }
+    [[nodiscard]] constexpr Iterator end() const noexcept { return Iterator(end_); }
+
+private:
+    I first_, end_;
+};
+
+/// for (const EventId e : ids<EventId>(analysis.event_count())): the ids 0 .. count - 1.
+template <class I>
+[[nodiscard]] constexpr IdRange<I> ids(std::integral auto count) noexcept {
+    return IdRange<I>(static_cast<std::size_t>(count));
+}
+
 /// Numbers as narrow as the volume allows in the arrays of the engine (std::uint32_t, std::uint64_t), std::int64_t elsewhere.
 template <class Number>
 using VoxelIdOf = StrongId<struct VoxelTag, Number>;
@@ -57,3 +89,8 @@ using EventId = EventIdOf<std::int64_t>;      ///< of a node of the criticality 
 using BranchId = BranchIdOf<std::int64_t>;    ///< of a branch of the branch decomposition
 
 }  // namespace isoatlas
+
+template <class Tag, std::integral Number>
+struct std::hash<isoatlas::StrongId<Tag, Number>> {
+    [[nodiscard]] std::size_t operator()(isoatlas::StrongId<Tag, Number> id) const noexcept { return std::hash<Number>()(id.number()); }
+};

@@ -30,6 +30,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/handles.h"
+#include "isoatlas/id.h"
 #include "isoatlas/image.h"
 #include "isoatlas/interpolant.h"
 #include "isoatlas/isovalue.h"

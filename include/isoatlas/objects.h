@@ -15,7 +15,7 @@ namespace isoatlas {
 /// One entry of the table: a branch of the criticality tree and the isovalue that shows it best.
 struct ObjectEntry {
     std::int64_t id;                 ///< index of the highest voxel of the object at best_tau, for ExtractOptions::objects
-    std::int64_t event;              ///< the event whose zone contains best_tau
+    EventId event;                   ///< the event whose zone contains best_tau
     double appears, merges;          ///< stored values: the object is on its own for tau in (merges, appears]; merges = -infinity: never
     double best_tau;                 ///< stored value
     std::int64_t voxels;             ///< at best_tau
@@ -26,7 +26,7 @@ struct ObjectEntry {
     std::array<double, 3> position;  ///< voxel coordinates of the highest voxel
     double tau_low, tau_high;        ///< for isovalues in (tau_low, tau_high] the object has the tunnels and cavities of best_tau
     std::int64_t inside;             ///< position in ObjectTable::entries of the closest entry that contains this one; -1: none
-    std::int64_t branch_top;         ///< the event at which its branch begins: a maximum; -1: unknown (stores of early versions)
+    EventId branch_top;              ///< the event at which its branch begins: a maximum; none: unknown (stores of early versions)
     bool outline;                    ///< best_tau shows everything that is not background
     bool main_branch;                ///< of the object that exists at every isovalue
     std::string note;                ///< "largest", "outline", "inside 3", ...
@@ -46,7 +46,7 @@ enum class IsovalueReason : std::uint8_t {
 
 /// One isovalue of one object, and the reason. The rows of the table are some of these.
 struct RecommendedIsovalue {
-    std::int64_t branch_top;  ///< of the object: ObjectEntry::branch_top
+    std::int64_t branch_top;  ///< of the object: number of ObjectEntry::branch_top
     double tau;               ///< stored value
     double prominence;        ///< of -ln(-d ln V / d tau): at least ln 1.5, infinity for the most prominent; 0: none is stable. Where
                               ///< nearly all samples are low, the rate is along the bent axis of the page
@@ -80,7 +80,7 @@ struct RankOptions {
 /// (docs/theory/8-noise-and-stability.md#how-high-noise-rises). In units of `noise`.
 [[nodiscard]] double noise_height(double noise, std::int64_t voxels);
 
-/// Those of one object, given by ObjectEntry::branch_top or CavityEntry::branch_minimum. isovalues: of a table.
+/// Those of one object, given by the number of ObjectEntry::branch_top or CavityEntry::branch_minimum. isovalues: of a table.
 [[nodiscard]] std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top);
 /// That of the entry's own isovalue; empty when it is unknown.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);

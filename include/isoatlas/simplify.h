@@ -22,8 +22,8 @@ class Sink;
 /// Stored values.
 struct BranchInfo {
     std::int64_t id;         ///< index of the highest voxel of the object just before it merges
-    std::int64_t top;        ///< the event at which it begins, a maximum
-    std::int64_t parent;     ///< the branch that it ends in; -1: the main branch
+    EventId top;             ///< the event at which it begins, a maximum
+    BranchId parent;         ///< the branch that it ends in; none: the main branch
     double appears, merges;  ///< on its own for tau in (merges, appears]; merges = -infinity: the main branch
     double persistence;      ///< highest value - merges (the main branch: - lowest sample)
     double hypervolume;      ///< sum of (value - merges); the rank
@@ -32,13 +32,13 @@ struct BranchInfo {
 };
 
 /// The events of a branch, from its top down, those at which its object is still on its own. Cost: O(their number).
-[[nodiscard]] std::vector<std::int64_t> events_of(const Analysis& analysis, std::int64_t top, double merges);
+[[nodiscard]] std::vector<EventId> events_of(const Analysis& analysis, EventId top, double merges);
 
 /// A node of the simplified tree: what happens to a kept object that is not bypassed. Its zone is the interval below it.
 struct SimplifiedNode {
-    std::int64_t event;          ///< of the full tree
-    std::int64_t branch;         ///< kept branch that it lies on
-    std::int64_t parent;         ///< next node going down; -1: the root, the last one
+    EventId event;               ///< of the full tree
+    BranchId branch;             ///< kept branch that it lies on
+    std::int64_t parent;         ///< position of the next node going down; -1: the root, the last one
     bool is_maximum;             ///< the branch begins; else other kept branches end here
     double tau_low, tau_high;    ///< isovalues of its zone: (tau_low, tau_high]; tau_low of the root is -infinity
     std::int64_t voxels;         ///< of its zone, those of bypassed zones included
@@ -46,9 +46,9 @@ struct SimplifiedNode {
 };
 
 struct Simplified {
-    std::vector<std::int64_t> kept;           ///< branches, by rank
+    std::vector<BranchId> kept;               ///< branches, by rank
     std::vector<SimplifiedNode> nodes;        ///< descending events: children before their parents
-    std::vector<std::int64_t> node_of_event;  ///< per event of the full tree: the node whose zone its zone has joined
+    std::vector<std::int64_t> node_of_event;  ///< per event of the full tree: position of the node whose zone its zone has joined
     std::int64_t hidden = 0;                  ///< branches that are not kept
     std::int64_t hidden_voxels = 0;           ///< voxels that lie in them
     double hidden_hypervolume = 0;            ///< of the largest of them
@@ -71,16 +71,16 @@ public:
     BranchHierarchy& operator=(BranchHierarchy&&) noexcept;
     ~BranchHierarchy();
 
-    /// All, by rank; the first is the main branch.
+    /// All, by rank: in the order of their ids; the first is the main branch.
     [[nodiscard]] std::span<const BranchInfo> branches() const;
     /// The branches that a selection keeps, by rank. Cost: O(branches).
-    [[nodiscard]] std::vector<std::int64_t> kept(const Selection& selection) const;
+    [[nodiscard]] std::vector<BranchId> kept(const Selection& selection) const;
     /// The branches that noise does not explain and that are not tiny: the automatic choice, by rank.
-    [[nodiscard]] const std::vector<std::int64_t>& significant() const;
+    [[nodiscard]] const std::vector<BranchId>& significant() const;
     /// Cost: O(events).
     [[nodiscard]] Simplified simplify(const Selection& selection) const;
     /// The same for any kept branches: with a branch its parent must be among them, the main branch always.
-    [[nodiscard]] Simplified simplify(std::vector<std::int64_t> kept) const;
+    [[nodiscard]] Simplified simplify(std::vector<BranchId> kept) const;
     /// Of hypervolume, persistence and voxels. Cost: O(branches log branches).
     [[nodiscard]] std::vector<SelectionCurve> curves() const;
 

@@ -135,7 +135,7 @@ private:
         const bool root = arrays.tree.is_root(event);
         ActiveObject object{};
         object.id = id_of(event);
-        object.event = static_cast<std::int64_t>(event);
+        object.event = EventId(event);
         object.zone = {root ? -std::numeric_limits<double>::infinity() : zones_.value(arrays.tree.parent[event]), zones_.value(event), 0};
         object.above = zones_.value(zones_.largest_child(event));
         object.contours = static_cast<std::int64_t>(arrays.measures.contours[event]);

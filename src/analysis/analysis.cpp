@@ -48,11 +48,11 @@ std::int64_t Analysis::element_count() const {
     return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.arrays.value.size()); });
 }
 
-Element Analysis::element(std::int64_t id) const {
-    require(id >= 0 && id < element_count(), "element");
+Element Analysis::element(ElementId id) const {
+    require(id >= ElementId(0) && id < ElementId(element_count()), "element");
     return data_->visit([&](const auto& held) {
-        const ElementCode code{held.arrays.code[id]};
-        return Element{held.arrays.value[id], element_position(code, data_->extent), code.h0(), code.l0(),
+        const ElementCode code{held.arrays.code[id.index()]};
+        return Element{held.arrays.value[id.index()], element_position(code, data_->extent), code.h0(), code.l0(),
                        code.kind() == CodeKind::vertex ? ElementKind::vertex
                        : code.is_body()                ? ElementKind::body
                                                        : ElementKind::face};
@@ -68,10 +68,10 @@ ContourArc Analysis::contour_arc(std::int64_t id) const {
     return data_->visit([&](const auto& held) {
         const auto& tree = held.arrays.contours;
         const std::size_t x = held.levels().arcs[id];
-        const auto upper = static_cast<std::int64_t>(tree.upper(x)), lower = static_cast<std::int64_t>(tree.lower(x));
-        const bool outside = lower == static_cast<std::int64_t>(held.arrays.value.size());
-        return ContourArc{upper, lower, held.arrays.value[upper],
-                          outside ? -std::numeric_limits<double>::infinity() : held.arrays.value[lower],
+        const ElementId upper(tree.upper(x)), lower(tree.lower(x));
+        const bool outside = lower.index() == held.arrays.value.size();
+        return ContourArc{upper, lower, held.arrays.value[upper.index()],
+                          outside ? -std::numeric_limits<double>::infinity() : held.arrays.value[lower.index()],
                           1 - static_cast<std::int64_t>(tree.half_chi[x])};
     });
 }
@@ -85,8 +85,8 @@ Level Analysis::level(std::int64_t id) const {
     return data_->visit([&](const auto& held) {
         const auto& index = held.levels();
         const std::size_t root = index.levels[id];
-        return Level{held.arrays.value[root], static_cast<std::int64_t>(held.arrays.tree.event_of_element[root]),
-                     list_at(index.level_in, id), list_at(index.level_out, id)};
+        return Level{held.arrays.value[root], EventId(held.arrays.tree.event_of_element[root]), list_at(index.level_in, id),
+                     list_at(index.level_out, id)};
     });
 }
 
@@ -94,8 +94,9 @@ std::int64_t Analysis::event_count() const {
     return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.arrays.tree.size()); });
 }
 
-Event Analysis::event(std::int64_t id) const {
-    require(id >= 0 && id < event_count(), "event");
+Event Analysis::event(EventId event_id) const {
+    require(event_id >= EventId(0) && event_id < EventId(event_count()), "event");
+    const std::size_t id = event_id.index();
     return data_->visit([&](const auto& held) {
         const auto& arrays = held.arrays;
         const auto& tree = arrays.tree;
@@ -103,11 +104,11 @@ Event Analysis::event(std::int64_t id) const {
         const auto& index = held.events();
         const bool is_3d = data_->extent.rank == 3, root = tree.is_root(id), has_zones = !arrays.voxels.empty();
         Event event{};
-        event.id = id;
+        event.id = event_id;
         event.value = arrays.value[tree.top[id]];
         event.position = element_position(ElementCode{arrays.code[tree.top[id]]}, data_->extent);
         event.kind = measures.kind[id];
-        event.parent = root ? -1 : static_cast<std::int64_t>(tree.parent[id]);
+        event.parent = root ? EventId::none() : EventId(tree.parent[id]);
         event.children = std::span(index.children).subspan(index.first_child[id], index.first_child[id + 1] - index.first_child[id]);
         event.objects_in = static_cast<std::int64_t>(event.children.size());
         event.lows_out = static_cast<std::int64_t>(measures.lows_out[id]);
@@ -123,7 +124,7 @@ Event Analysis::event(std::int64_t id) const {
     });
 }
 
-void Analysis::visit_object_contours(const std::function<void(std::int64_t, std::span<const GenusCount>)>& visit) const {
+void Analysis::visit_object_contours(const std::function<void(EventId, std::span<const GenusCount>)>& visit) const {
     data_->visit([&](const auto& held) {
         const auto& arrays = held.arrays;
         const auto& index = held.levels();
@@ -139,7 +140,7 @@ void Analysis::visit_object_contours(const std::function<void(std::int64_t, std:
             }
             flat.clear();
             for (const auto& [genus, count] : own) flat.push_back({genus, count});
-            visit(static_cast<std::int64_t>(e), flat);
+            visit(EventId(e), flat);
             if (arrays.tree.is_root(e)) continue;
             Histogram& parent = waiting[arrays.tree.parent[e]];
             if (parent.size() < own.size()) parent.swap(own);
@@ -148,11 +149,11 @@ void Analysis::visit_object_contours(const std::function<void(std::int64_t, std:
     });
 }
 
-std::int64_t Analysis::zone(std::int64_t voxel) const {
-    require(voxel >= 0 && voxel < data_->extent.voxels(), "voxel");
+EventId Analysis::zone(VoxelId voxel) const {
+    require(voxel >= VoxelId(0) && voxel < VoxelId(data_->extent.voxels()), "voxel");
     return data_->visit([&](const auto& held) {
         if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "this analysis was made without zones"});
-        return static_cast<std::int64_t>(held.arrays.zone[voxel]);
+        return EventId(held.arrays.zone[voxel.index()]);
     });
 }
 

@@ -45,7 +45,7 @@ struct LevelIndex {
 template <class Id>
 struct EventIndex {
     std::vector<std::int64_t> first_child;  ///< by event
-    std::vector<std::int64_t> children;
+    std::vector<EventId> children;
     std::vector<Id> object_voxels;  ///< by event: of its object at the low end of the zone; empty without zones
 };
 

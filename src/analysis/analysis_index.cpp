@@ -96,7 +96,8 @@ EventIndex<Id> index_events(const AnalysisArrays<Id>& arrays) {
         }
     });
     index.first_child.assign(children.first.begin(), children.first.end());
-    index.children.assign(children.item.begin(), children.item.end());
+    index.children.reserve(children.item.size());
+    for (const Id child : children.item) index.children.emplace_back(child);
     index.object_voxels.assign(arrays.voxels.begin(), arrays.voxels.end());
     for (std::size_t e = 0; e < index.object_voxels.size(); ++e) {
         if (!arrays.tree.is_root(e)) index.object_voxels[arrays.tree.parent[e]] += index.object_voxels[e];

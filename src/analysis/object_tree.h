@@ -8,32 +8,32 @@
 #include <span>
 
 #include "analysis/analysis_data.h"
-#include "base/memory_limit.h"
+#include "base/id_array.h"
+#include "base/streamed.h"
 #include "field/volume_view.h"
 
 namespace isoatlas {
 
 template <class Id>
 struct ObjectTree {
-    std::span<const Id> parent;      ///< per event; the root is its own
-    std::span<const double> height;  ///< per event
-    std::span<const Id> voxels;      ///< per event, of its zone
-    std::span<const Id> zone;        ///< per voxel
-    double sign = 1;                 ///< height = sign * value
-    std::int64_t main_leaf = -1;     ///< the branch of this event continues at every merge; -1: the one of largest hypervolume does
+    IdSpan<EventId, const Id> parents;  ///< the root is its own
+    IdSpan<EventId, const double> height;
+    IdSpan<EventId, const Id> voxels;  ///< of its zone
+    IdSpan<VoxelId, const Id> zones;
+    double sign = 1;                      ///< height = sign * value
+    EventId main_leaf = EventId::none();  ///< the branch of this event continues at every merge; none: the one of largest hypervolume does
 
-    [[nodiscard]] std::size_t size() const { return parent.size(); }
-    [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e); }
+    [[nodiscard]] std::size_t size() const { return parents.size(); }
+    [[nodiscard]] EventId parent(EventId e) const { return EventId(parents[e]); }
+    [[nodiscard]] bool is_root(EventId e) const { return parent(e) == e; }
+    [[nodiscard]] EventId zone(VoxelId v) const { return EventId(zones[v]); }
 
-    /// Calls visit(voxel, height) for all samples in order.
+    /// Calls visit(voxel, height) for all samples in order. also: what a visit brings into memory, besides the sample and its zone.
     template <class Visit>
-    void for_heights(const VolumeView& volume, Visit&& visit) const {
-        visit_samples(volume, [&](auto samples) {
-            BudgetPoll memory;
-            for (std::size_t v = 0; v < samples.size(); ++v) {
-                memory.step(sizeof samples[v] + sizeof(Id));
-                visit(v, sign * static_cast<double>(samples[v]));
-            }
+    void for_heights(const VolumeView& volume, StepBytes also, Visit&& visit) const {
+        visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+            for (const VoxelId v : streamed<VoxelId>(samples.size(), {sizeof(T) + sizeof(Id) + also.bytes}))
+                visit(v, sign * static_cast<double>(samples[v.index()]));
         });
     }
 };
@@ -42,18 +42,15 @@ struct ObjectTree {
 template <class Id>
 [[nodiscard]] BigVector<double> event_values(const AnalysisArrays<Id>& arrays) {
     BigVector<double> values(arrays.tree.size());
-    BudgetPoll memory;
-    for (std::size_t e = 0; e < values.size(); ++e) {
-        memory.step(BudgetPoll::kTouch);
-        values[e] = arrays.value[arrays.tree.top[e]];
-    }
+    for (const std::size_t e : streamed(values.size(), at_random())) values[e] = arrays.value[arrays.tree.top[e]];
     return values;
 }
 
 /// values: of event_values(); both must live as long as the result.
 template <class Id>
 [[nodiscard]] ObjectTree<Id> superlevel_tree(const AnalysisArrays<Id>& arrays, std::span<const double> values) {
-    return {arrays.tree.parent, values, arrays.voxels, arrays.zone, 1, -1};
+    return {IdSpan<EventId, const Id>(arrays.tree.parent), IdSpan<EventId, const double>(values), IdSpan<EventId, const Id>(arrays.voxels),
+            IdSpan<VoxelId, const Id>(arrays.zone)};
 }
 
 }  // namespace isoatlas

@@ -34,7 +34,12 @@ struct SublevelTree {
 
     /// Must live as long as the result. The branch of the outside is the main branch.
     [[nodiscard]] ObjectTree<Id> side() const {
-        return {tree.parent, height, voxels, zone, -1, static_cast<std::int64_t>(tree.event_of_element[0])};
+        return {IdSpan<EventId, const Id>(tree.parent),
+                IdSpan<EventId, const double>(height),
+                IdSpan<EventId, const Id>(voxels),
+                IdSpan<VoxelId, const Id>(zone),
+                -1,
+                EventId(tree.event_of_element[0])};
     }
     /// The element of the contour tree behind an event: the lowest of its own.
     [[nodiscard]] std::size_t element(std::size_t event) const { return tree.event_of_element.size() - 1 - tree.top[event]; }

@@ -72,16 +72,31 @@ PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
     return array;
 }
 
-/// Type of a member in the file.
+/// Type of a member in the file: ids are numbers.
 template <class Member>
-using Stored = std::conditional_t<std::is_same_v<Member, bool> || std::is_enum_v<Member>, std::uint8_t, Member>;
+struct StoredType : std::conditional<std::is_same_v<Member, bool> || std::is_enum_v<Member>, std::uint8_t, Member> {};
+template <class Tag, class Number>
+struct StoredType<StrongId<Tag, Number>> {
+    using type = Number;
+};
+template <class Member>
+using Stored = typename StoredType<Member>::type;
+
+template <class Member>
+Stored<Member> to_stored(const Member& member) {
+    if constexpr (requires { member.number(); }) {
+        return member.number();
+    } else {
+        return static_cast<Stored<Member>>(member);
+    }
+}
 
 /// for_each: for_members, for_cavity_members or for_isovalue_members.
 template <class Line>
 void add_arrays(const auto& for_each, const std::vector<Line>& lines, std::vector<PackedArray>& arrays) {
     for_each([&]<class Member>(const char* name, const char* type, Member Line::* member) {
         std::vector<Stored<Member>> numbers;
-        for (const Line& line : lines) numbers.push_back(static_cast<Stored<Member>>(line.*member));
+        for (const Line& line : lines) numbers.push_back(to_stored(line.*member));
         arrays.push_back(owned(name, type, std::move(numbers)));
     });
 }
@@ -98,10 +113,10 @@ template <class Line>
 std::vector<Line> lines_of(const Container& store, const char* first, const char* type, const auto& for_each) {
     std::vector<Line> lines(static_cast<std::size_t>(store.contents().array(first, type).count()));
     for_each([&]<class Member>(const char* name, const char* type_of_member, Member Line::* member) {
-        if constexpr (std::is_same_v<Member, std::int64_t>) {
+        if constexpr (std::is_same_v<Stored<Member>, std::int64_t>) {
             const bool is_optional = std::string_view(name) == kBranchTop || std::string_view(name) == kBranchMinimum;
             if (is_optional && !store.contents().has_array(name)) {
-                for (Line& line : lines) line.*member = -1;
+                for (Line& line : lines) line.*member = Member(-1);
                 return;
             }
         }
@@ -169,7 +184,7 @@ ObjectTable objects_of(const Container& store) {
 }
 
 bool knows_branches(const ObjectTable& table) {
-    return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= 0; });
+    return std::ranges::all_of(table.entries, [](const ObjectEntry& entry) { return entry.branch_top >= EventId(0); });
 }
 
 std::vector<PackedArray> cavity_arrays(const CavityTable& table) {

@@ -24,7 +24,7 @@ namespace {
 
 /// Id of the object of a branch at an isovalue.
 std::int64_t object_at(const Analysis& analysis, const ActiveIndex& index, const RecommendedIsovalue& isovalue) {
-    Event event = analysis.event(isovalue.branch_top);
+    Event event = analysis.event(EventId(isovalue.branch_top));
     while (event.zone.tau_low >= isovalue.tau) event = analysis.event(event.parent);
     const std::vector<ActiveObject> objects = index.at(isovalue.tau, {.contours = false}).objects;
     return std::ranges::find(objects, event.id, &ActiveObject::event)->id;
@@ -37,9 +37,10 @@ std::vector<SpectrumAdvice> advice_of(const Analysis& analysis, const ObjectTabl
         const std::optional<RecommendedIsovalue> own = isovalue_of(table, *entry);
         advice.push_back({entry->best_tau, entry->id, own ? std::optional(own->reason) : std::nullopt, -1, entry->note});
         if (std::next(entry) != table.entries.end() && std::next(entry)->branch_top == entry->branch_top) continue;  // more lines
-        for (const RecommendedIsovalue& other : isovalues_of(table.isovalues, entry->branch_top)) {
-            const bool has_line = std::ranges::any_of(
-                table.entries, [&](const ObjectEntry& line) { return line.branch_top == other.branch_top && line.best_tau == other.tau; });
+        for (const RecommendedIsovalue& other : isovalues_of(table.isovalues, entry->branch_top.number())) {
+            const bool has_line = std::ranges::any_of(table.entries, [&](const ObjectEntry& line) {
+                return line.branch_top == EventId(other.branch_top) && line.best_tau == other.tau;
+            });
             if (has_line) continue;
             if (!index) index.emplace(analysis);
             advice.push_back({other.tau, object_at(analysis, *index, other), other.reason, other.cavity, ""});

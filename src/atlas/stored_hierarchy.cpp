@@ -33,7 +33,7 @@ std::optional<ZoneSums> stored_sums(const Atlas& atlas, const Analysis& analysis
                                        .next = "the store is damaged: build it again from the volume"});
     }
     ZoneSums zones{{}, atlas.range()[0]};
-    zones.height.assign(sums.begin(), sums.end());
+    zones.height.items().assign(sums.begin(), sums.end());
     return zones;
 }
 
@@ -44,7 +44,7 @@ std::optional<BranchHierarchy> stored_hierarchy(const Atlas& atlas, const Contex
     if (!has_objects(store)) return std::nullopt;
     const ObjectTable table = objects_of(store);
     if (!is_whole(table) || !knows_branches(table)) return std::nullopt;  // significant ones may be missing
-    std::vector<std::int64_t> tops;
+    std::vector<EventId> tops;
     for (const ObjectEntry& entry : table.entries) tops.push_back(entry.branch_top);
     std::ranges::sort(tops);
     if (is_uniform(atlas.info().geometry) && has_event_sums(store)) {
@@ -62,16 +62,16 @@ std::optional<ObjectTable> selected_entries(const Atlas& atlas, const ObjectTabl
                                             const Context& context) {
     const std::optional<BranchHierarchy> hierarchy = stored_hierarchy(atlas, context);
     if (!hierarchy) return std::nullopt;
-    std::set<std::int64_t> known, kept;
+    std::set<EventId> known, kept;
     for (const ObjectEntry& entry : stored.entries) known.insert(entry.branch_top);
-    for (const std::int64_t branch : hierarchy->kept(selection)) kept.insert(hierarchy->branches()[static_cast<std::size_t>(branch)].top);
+    for (const BranchId branch : hierarchy->kept(selection)) kept.insert(hierarchy->branches()[branch.index()].top);
     if (!std::ranges::includes(known, kept)) return std::nullopt;
     ObjectTable table{stored.entries, {}, stored.branches, stored.noise};
     std::vector<bool> keep;
     for (const ObjectEntry& entry : stored.entries) keep.push_back(kept.contains(entry.branch_top));
     keep_entries(table.entries, keep);
     std::ranges::copy_if(stored.isovalues, std::back_inserter(table.isovalues),
-                         [&](const RecommendedIsovalue& isovalue) { return kept.contains(isovalue.branch_top); });
+                         [&](const RecommendedIsovalue& isovalue) { return kept.contains(EventId(isovalue.branch_top)); });
     return table;
 }
 

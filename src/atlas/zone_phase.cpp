@@ -20,7 +20,7 @@ void add_tables(const Analysis& analysis, const VolumeView& volume, const Contex
     if (!stores_events(analysis)) return;
     add(event_arrays(analysis));
     phase.sums = sum_zones(volume, analysis);
-    phase.arrays.push_back(event_sum_array(phase.sums.height));
+    phase.arrays.push_back(event_sum_array(phase.sums.height.items()));
 }
 
 Context silent(Context context) {

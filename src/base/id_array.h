@@ -11,32 +11,6 @@
 
 namespace isoatlas {
 
-/// The ids first .. end - 1, for a loop: for (const ElementId e : IdRange<ElementId>(n)).
-template <class I>
-class IdRange {
-public:
-    class Iterator {
-    public:
-        constexpr explicit Iterator(I at) noexcept : at_(at) {}
-        constexpr I operator*() const noexcept { return at_; }
-        constexpr Iterator& operator++() noexcept {
-            ++at_;
-            return *this;
-        }
-        friend constexpr bool operator==(const Iterator&, const Iterator&) = default;
-
-    private:
-        I at_;
-    };
-    constexpr explicit IdRange(std::size_t count) noexcept : first_(0), end_(count) {}
-    constexpr IdRange(I first, I end) noexcept : first_(first), end_(end) {}
-    [[nodiscard]] constexpr Iterator begin() const noexcept { return Iterator(first_); }
-    [[nodiscard]] constexpr Iterator end() const noexcept { return Iterator(end_); }
-
-private:
-    I first_, end_;
-};
-
 template <class I, class T>
 class IdSpan {
 public:
@@ -73,10 +47,10 @@ public:
     /// As a plain array, to be resized, filled, read or written as a whole.
     [[nodiscard]] BigVector<T>& items() noexcept { return items_; }
     [[nodiscard]] const BigVector<T>& items() const noexcept { return items_; }
-    operator IdSpan<I, const T>() const noexcept {
-        return IdSpan<I, const T>(std::span<const T>(items_));
-    }                                                                                // NOLINT(google-explicit-constructor)
-    operator IdSpan<I, T>() noexcept { return IdSpan<I, T>(std::span<T>(items_)); }  // NOLINT(google-explicit-constructor)
+    // NOLINTNEXTLINE(google-explicit-constructor): as an array to a span
+    operator IdSpan<I, const T>() const noexcept { return IdSpan<I, const T>(std::span<const T>(items_)); }
+    // NOLINTNEXTLINE(google-explicit-constructor)
+    operator IdSpan<I, T>() noexcept { return IdSpan<I, T>(std::span<T>(items_)); }
     friend bool operator==(const IdArray&, const IdArray&) = default;
 
 private:

@@ -1,6 +1,7 @@
 // Loops over large arrays that keep the memory budget: the numbers or ids of a range, in order, with a look at the budget on the way.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "base/memory_limit.h"
@@ -48,6 +49,64 @@ private:
     StepBytes step_;
     bool down_;
 };
+
+/// Many paths through large arrays, which share one look at the budget:
+///     StreamedPaths paths(at_random());
+///     for (const EventId e : paths.from(leaf, [&](EventId at) { return at == root ? EventId::none() : parent[at]; }))
+/// A path is the ids first, next(first), ... up to the last one that exists.
+class StreamedPaths {
+public:
+    explicit StreamedPaths(StepBytes step) : step_(step) {}
+
+    template <class I, class Next>
+    class Path {
+    public:
+        class End {};
+        class Iterator {
+        public:
+            explicit Iterator(const Path& path) : path_(&path), at_(path.first_) {}
+            [[nodiscard]] I operator*() const {
+                path_->paths_->poll_.step(path_->paths_->step_.bytes);
+                return at_;
+            }
+            Iterator& operator++() {
+                at_ = path_->next_(at_);
+                return *this;
+            }
+            [[nodiscard]] friend bool operator==(const Iterator& it, End) { return !it.at_.exists(); }
+
+        private:
+            const Path* path_;
+            I at_;
+        };
+        Path(StreamedPaths& paths, I first, const Next& next) : paths_(&paths), first_(first), next_(next) {}
+        [[nodiscard]] Iterator begin() const { return Iterator(*this); }
+        [[nodiscard]] End end() const { return {}; }
+
+    private:
+        StreamedPaths* paths_;
+        I first_;
+        Next next_;
+    };
+    template <class I, class Next>
+    [[nodiscard]] Path<I, Next> from(I first, const Next& next) {
+        return {*this, first, next};
+    }
+
+private:
+    StepBytes step_;
+    BudgetPoll poll_;
+};
+
+/// std::sort of a large array. step: of a comparison.
+template <class Iterator, class Less>
+void streamed_sort(Iterator begin, Iterator end, StepBytes step, const Less& less) {
+    BudgetPoll poll;
+    std::sort(begin, end, [&poll, step, &less](const auto& p, const auto& q) {
+        poll.step(step.bytes);
+        return less(p, q);
+    });
+}
 
 template <class I = std::size_t>
 [[nodiscard]] Streamed<I> streamed(std::size_t count, StepBytes step) {

@@ -62,9 +62,9 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
     return result;
 }
 
-std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::int64_t branch_top, double merges) {
+std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, EventId branch_top, double merges) {
     std::vector<SpectrumInterval> intervals;
-    for (const std::int64_t id : events_of(analysis, branch_top, merges)) {
+    for (const EventId id : events_of(analysis, branch_top, merges)) {
         const Event event = analysis.event(id);
         intervals.push_back({event.zone.tau_low, event.value, {1, event.contours, event.b1, event.b2}, {}});
     }

@@ -25,6 +25,6 @@ struct CountColumn {
 
 /// Counts of the object of a branch for every isovalue: the intervals (merges, appears] downwards from the event at which the branch
 /// begins, counts of one object in `all`. Cost: O(events of the branch).
-[[nodiscard]] std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, std::int64_t branch_top, double merges);
+[[nodiscard]] std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, EventId branch_top, double merges);
 
 }  // namespace isoatlas

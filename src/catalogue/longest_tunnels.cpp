@@ -10,12 +10,12 @@ namespace {
 constexpr std::size_t kMax = 12;  // of one object
 
 /// Per event: the position of the branch that has entries.
-std::unordered_map<std::int64_t, std::size_t> branches_of_events(const PageContents& contents, const Analysis& analysis) {
-    std::unordered_map<std::int64_t, std::size_t> branch_of;
+std::unordered_map<EventId, std::size_t> branches_of_events(const PageContents& contents, const Analysis& analysis) {
+    std::unordered_map<EventId, std::size_t> branch_of;
     for (std::size_t b = 0; b < contents.branches.size(); ++b) {
         const PageBranch& branch = contents.branches[b];
         if (branch.is_cavity || branch.shape.empty()) continue;
-        for (const std::int64_t event : events_of(analysis, branch.top, branch.merges)) branch_of.emplace(event, b);
+        for (const EventId event : events_of(analysis, branch.top, branch.merges)) branch_of.emplace(event, b);
     }
     return branch_of;
 }
@@ -30,7 +30,7 @@ void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& cont
     const double min = noise_height(contents.noise, atlas.info().extent.voxels());
     const FoundHandles found = find_handles(atlas.info(), analysis, min, [&] { return atlas.volume(silent); }, silent);
     contents.exact_tunnels = found.exact;
-    const std::unordered_map<std::int64_t, std::size_t> branch_of = branches_of_events(contents, analysis);
+    const std::unordered_map<EventId, std::size_t> branch_of = branches_of_events(contents, analysis);
     for (const Handle& handle : found.handles) {  // by descending persistence
         const auto place = branch_of.find(handle.event);
         if (place == branch_of.end()) continue;

@@ -59,13 +59,13 @@ private:
     void add_object_branches(const ObjectTable& table) {
         const std::span<const BranchInfo> all = hierarchy_.branches();
         std::vector<bool> is_significant(all.size(), false), is_shown(all.size(), false);
-        for (const std::int64_t i : hierarchy_.significant()) is_significant[i] = true;
-        std::unordered_map<std::int64_t, std::size_t> of_top;
+        for (const BranchId i : hierarchy_.significant()) is_significant[i.index()] = true;
+        std::unordered_map<EventId, std::size_t> of_top;
         for (std::size_t i = 0; i < all.size(); ++i) of_top.emplace(all[i].top, i);
         for (const ObjectEntry& entry : table.entries) is_shown[of_top.at(entry.branch_top)] = true;
         std::vector<std::int64_t> joined(all.size(), 0);
         for (const BranchInfo& b : all) {
-            if (b.parent >= 0) ++joined[b.parent];
+            if (b.parent.exists()) ++joined[b.parent.index()];
         }
         std::vector<std::int64_t> place(all.size(), -1);
         std::int64_t others = 0;
@@ -78,7 +78,7 @@ private:
                                           .rank = static_cast<std::int64_t>(i),
                                           .appears = b.appears,
                                           .merges = b.merges,
-                                          .parent = b.parent,
+                                          .parent = b.parent.number(),
                                           .hypervolume = b.hypervolume,
                                           .voxels = b.voxels,
                                           .measure = b.measure,
@@ -87,10 +87,10 @@ private:
                                           .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{},
                                           .top = b.top});
             if (!is_shown[i]) continue;
-            for (const std::int64_t event : events_of(analysis_, b.top, b.merges)) branch_of_event_[event] = place[i];
+            for (const EventId event : events_of(analysis_, b.top, b.merges)) branch_of_event_[event.index()] = place[i];
         }
         for (PageBranch& b : contents_.branches) {
-            while (b.parent >= 0 && place[b.parent] < 0) b.parent = all[b.parent].parent;
+            while (b.parent >= 0 && place[b.parent] < 0) b.parent = all[b.parent].parent.number();
             if (b.parent >= 0) b.parent = place[b.parent];
         }
     }
@@ -114,7 +114,7 @@ private:
                                          .reason = reason_of(table, entry)});
         }
         for (const RecommendedIsovalue& isovalue : table.isovalues) {
-            const std::int64_t branch = place_of_top_.at(isovalue.branch_top);
+            const std::int64_t branch = place_of_top_.at(EventId(isovalue.branch_top));
             const bool is_shown = std::ranges::any_of(
                 contents_.entries, [&](const PageEntry& entry) { return entry.branch == branch && entry.tau == isovalue.tau; });
             if (!is_shown) contents_.branches[branch].isovalues.push_back(isovalue);
@@ -164,7 +164,7 @@ private:
         const ActiveObjects there = atlas_.active(cavity.best_tau, false);
         const auto object = std::ranges::find(there.objects, cavity.object, &ActiveObject::id);
         if (object == there.objects.end()) return -1;
-        const std::int64_t branch = branch_of_event_[object->event];
+        const std::int64_t branch = branch_of_event_[object->event.index()];
         std::int64_t closest = -1;
         double distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < contents_.entries.size(); ++i) {
@@ -182,7 +182,7 @@ private:
     const Overview& found_;
     const Analysis& analysis_;
     const BranchHierarchy& hierarchy_;
-    std::unordered_map<std::int64_t, std::int64_t> place_of_top_;
+    std::unordered_map<EventId, std::int64_t> place_of_top_;
     std::vector<std::int64_t> branch_of_event_;  ///< -1: of a branch without an entry
     PageContents contents_;
 };

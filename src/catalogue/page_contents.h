@@ -35,7 +35,7 @@ struct PageBranch {
     bool is_significant = false;                   ///< significant: above the noise level and not tiny compared with the largest
     std::vector<CountColumn> shape{};              ///< counts over its isovalues; empty: not on the page
     std::vector<RecommendedIsovalue> isovalues{};  ///< further recommended isovalues, without an entry
-    std::int64_t top = -1;                         ///< objects: the event at which it begins
+    EventId top = EventId::none();                 ///< objects: the event at which it begins
     std::vector<PageTunnel> tunnels{};             ///< the longest that open in it: catalogue/longest_tunnels.h
     std::int64_t significant_tunnels = 0;          ///< number of significant ones
 };

@@ -41,8 +41,8 @@ std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std:
     const CriticalityTree<Id>& tree = arrays.tree;
     std::vector<bool> significant(tree.size(), false);
     for (const ObjectEntry& entry : entries) {
-        if (entry.branch_top < 0 || entry.branch_top >= static_cast<std::int64_t>(tree.size())) contradiction();
-        for (auto e = static_cast<std::size_t>(entry.branch_top); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
+        if (entry.branch_top < EventId(0) || entry.branch_top >= EventId(tree.size())) contradiction();
+        for (std::size_t e = entry.branch_top.index(); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
             if (significant[e]) break;  // another entry of the branch: branches share no event
             significant[e] = true;
             if (tree.is_root(e)) break;

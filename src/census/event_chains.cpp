@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/paced_fill.h"
+
 namespace isoatlas {
 namespace {
 
@@ -21,36 +23,38 @@ void lower(double& place, double value) {
 
 EventChains::EventChains(const Analysis& analysis) {
     const auto n = static_cast<std::size_t>(analysis.event_count());
-    const auto none = static_cast<std::int64_t>(n);
-    below_.resize(n), head_.resize(n), position_.resize(n), value_.resize(n + 1, -kInfinity);
-    for (std::size_t e = 0; e < n; ++e) {
-        const Event event = analysis.event(static_cast<std::int64_t>(e));
-        below_[e] = event.parent < 0 ? none : event.parent;
+    const EventId none(n);
+    below_.items().resize(n), head_.items().resize(n), position_.items().resize(n), value_.items().resize(n + 1, -kInfinity);
+    for (const EventId e : below_.ids()) {
+        const Event event = analysis.event(e);
+        below_[e] = event.parent.exists() ? event.parent : none;
         value_[e] = event.value;
     }
-    std::vector<std::int64_t> weight(n, 1), length(n, 1), heavy(n, none);  // children come before their parent
-    for (std::size_t e = 0; e + 1 < n; ++e) {
-        const auto parent = static_cast<std::size_t>(below_[e]);
+    IdArray<EventId, std::int64_t> weight(filled(n, std::int64_t{1})), length(filled(n, std::int64_t{1}));
+    IdArray<EventId, EventId> heavy(filled(n, none));  // children come before their parent
+    for (const EventId e : below_.ids()) {
+        const EventId parent = below_[e];
+        if (parent == none) continue;
         weight[parent] += weight[e];
-        if (heavy[parent] != none && weight[static_cast<std::size_t>(heavy[parent])] >= weight[e]) continue;
-        heavy[parent] = static_cast<std::int64_t>(e);
+        if (heavy[parent] != none && weight[heavy[parent]] >= weight[e]) continue;
+        heavy[parent] = e;
         length[parent] = length[e] + 1;
     }
     std::int64_t next = 0;
-    for (std::size_t e = n; e-- > 0;) {
-        const auto parent = static_cast<std::size_t>(below_[e]);
-        const bool continues = parent < n && heavy[parent] == static_cast<std::int64_t>(e);
-        head_[e] = continues ? head_[parent] : static_cast<std::int64_t>(e);
+    for (EventId e = none.previous(); e.exists(); e = e.previous()) {
+        const EventId parent = below_[e];
+        const bool continues = parent < none && heavy[parent] == e;
+        head_[e] = continues ? head_[parent] : e;
         position_[e] = continues ? position_[parent] + 1 : next;
         if (!continues) next += length[e];
     }
 }
 
-std::int64_t EventChains::meeting(std::int64_t a, std::int64_t b) const {
+EventId EventChains::meeting(EventId a, EventId b) const {
     // The path that contains the meeting event has the head with the larger id: ids grow towards the root.
-    while (head_[static_cast<std::size_t>(a)] != head_[static_cast<std::size_t>(b)]) {
-        std::int64_t& other = head_[static_cast<std::size_t>(a)] < head_[static_cast<std::size_t>(b)] ? a : b;
-        other = below(head_[static_cast<std::size_t>(other)]);
+    while (head_[a] != head_[b]) {
+        EventId& other = head_[a] < head_[b] ? a : b;
+        other = below(head_[other]);
     }
     return std::max(a, b);
 }
@@ -61,12 +65,12 @@ void EventChains::cut_apart(std::span<const Chain> chains, std::vector<Chain>& p
         const Chain own = chains[i];
         covered.clear();
         for (std::size_t j = 0; j < i; ++j) {
-            const std::int64_t start = own.top == chains[j].top ? own.top : meeting(own.top, chains[j].top);
-            const std::int64_t end = std::min(own.end, chains[j].end);
+            const EventId start = own.top == chains[j].top ? own.top : meeting(own.top, chains[j].top);
+            const EventId end = std::min(own.end, chains[j].end);
             if (start < end) covered.push_back({start, end});
         }
         std::ranges::sort(covered, {}, &Chain::top);
-        std::int64_t from = own.top;  // ids ascend along a chain
+        EventId from = own.top;  // ids ascend along a chain
         for (const Chain& part : covered) {
             if (from < part.top) pieces.push_back({from, part.top});
             from = std::max(from, part.end);
@@ -87,11 +91,11 @@ void ChainMinima::put(Chain chain, double value) {
     });
 }
 
-std::vector<double> ChainMinima::take() {
+IdArray<EventId, double> ChainMinima::take() {
     const auto n = static_cast<std::size_t>(events_.size());
     for (std::size_t i = 2; i < 2 * n; ++i) node_[i] = std::min(node_[i], node_[i / 2]);
-    std::vector<double> lowest(n);
-    for (std::size_t e = 0; e < n; ++e) lowest[e] = node_[n + static_cast<std::size_t>(events_.position(static_cast<std::int64_t>(e)))];
+    IdArray<EventId, double> lowest(n);
+    for (const EventId e : lowest.ids()) lowest[e] = node_[n + static_cast<std::size_t>(events_.position(e))];
     node_ = {};
     return lowest;
 }

@@ -8,13 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "base/id_array.h"
 #include "isoatlas/analysis.h"
 
 namespace isoatlas {
 
-/// The events from `top` towards the root, without `end`, which follows the last one (the number of events: up to the root).
+/// The events from `top` towards the root, without `end`, which follows the last one (one after the root: up to it).
 struct Chain {
-    std::int64_t top, end;
+    EventId top, end;
     bool operator==(const Chain&) const = default;
 };
 
@@ -24,22 +25,24 @@ public:
     explicit EventChains(const Analysis& analysis);
 
     [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(head_.size()); }
-    /// The parent; size() for the root.
-    [[nodiscard]] std::int64_t below(std::int64_t event) const { return below_[static_cast<std::size_t>(event)]; }
-    /// The critical value; -infinity for size().
-    [[nodiscard]] double value(std::int64_t event) const { return value_[static_cast<std::size_t>(event)]; }
+    /// One after the root.
+    [[nodiscard]] EventId end() const { return EventId(head_.size()); }
+    /// The parent; end() for the root.
+    [[nodiscard]] EventId below(EventId event) const { return below_[event]; }
+    /// The critical value; -infinity for end().
+    [[nodiscard]] double value(EventId event) const { return value_[event]; }
     /// The lowest common ancestor: the highest event that both become part of.
-    [[nodiscard]] std::int64_t meeting(std::int64_t a, std::int64_t b) const;
+    [[nodiscard]] EventId meeting(EventId a, EventId b) const;
     /// Position of an event on the heavy paths.
-    [[nodiscard]] std::int64_t position(std::int64_t event) const { return position_[static_cast<std::size_t>(event)]; }
+    [[nodiscard]] std::int64_t position(EventId event) const { return position_[event]; }
 
     /// Calls visit(first, last) for ranges of positions, both included, that make up the chain.
     template <class Visit>
     void for_ranges(Chain chain, const Visit& visit) const {
-        std::int64_t event = chain.top;
-        while (event != chain.end && event != size()) {
-            const std::int64_t head = head_[static_cast<std::size_t>(event)];
-            if (chain.end != size() && head_[static_cast<std::size_t>(chain.end)] == head) {
+        EventId event = chain.top;
+        while (event != chain.end && event != end()) {
+            const EventId head = head_[event];
+            if (chain.end != end() && head_[chain.end] == head) {
                 visit(position(chain.end) + 1, position(event));
                 return;
             }
@@ -52,8 +55,9 @@ public:
     void cut_apart(std::span<const Chain> chains, std::vector<Chain>& pieces) const;
 
 private:
-    std::vector<std::int64_t> below_, head_, position_;  ///< head: the event of its path that is nearest to the root
-    std::vector<double> value_;                          ///< one more
+    IdArray<EventId, EventId> below_, head_;  ///< head: the event of its path that is nearest to the root
+    IdArray<EventId, std::int64_t> position_;
+    IdArray<EventId, double> value_;  ///< one more
 };
 
 /// Minimum of the values put on chains that contain an event. Thread safe.
@@ -62,7 +66,7 @@ public:
     explicit ChainMinima(const EventChains& events);
     void put(Chain chain, double value);
     /// After the last put: per event, infinity when there is none. Consumes the values.
-    [[nodiscard]] std::vector<double> take();
+    [[nodiscard]] IdArray<EventId, double> take();
 
 private:
     const EventChains& events_;

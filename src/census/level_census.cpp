@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/sample_types.h"
+#include "base/streamed.h"
 
 namespace isoatlas {
 namespace {
@@ -126,14 +126,11 @@ CensusPart count_layers(const T* slab, std::int64_t begin, const Extent& extent,
     const Binning bin(values);
     const auto slice_at = [&](std::int64_t z) { return z < 0 || z >= extent.size[2] ? nullptr : slab + (z - begin) * extent.slice(); };
     Slice<T> slice(extent), above(extent);
-    BudgetPoll memory;
     slice.load(slice_at(first), bin);
     for (std::int64_t z = first; z < last; ++z) {
         if (extent.rank == 3) above.load(slice_at(z + 1), bin);
-        for (std::int64_t y = -1; y < extent.size[1]; ++y) {
-            memory.step(2 * extent.size[0] * sizeof(T));
-            count_row(slice, extent.rank == 3 ? &above : nullptr, y, extent.size[0], part);
-        }
+        for (const std::size_t row : streamed(extent.size[1] + 1, {2 * extent.size[0] * sizeof(T)}))
+            count_row(slice, extent.rank == 3 ? &above : nullptr, static_cast<std::int64_t>(row) - 1, extent.size[0], part);
         std::swap(slice, above);
     }
     return part;
@@ -143,9 +140,9 @@ LevelCensus take_census(const VolumeView& volume, const Context& context) {
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const Extent& extent = volume.info->extent;
         T low = samples[0], high = samples[0];
-        BudgetPoll memory;
-        for (std::size_t row = 0; row < samples.size(); row += extent.size[0], memory.step(extent.size[0] * sizeof(T))) {
-            const auto [min, max] = std::ranges::minmax(samples.subspan(row, extent.size[0]));
+        const std::size_t width = extent.size[0];
+        for (const std::size_t row : streamed(samples.size() / width, {width * sizeof(T)})) {
+            const auto [min, max] = std::ranges::minmax(samples.subspan(row * width, width));
             low = std::min(low, min), high = std::max(high, max);
         }
         std::vector<double> values =

@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The middles of the intervals in which zones do not change, ascending.
 std::vector<double> isovalues_of(const Volume& volume, const Analysis& analysis) {
     std::vector<double> ends;
-    for (std::int64_t e = 0; e < analysis.event_count(); ++e) ends.push_back(analysis.event(e).value);
+    for (const EventId e : ids<EventId>(analysis.event_count())) ends.push_back(analysis.event(e).value);
     visit_samples(volume, [&](auto samples) { ends.push_back(static_cast<double>(*std::ranges::min_element(samples))); });
     std::ranges::sort(ends);
     ends.erase(std::ranges::unique(ends).begin(), ends.end());

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 
+#include "base/paced_fill.h"
 #include "census/event_chains.h"
 #include "census/interval_counts.h"
 #include "field/slab_work.h"
@@ -14,10 +15,11 @@ namespace {
 
 /// The zones in which a voxel begins to wait: those of its neighbours above, without those that follow another one.
 struct Tops {
-    std::array<std::int64_t, 6> event;
-    std::int64_t count = 0, end = 0;  ///< end: of all its chains
+    std::array<EventId, 6> event;
+    std::size_t count = 0;
+    EventId end = EventId::none();  ///< of all its chains
 
-    [[nodiscard]] std::span<const std::int64_t> list() const { return std::span(event).first(static_cast<std::size_t>(count)); }
+    [[nodiscard]] std::span<const EventId> list() const { return std::span(event).first(count); }
 };
 
 class Counter {
@@ -29,7 +31,7 @@ public:
           minima_(events_),
           loaded_(isovalues),
           visited_(isovalues),
-          points_(static_cast<std::size_t>(events_.size()) + 1, 0) {}
+          points_(filled(static_cast<std::size_t>(events_.size()) + 1, std::int64_t{0})) {}
 
     /// Points of the slices [z_begin, z_end), and cells whose first corner lies there.
     void run(const Slab& slab) {
@@ -47,7 +49,7 @@ public:
                     const std::int64_t in_slice = voxel - z * extent.slice();
                     const Tops& tops = in_slice < extent.slice() ? lower[static_cast<std::size_t>(in_slice)]
                                                                  : upper[static_cast<std::size_t>(in_slice - extent.slice())];
-                    for (const std::int64_t top : tops.list()) {
+                    for (const EventId top : tops.list()) {
                         if (std::ranges::find(chains, Chain{top, tops.end}) == chains.end()) chains.push_back({top, tops.end});
                     }
                     highest = std::max(highest, volume_.value(voxel));
@@ -60,13 +62,13 @@ public:
 
     [[nodiscard]] ZoneFiles result() {
         ZoneFiles files;
-        const std::vector<double> lowest = minima_.take();
-        files.points.assign(points_.begin(), points_.end() - 1);
-        for (std::int64_t e = 0; e < events_.size(); ++e) {
-            const std::int64_t parent = events_.below(e);
+        const IdArray<EventId, double> lowest = minima_.take();
+        files.points.assign(points_.items().begin(), points_.items().end() - 1);
+        for (const EventId e : lowest.ids()) {
+            const EventId parent = events_.below(e);
             // The cell that ends the search is visited too.
-            visited_.add(std::max(events_.value(parent), lowest[static_cast<std::size_t>(e)]), events_.value(e));
-            if (parent < events_.size()) files.points[static_cast<std::size_t>(parent)] += files.points[static_cast<std::size_t>(e)];
+            visited_.add(std::max(events_.value(parent), lowest[e]), events_.value(e));
+            if (parent < events_.end()) files.points[parent.index()] += files.points[e.index()];
         }
         files.loaded = loaded_.counts();
         files.visited = visited_.counts();
@@ -86,44 +88,42 @@ private:
         const Index3 at = extent.voxel(voxel), step{1, extent.size[0], extent.slice()};
         const double own = volume_.value(voxel);
         Tops tops;
-        tops.end = events_.below(analysis_.zone(voxel));
+        tops.end = events_.below(analysis_.zone(VoxelId(voxel)));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const std::int64_t side : {std::int64_t{-1}, std::int64_t{1}}) {
                 const std::int64_t there = at[axis] + side, other = voxel + side * step[axis];
                 if (there < 0 || there >= extent.size[axis] || !(volume_.value(other) > own)) continue;
-                add_top(tops, analysis_.zone(other));
+                add_top(tops, analysis_.zone(VoxelId(other)));
             }
         }
-        if (tops.count == 0) add_top(tops, analysis_.zone(voxel));
+        if (tops.count == 0) add_top(tops, analysis_.zone(VoxelId(voxel)));
         return tops;
     }
 
-    void add_top(Tops& tops, std::int64_t event) const {
-        for (std::int64_t i = 0; i < tops.count; ++i) {
-            std::int64_t& other = tops.event[static_cast<std::size_t>(i)];
-            const std::int64_t meeting = other == event ? event : events_.meeting(other, event);
+    void add_top(Tops& tops, EventId event) const {
+        for (std::size_t i = 0; i < tops.count;) {
+            EventId& other = tops.event[i];
+            const EventId meeting = other == event ? event : events_.meeting(other, event);
             if (meeting == event) return;
             if (meeting == other) {
-                other = tops.event[static_cast<std::size_t>(--tops.count)];
-                --i;
+                other = tops.event[--tops.count];
+            } else {
+                ++i;
             }
         }
-        tops.event[static_cast<std::size_t>(tops.count++)] = event;
+        tops.event[tops.count++] = event;
     }
 
     /// +1 where a chain begins, -1 where it comes into one before or ends: sums over subtrees are points.
     void count_points(const Tops& tops) {
-        for (std::int64_t i = 0; i < tops.count; ++i) {
-            std::int64_t end = tops.end;
-            for (std::int64_t j = 0; j < i; ++j)
-                end = std::min(end, events_.meeting(tops.event[static_cast<std::size_t>(i)], tops.event[static_cast<std::size_t>(j)]));
-            change(tops.event[static_cast<std::size_t>(i)], 1);
+        for (std::size_t i = 0; i < tops.count; ++i) {
+            EventId end = tops.end;
+            for (std::size_t j = 0; j < i; ++j) end = std::min(end, events_.meeting(tops.event[i], tops.event[j]));
+            change(tops.event[i], 1);
             change(end, -1);
         }
     }
-    void change(std::int64_t event, std::int64_t by) {
-        std::atomic_ref(points_[static_cast<std::size_t>(event)]).fetch_add(by, std::memory_order_relaxed);
-    }
+    void change(EventId event, std::int64_t by) { std::atomic_ref(points_[event]).fetch_add(by, std::memory_order_relaxed); }
 
     void count_cell(Chain files, double highest) {
         const double low = events_.value(files.end), high = events_.value(files.top);
@@ -137,7 +137,7 @@ private:
     EventChains events_;
     ChainMinima minima_;
     IntervalCounts loaded_, visited_;
-    std::vector<std::int64_t> points_;
+    IdArray<EventId, std::int64_t> points_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 //   height           value of a sample for superlevel sets, value negated for sublevel sets (analysis/object_tree.h)
 //   branch           a path of events from a maximum of height (top) down to the height at which it ends (bottom: its last event)
 //   appears, merges  heights of its two ends, between which it is an object of its own
-//   main branch      the branch that never ends; position 0 of every list by rank
+//   main branch      the branch that never ends; the first of every list by rank
 //   rank             position by descending hypervolume
 //   V(tau), q        voxels of the object of a branch at tau; q = -d ln V / d tau (features/stable_isovalue.h)
 //   stable           an isovalue of locally least q; outline, outer, inner, merge, middle: the other reasons (isoatlas/objects.h)
@@ -21,7 +21,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "features/zone_sums.h"
 
@@ -33,25 +32,27 @@ struct ObjectTree;
 
 /// Values are heights (analysis/object_tree.h).
 struct Branch {
-    std::int64_t top, bottom;  ///< its highest event (a maximum) and its lowest
-    std::int64_t highest;      ///< event of the highest element in the object at the low end (may lie in another branch)
-    std::int64_t parent;       ///< position of the branch that it ends in; -1: the main branch
-    double appears, merges;    ///< height of top; height at which it ends, -infinity for the main branch
-    double hypervolume;        ///< of the object just above merges (the main branch: above the lowest sample)
-    double persistence;        ///< highest height of that object - merges
-    std::int64_t voxels;       ///< of that object
+    EventId top, bottom;     ///< its highest event (a maximum) and its lowest
+    EventId highest;         ///< event of the highest element in the object at the low end (may lie in another branch)
+    BranchId parent;         ///< the branch that it ends in; none: the main branch
+    double appears, merges;  ///< height of top; height at which it ends, -infinity for the main branch
+    double hypervolume;      ///< of the object just above merges (the main branch: above the lowest sample)
+    double persistence;      ///< highest height of that object - merges
+    std::int64_t voxels;     ///< of that object
 };
 
 /// Over the object of each event at its low end.
 struct ObjectSums {
-    BigVector<std::int64_t> voxels;
-    BigVector<double> sum;  ///< of heights
+    IdArray<EventId, std::int64_t> voxels;
+    IdArray<EventId, double> sum;  ///< of heights
 };
 
+inline constexpr BranchId kMainBranch(0);
+
 struct BranchDecomposition {
-    BigVector<Branch> branch;          ///< by descending hypervolume, ties: higher top first; [0] is the main branch
-    BigVector<std::int64_t> of_event;  ///< position in `branch` of each event's branch
-    BigVector<std::int64_t> highest;   ///< per event: event of the highest element of its object
+    IdArray<BranchId, Branch> branch;     ///< by descending hypervolume, ties: higher top first; the first is the main branch
+    IdArray<EventId, BranchId> of_event;  ///< the branch of each event
+    IdArray<EventId, EventId> highest;    ///< event of the highest element of its object
     ObjectSums objects;
     double lowest = 0;  ///< height of the lowest sample
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "field/axis_scale.h"
+#include "isoatlas/id.h"
 
 namespace isoatlas {
 
@@ -24,13 +25,13 @@ struct HeightAxis {
 
 /// 256 bins, equal on the axis. Integer samples with a small range get one bin a value, cut half way between values.
 struct BranchHistogram {
-    std::int64_t branch;
+    BranchId branch;
     HeightAxis axis;
     double low, high;           ///< positions on the axis
     std::vector<double> added;  ///< per bin: voxels that join its object there, going down
 
     /// from, to: heights.
-    BranchHistogram(std::int64_t of, double from, double to, bool integer, const HeightAxis& on) : branch(of), axis(on), added(kBins, 0) {
+    BranchHistogram(BranchId of, double from, double to, bool integer, const HeightAxis& on) : branch(of), axis(on), added(kBins, 0) {
         if (integer && to - from <= static_cast<double>(kBins)) {
             axis.bend = 0;
             low = from + 0.5, high = to + 0.5;

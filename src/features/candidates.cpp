@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "analysis/object_tree.h"
-#include "base/memory_limit.h"
 #include "base/paced_fill.h"
+#include "base/streamed.h"
 #include "features/main_branch_isovalues.h"
 #include "features/select_branches.h"
 #include "features/stable_isovalue.h"
@@ -30,7 +30,7 @@ public:
         CandidateTable result = choose_isovalues(chosen(noise, options), options, noise);
         std::vector<Candidate>& rows = result.rows;
         if (options.top > 0 && static_cast<std::int64_t>(rows.size()) > options.top) rows.resize(static_cast<std::size_t>(options.top));
-        const std::int64_t last = rows.empty() ? -1 : rows.back().branch;
+        const BranchId last = rows.empty() ? BranchId::none() : rows.back().branch;
         std::erase_if(result.isovalues, [last](const BranchIsovalue& isovalue) { return isovalue.branch > last; });
         std::erase_if(result.histograms, [last](const BranchHistogram& histogram) { return histogram.branch > last; });
         measure(rows);
@@ -42,56 +42,53 @@ private:
     [[nodiscard]] double lowest() const { return branches_.lowest; }
 
     /// The significant branches by rank, whatever is selected.
-    [[nodiscard]] std::vector<std::int64_t> significant(const NoiseModel& noise) const {
+    [[nodiscard]] std::vector<BranchId> significant(const NoiseModel& noise) const {
         return significant_branches(branches_, volume_.info->extent.voxels(), noise, tree_.sign);
     }
 
     /// By rank.
-    [[nodiscard]] std::vector<std::int64_t> chosen(const NoiseModel& noise, const RankOptions& options) const {
-        std::vector<std::int64_t> kept;
+    [[nodiscard]] std::vector<BranchId> chosen(const NoiseModel& noise, const RankOptions& options) const {
+        std::vector<BranchId> kept;
         if (options.selection) {
             const bool measured = options.selection->min_measure > 0;
-            const BigVector<double> measure = measured ? branch_measures(tree_, branches_, *volume_.info) : BigVector<double>();
+            const IdArray<BranchId, double> measure =
+                measured ? branch_measures(tree_, branches_, *volume_.info) : IdArray<BranchId, double>();
             kept = select_branches(branches_, measure, *options.selection);
         } else if (options.gate) {
             kept = significant(noise);
         } else {
             kept.resize(branches_.branch.size());
-            std::iota(kept.begin(), kept.end(), std::int64_t{0});
+            std::iota(kept.begin(), kept.end(), kMainBranch);
         }
         return kept;
     }
 
     /// Histograms along the kept branches: own voxels by height, whole merged branches at the height where they merge.
-    [[nodiscard]] std::vector<BranchHistogram> histograms(const std::vector<std::int64_t>& kept) const {
+    [[nodiscard]] std::vector<BranchHistogram> histograms(const std::vector<BranchId>& kept) const {
         const bool integer = !is_floating(volume_.info->type);
-        BigVector<std::int64_t> slot = filled<std::int64_t>(branches_.branch.size(), std::int64_t{-1});
+        IdArray<BranchId, std::int64_t> slot(filled(branches_.branch.size(), std::int64_t{-1}));
         std::vector<BranchHistogram> result;
-        BudgetPoll memory;
-        for (std::size_t k = 0; k < kept.size(); ++k) {
-            memory.step(2 * BudgetPoll::kTouch);
+        for (const std::size_t k : streamed(kept.size(), at_random(2))) {
             const Branch& b = branches_.branch[kept[k]];
             slot[kept[k]] = static_cast<std::int64_t>(k);
             result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
         }
-        tree_.for_heights(volume_, [&](std::size_t v, double height) {
-            memory.step(2 * BudgetPoll::kTouch);
-            const std::int64_t k = slot[branches_.of_event[tree_.zone[v]]];
+        tree_.for_heights(volume_, at_random(2), [&](VoxelId v, double height) {
+            const std::int64_t k = slot[branches_.of_event[tree_.zone(v)]];
             if (k >= 0) result[k].add(height, 1);
         });
-        for (std::size_t i = 1; i < branches_.branch.size(); ++i) {
-            memory.step(sizeof(Branch) + BudgetPoll::kTouch);
+        for (const BranchId i : streamed<BranchId>(branches_.branch.size(), {sizeof(Branch) + at_random().bytes})) {
             const Branch& b = branches_.branch[i];
-            const std::int64_t k = slot[b.parent];
+            const std::int64_t k = i == kMainBranch ? -1 : slot[b.parent];
             if (k >= 0) result[k].add(b.merges, static_cast<double>(b.voxels));
         }
         return result;
     }
 
     /// chosen: of which more than there may be rows get none.
-    [[nodiscard]] CandidateTable choose_isovalues(const std::vector<std::int64_t>& chosen, const RankOptions& options,
+    [[nodiscard]] CandidateTable choose_isovalues(const std::vector<BranchId>& chosen, const RankOptions& options,
                                                   const NoiseModel& noise) const {
-        std::vector<std::int64_t> kept = chosen;
+        std::vector<BranchId> kept = chosen;
         if (options.top > 0 && static_cast<std::int64_t>(kept.size()) > options.top + 1)
             kept.resize(static_cast<std::size_t>(options.top) + 1);
         CandidateTable result{{}, {}, histograms(kept)};
@@ -120,7 +117,7 @@ private:
     }
 
     /// At least one.
-    [[nodiscard]] std::vector<BranchIsovalue> isovalues(std::int64_t branch, const BranchHistogram& histogram) const {
+    [[nodiscard]] std::vector<BranchIsovalue> isovalues(BranchId branch, const BranchHistogram& histogram) const {
         const Branch& b = branches_.branch[branch];
         std::vector<StableIsovalue> peaks = stable_isovalues(histogram);
         const std::int64_t min = min_voxels(volume_.info->extent.voxels());  // below it the gaps between values of single voxels dominate
@@ -162,18 +159,19 @@ private:
         const bool uniform = std::all_of(volume_.info->geometry.coordinates.begin(), volume_.info->geometry.coordinates.end(),
                                          [](const auto& c) { return c.size() < 2; });
         std::vector<bool> wanted(tree_.size(), false);
-        std::multimap<std::int64_t, Candidate*> of_event;
+        std::multimap<EventId, Candidate*> of_event;
         for (Candidate& row : rows) {
             row.event = branches_.branch[row.branch].top;
-            while (!tree_.is_root(row.event) && belongs(tree_.height[tree_.parent[row.event]], row.tau))
-                row.event = tree_.parent[row.event];
+            while (!tree_.is_root(row.event) && belongs(tree_.height[tree_.parent(row.event)], row.tau))
+                row.event = tree_.parent(row.event);
             row.voxels = branches_.objects.voxels[row.event] - static_cast<std::int64_t>(tree_.voxels[row.event]);  // of its children
-            wanted[row.event] = true;
+            wanted[row.event.index()] = true;
             of_event.emplace(row.event, &row);
         }
-        tree_.for_heights(volume_, [&](std::size_t v, double height) {
-            if (!wanted[tree_.zone[v]]) return;
-            const auto [begin, end] = of_event.equal_range(static_cast<std::int64_t>(tree_.zone[v]));
+        tree_.for_heights(volume_, {0}, [&](VoxelId v, double height) {
+            const EventId zone = tree_.zone(v);
+            if (!wanted[zone.index()]) return;
+            const auto [begin, end] = of_event.equal_range(zone);
             for (auto i = begin; i != end; ++i) i->second->voxels += belongs(height, i->second->tau);
         });
         for (Candidate& row : rows) {
@@ -185,13 +183,12 @@ private:
     /// Sum of voxel boxes of the object of a row; one pass, on rectilinear grids only.
     [[nodiscard]] double rectilinear_measure(const Candidate& row) const {
         std::vector<bool> inside(tree_.size(), false);  // children have smaller numbers: parents first
-        for (std::size_t e = static_cast<std::size_t>(row.event) + 1; e-- > 0;) {
-            inside[e] = static_cast<std::int64_t>(e) == row.event || (!tree_.is_root(e) && inside[tree_.parent[e]]);
-        }
+        for (EventId e = row.event; e.exists(); e = e.previous())
+            inside[e.index()] = e == row.event || (!tree_.is_root(e) && inside[tree_.parent(e).index()]);
         double sum = 0;
-        tree_.for_heights(volume_, [&](std::size_t v, double height) {
-            if (inside[tree_.zone[v]] && belongs(height, row.tau))
-                sum += voxel_measure(volume_.info->geometry, volume_.info->extent, static_cast<std::int64_t>(v));
+        tree_.for_heights(volume_, {0}, [&](VoxelId v, double height) {
+            if (inside[tree_.zone(v).index()] && belongs(height, row.tau))
+                sum += voxel_measure(volume_.info->geometry, volume_.info->extent, v.number());
         });
         return sum;
     }
@@ -225,21 +222,19 @@ std::vector<std::int64_t> closest_around(const ObjectTree<Id>& tree, const std::
     constexpr std::int64_t none = -1;
     const std::vector<std::size_t> order = by_event(rows);
     // Per event: the first place in `order` of it or of the next one below with rows.
-    BigVector<std::int64_t> first = filled<std::int64_t>(tree.size(), none);
+    IdArray<EventId, std::int64_t> first(filled(tree.size(), none));
     for (std::size_t k = order.size(); k-- > 0;) first[rows[order[k]].event] = static_cast<std::int64_t>(k);
-    BudgetPoll memory;
-    for (std::size_t e = tree.size(); e-- > 0;) {
-        memory.step(BudgetPoll::kTouch);
-        if (first[e] == none && !tree.is_root(e)) first[e] = first[tree.parent[e]];
+    for (const EventId e : streamed_down<EventId>(tree.size(), at_random())) {
+        if (first[e] == none && !tree.is_root(e)) first[e] = first[tree.parent(e)];
     }
     std::vector<std::int64_t> around(rows.size(), none);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         for (std::int64_t k = first[rows[i].event]; k != none && around[i] == none;) {
-            const std::int64_t event = rows[order[k]].event;
+            const EventId event = rows[order[k]].event;
             for (auto at = static_cast<std::size_t>(k); at < order.size() && rows[order[at]].event == event && around[i] == none; ++at) {
                 if (rows[order[at]].tau < rows[i].tau) around[i] = static_cast<std::int64_t>(order[at]);
             }
-            k = tree.is_root(event) ? none : first[tree.parent[event]];
+            k = tree.is_root(event) ? none : first[tree.parent(event)];
         }
     }
     return around;

@@ -12,17 +12,17 @@ namespace isoatlas {
 
 /// A branch and one isovalue on it. Values are heights (analysis/object_tree.h).
 struct Candidate {
-    std::int64_t branch;
+    BranchId branch;
     double appears, merges, tau, hypervolume;
-    bool outline;            ///< tau shows everything that is not background
-    std::int64_t event = 0;  ///< its zone contains tau
+    bool outline;                     ///< tau shows everything that is not background
+    EventId event = EventId::none();  ///< its zone contains tau
     std::int64_t voxels = 0;
     double measure = 0;
 };
 
 /// An isovalue of a branch that has a row. tau: a height.
 struct BranchIsovalue {
-    std::int64_t branch;
+    BranchId branch;
     double tau, prominence;
     IsovalueReason reason;
     std::int64_t cavity = -1;  ///< as in RecommendedIsovalue

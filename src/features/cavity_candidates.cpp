@@ -13,7 +13,7 @@ CavityCandidates<Id> make_cavity_candidates(const VolumeView& volume, const Anal
     with_outside.top = 0;
     if (with_outside.selection && with_outside.selection->keep) ++*with_outside.selection->keep;
     side.chosen = find_candidates(volume, side.tree, side.branches, noise, with_outside);
-    const auto is_outside = [](const auto& part) { return part.branch == 0; };
+    const auto is_outside = [](const auto& part) { return part.branch == kMainBranch; };
     std::erase_if(side.chosen.rows, is_outside);
     std::erase_if(side.chosen.isovalues, is_outside);
     std::erase_if(side.chosen.histograms, is_outside);

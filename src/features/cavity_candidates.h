@@ -17,8 +17,8 @@ struct CavityCandidates {
     CandidateTable chosen;  ///< without the outside; one row a branch
 
     /// Lowest voxel of the low component of an event; -1: the outside.
-    [[nodiscard]] std::int64_t voxel(const AnalysisArrays<Id>& arrays, std::int64_t event) const {
-        return lowest_voxel(arrays, sublevel, static_cast<std::size_t>(branches.highest[event]));
+    [[nodiscard]] std::int64_t voxel(const AnalysisArrays<Id>& arrays, EventId event) const {
+        return lowest_voxel(arrays, sublevel, branches.highest[event].index());
     }
 };
 

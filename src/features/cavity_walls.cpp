@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "base/memory_limit.h"
 #include "base/paced_fill.h"
+#include "base/streamed.h"
 #include "features/select_branches.h"
 #include "features/stable_isovalue.h"
 #include "isoatlas/active.h"
@@ -14,27 +14,25 @@ namespace {
 constexpr std::size_t kMaxCavities = 5;  // of one branch; all are in the table of cavities
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Per sublevel branch: the row of the closest branch that has one, itself or one it ends in; -1: there is none.
+/// The row of the closest branch that has one, itself or one it ends in; -1: there is none.
 template <class Id>
-BigVector<std::int64_t> rows_of_branches(const CavityCandidates<Id>& candidates) {
+IdArray<BranchId, std::int64_t> rows_of_branches(const CavityCandidates<Id>& candidates) {
     const std::vector<Candidate>& rows = candidates.chosen.rows;
-    BigVector<std::int64_t> own = filled<std::int64_t>(candidates.branches.branch.size(), std::int64_t{-1});
+    IdArray<BranchId, std::int64_t> own(filled(candidates.branches.branch.size(), std::int64_t{-1}));
     for (std::size_t row = 0; row < rows.size(); ++row) own[rows[row].branch] = static_cast<std::int64_t>(row);
-    BigVector<std::int64_t> result(own.size());
-    BudgetPoll memory;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        memory.step(BudgetPoll::kTouch);
+    IdArray<BranchId, std::int64_t> result(own.size());
+    for (const BranchId i : streamed<BranchId>(result.size(), at_random())) {
         result[i] = own[i];
-        for (auto b = static_cast<std::int64_t>(i); b >= 0 && result[i] < 0; b = candidates.branches.branch[b].parent) result[i] = own[b];
+        for (BranchId b = i; b.exists() && result[i] < 0; b = candidates.branches.branch[b].parent) result[i] = own[b];
     }
     return result;
 }
 
 /// The isovalue up to which a voxel of the zone of an event belongs to a branch; -infinity: never.
-double joins(const BranchDecomposition& branches, std::int64_t event, double value, std::int64_t branch) {
-    std::int64_t b = branches.of_event[event];
+double joins(const BranchDecomposition& branches, EventId event, double value, BranchId branch) {
+    BranchId b = branches.of_event[event];
     for (; b != branch; b = branches.branch[b].parent) {
-        if (branches.branch[b].parent < 0) return -kInfinity;
+        if (!branches.branch[b].parent.exists()) return -kInfinity;
         value = branches.branch[b].merges;
     }
     return value;
@@ -44,10 +42,10 @@ double joins(const BranchDecomposition& branches, std::int64_t event, double val
 template <class Id>
 void widen(std::vector<std::vector<Enclosure>>& all, const CavityCandidates<Id>& candidates) {
     const std::vector<Candidate>& rows = candidates.chosen.rows;
-    const BigVector<std::int64_t> row_of = rows_of_branches(candidates);
+    const IdArray<BranchId, std::int64_t> row_of = rows_of_branches(candidates);
     const std::vector<std::vector<Enclosure>> own = all;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (std::int64_t b = candidates.branches.branch[rows[i].branch].parent; b >= 0; b = candidates.branches.branch[b].parent) {
+        for (BranchId b = candidates.branches.branch[rows[i].branch].parent; b.exists(); b = candidates.branches.branch[b].parent) {
             if (row_of[b] < 0) break;
             b = rows[row_of[b]].branch;
             for (const Enclosure& outer : own[row_of[b]]) {
@@ -63,8 +61,8 @@ void widen(std::vector<std::vector<Enclosure>>& all, const CavityCandidates<Id>&
 }
 
 /// Where the histogram of a branch is; -1: it has none.
-std::vector<std::int64_t> slots(const std::vector<BranchHistogram>& histograms, std::size_t branches) {
-    std::vector<std::int64_t> slot(branches, -1);
+IdArray<BranchId, std::int64_t> slots(const std::vector<BranchHistogram>& histograms, std::size_t branches) {
+    IdArray<BranchId, std::int64_t> slot(filled(branches, std::int64_t{-1}));
     for (std::size_t i = 0; i < histograms.size(); ++i) slot[histograms[i].branch] = static_cast<std::int64_t>(i);
     return slot;
 }
@@ -80,7 +78,7 @@ template <class Id>
 class Walls {
 public:
     Walls(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& objects, const BranchDecomposition& branches,
-          const CandidateTable& chosen, const CavityCandidates<Id>& candidates, const std::vector<std::int64_t>& around)
+          const CandidateTable& chosen, const CavityCandidates<Id>& candidates, const std::vector<EventId>& around)
         : volume_(volume),
           arrays_(arrays),
           chosen_(chosen),
@@ -108,12 +106,12 @@ private:
     }
 
     /// A cavity of a branch at an isovalue?
-    [[nodiscard]] bool is_cavity(std::size_t row, std::int64_t branch, double tau) const {
+    [[nodiscard]] bool is_cavity(std::size_t row, BranchId branch, double tau) const {
         if (!(-candidates_.chosen.rows[row].appears < tau)) return false;
         const auto around = std::ranges::find(enclosures_[row], branch, &Enclosure::branch);
         return around != enclosures_[row].end() && tau <= around->closed;
     }
-    [[nodiscard]] bool has_cavity(std::int64_t branch, double tau) const {
+    [[nodiscard]] bool has_cavity(BranchId branch, double tau) const {
         for (std::size_t row = 0; row < enclosures_.size(); ++row) {
             if (is_cavity(row, branch, tau)) return true;
         }
@@ -121,7 +119,7 @@ private:
     }
 
     /// The branch around a row at its isovalue: the last one that it enters on the way down to there.
-    [[nodiscard]] bool is_around(std::size_t row, std::int64_t branch, double tau) const {
+    [[nodiscard]] bool is_around(std::size_t row, BranchId branch, double tau) const {
         if (!is_cavity(row, branch, tau)) return false;
         const auto around = std::ranges::find(enclosures_[row], branch, &Enclosure::branch);
         return std::ranges::none_of(enclosures_[row],
@@ -152,14 +150,13 @@ private:
 }  // namespace
 
 template <class Id>
-std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays,
-                                         const CavityCandidates<Id>& candidates) {
-    std::vector<std::int64_t> around;
+std::vector<EventId> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& candidates) {
+    std::vector<EventId> around;
     const ActiveIndex index(analysis);
     for (const Candidate& row : candidates.chosen.rows) {
         const Branch& b = candidates.branches.branch[row.branch];
         const ActiveObjects there = index.at(-b.merges);
-        const std::int64_t id = lowest_voxel(arrays, candidates.sublevel, static_cast<std::size_t>(b.highest));
+        const std::int64_t id = lowest_voxel(arrays, candidates.sublevel, b.highest.index());
         const auto wall = std::ranges::find_if(
             there.contours, [id](const ActiveContour& contour) { return contour.shell == Shell::inner && contour.id == id; });
         if (wall == there.contours.end()) throw Error(ErrorKind::internal, {.what = "a cavity without a wall"});
@@ -170,16 +167,16 @@ std::vector<std::int64_t> objects_around(const Analysis& analysis, const Analysi
 
 template <class Id>
 std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& objects, const BranchDecomposition& branches,
-                                               const CavityCandidates<Id>& candidates, const std::vector<std::int64_t>& around) {
+                                               const CavityCandidates<Id>& candidates, const std::vector<EventId>& around) {
     std::vector<std::vector<Enclosure>> all(around.size());
     for (std::size_t row = 0; row < around.size(); ++row) {
         const double appears = -candidates.chosen.rows[row].appears;
         double closed = -candidates.chosen.rows[row].merges;
-        for (std::int64_t e = around[row]; appears < closed; e = static_cast<std::int64_t>(objects.parent[e])) {
-            const std::int64_t branch = branches.of_event[e];
+        for (EventId e = around[row]; appears < closed; e = objects.parent(e)) {
+            const BranchId branch = branches.of_event[e];
             if (all[row].empty() || all[row].back().branch != branch) all[row].push_back({branch, closed});
             if (objects.is_root(e)) break;
-            closed = objects.height[objects.parent[e]];
+            closed = objects.height[objects.parent(e)];
         }
     }
     return all;
@@ -191,16 +188,14 @@ std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const Objec
                                            const std::vector<std::vector<Enclosure>>& enclosures) {
     std::vector<std::vector<Enclosure>> filled = enclosures;
     widen(filled, candidates);
-    const std::vector<std::int64_t> slot = slots(histograms, branches.branch.size());
+    const IdArray<BranchId, std::int64_t> slot = slots(histograms, branches.branch.size());
     for (std::vector<Enclosure>& one : filled) std::erase_if(one, [&](const Enclosure& e) { return slot[e.branch] < 0; });
-    const BigVector<std::int64_t> row_of = rows_of_branches(candidates);
-    BudgetPoll memory;
-    objects.for_heights(volume, [&](std::size_t v, double value) {
-        memory.step(2 * BudgetPoll::kTouch);
-        const std::int64_t row = row_of[candidates.branches.of_event[candidates.tree.zone[v]]];
+    const IdArray<BranchId, std::int64_t> row_of = rows_of_branches(candidates);
+    objects.for_heights(volume, at_random(2), [&](VoxelId v, double value) {
+        const std::int64_t row = row_of[candidates.branches.of_event[candidates.tree.zone(v)]];
         if (row < 0) return;
         for (const Enclosure& around : filled[row]) {
-            const double from = joins(branches, static_cast<std::int64_t>(objects.zone[v]), value, around.branch);
+            const double from = joins(branches, objects.zone(v), value, around.branch);
             if (!(from < around.closed)) continue;
             BranchHistogram& histogram = histograms[slot[around.branch]];
             histogram.added.back() += 1;  // it was there before, in the cavity
@@ -213,20 +208,20 @@ std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const Objec
 template <class Id>
 std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const ObjectTree<Id>& objects,
                                            const BranchDecomposition& branches, const CandidateTable& chosen,
-                                           const CavityCandidates<Id>& candidates, const std::vector<std::int64_t>& around) {
+                                           const CavityCandidates<Id>& candidates, const std::vector<EventId>& around) {
     return Walls<Id>(volume, arrays, objects, branches, chosen, candidates, around).all();
 }
 
 #define ISOATLAS_WALLS(Id)                                                                                                              \
-    template std::vector<std::int64_t> objects_around(const Analysis&, const AnalysisArrays<Id>&, const CavityCandidates<Id>&);         \
+    template std::vector<EventId> objects_around(const Analysis&, const AnalysisArrays<Id>&, const CavityCandidates<Id>&);              \
     template std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>&, const BranchDecomposition&,                          \
-                                                            const CavityCandidates<Id>&, const std::vector<std::int64_t>&);             \
+                                                            const CavityCandidates<Id>&, const std::vector<EventId>&);                  \
     template std::vector<BranchHistogram> fill_cavities(const VolumeView&, const ObjectTree<Id>&, const BranchDecomposition&,           \
                                                         std::vector<BranchHistogram>, const CavityCandidates<Id>&,                      \
                                                         const std::vector<std::vector<Enclosure>>&);                                    \
     template std::vector<BranchIsovalue> wall_isovalues(const VolumeView&, const AnalysisArrays<Id>&, const ObjectTree<Id>&,            \
                                                         const BranchDecomposition&, const CandidateTable&, const CavityCandidates<Id>&, \
-                                                        const std::vector<std::int64_t>&);
+                                                        const std::vector<EventId>&);
 ISOATLAS_WALLS(std::uint32_t)
 ISOATLAS_WALLS(std::uint64_t)
 #undef ISOATLAS_WALLS

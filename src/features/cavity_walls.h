@@ -14,12 +14,12 @@ namespace isoatlas {
 /// Per row of candidates.chosen: the event of the object around it at the highest isovalue at which it is closed. Cost: a query at an
 /// isovalue (isoatlas/active.h) for each.
 template <class Id>
-[[nodiscard]] std::vector<std::int64_t> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays,
-                                                       const CavityCandidates<Id>& candidates);
+[[nodiscard]] std::vector<EventId> objects_around(const Analysis& analysis, const AnalysisArrays<Id>& arrays,
+                                                  const CavityCandidates<Id>& candidates);
 
 /// A branch of objects that a cavity branch lies in, for isovalues (cavity branch appears, closed].
 struct Enclosure {
-    std::int64_t branch;
+    BranchId branch;
     double closed;  ///< stored value
 };
 
@@ -27,8 +27,7 @@ struct Enclosure {
 /// objects_around().
 template <class Id>
 [[nodiscard]] std::vector<std::vector<Enclosure>> enclosures(const ObjectTree<Id>& objects, const BranchDecomposition& branches,
-                                                             const CavityCandidates<Id>& candidates,
-                                                             const std::vector<std::int64_t>& around);
+                                                             const CavityCandidates<Id>& candidates, const std::vector<EventId>& around);
 
 /// The histograms of branches of objects with their cavities filled: V(tau) counts the voxels of the object and those that lie in one of
 /// these cavities at some isovalue up to tau, objects inside included. As cavities open they stay filled, so that their opening is no loss
@@ -46,6 +45,6 @@ template <class Id>
 [[nodiscard]] std::vector<BranchIsovalue> wall_isovalues(const VolumeView& volume, const AnalysisArrays<Id>& arrays,
                                                          const ObjectTree<Id>& objects, const BranchDecomposition& branches,
                                                          const CandidateTable& chosen, const CavityCandidates<Id>& candidates,
-                                                         const std::vector<std::int64_t>& around);
+                                                         const std::vector<EventId>& around);
 
 }  // namespace isoatlas

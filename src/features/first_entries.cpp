@@ -41,7 +41,7 @@ std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalu
 
 std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry) {
     const auto own = std::ranges::find_if(table.isovalues, [&](const RecommendedIsovalue& isovalue) {
-        return isovalue.branch_top == entry.branch_top && isovalue.tau == entry.best_tau;
+        return isovalue.branch_top == entry.branch_top.number() && isovalue.tau == entry.best_tau;
     });
     return own == table.isovalues.end() ? std::nullopt : std::optional(*own);
 }
@@ -73,7 +73,7 @@ ObjectTable first_entries(ObjectTable table, std::int64_t top) {
     std::set<std::int64_t> tops;
     for (ObjectEntry& entry : table.entries) {
         entry.note = entry.outline ? "outline" : entry.inside >= 0 ? inside_text(entry.inside) : entry.main_branch ? "largest" : "";
-        tops.insert(entry.branch_top);
+        tops.insert(entry.branch_top.number());
     }
     keep_isovalues(table.isovalues, tops);
     return table;

@@ -12,19 +12,19 @@
 namespace isoatlas {
 
 struct BranchHierarchy::Data {
-    BigVector<std::int64_t> parent;  ///< per event: of the criticality tree
-    BigVector<double> value;         ///< per event
-    BigVector<std::int64_t> voxels;  ///< per event, of its zone
+    IdArray<EventId, EventId> parent;  ///< of the criticality tree
+    IdArray<EventId, double> value;
+    IdArray<EventId, std::int64_t> voxels;  ///< of its zone
     BranchDecomposition branches;
     std::vector<BranchInfo> info;
-    BigVector<double> measure;  ///< per branch
-    std::vector<std::int64_t> significant;
+    IdArray<BranchId, double> measure;
+    std::vector<BranchId> significant;
 
-    [[nodiscard]] bool is_root(std::int64_t e) const { return parent[e] == e; }
+    [[nodiscard]] bool is_root(EventId e) const { return parent[e] == e; }
 };
 
 /// Of a grid with uniform steps. analysis: with voxel counts. tops: of the significant branches, ascending. Cost: O(events log events).
 [[nodiscard]] BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, const ZoneSums& zones,
-                                           std::span<const std::int64_t> tops);
+                                           std::span<const EventId> tops);
 
 }  // namespace isoatlas

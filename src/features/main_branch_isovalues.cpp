@@ -32,16 +32,16 @@ double gain(const BranchIsovalue& isovalue, const std::vector<BranchIsovalue>& t
 
 }  // namespace
 
-std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, const std::vector<std::int64_t>& significant,
+std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, const std::vector<BranchId>& significant,
                                           const BranchHistogram& histogram, const std::vector<BranchIsovalue>& own,
                                           const NoiseModel& noise) {
     std::vector<double> volume(histogram.added.size());
     std::partial_sum(histogram.added.rbegin(), histogram.added.rend(), volume.rbegin());
     std::vector<BranchIsovalue> all = own;
-    for (const std::int64_t i : significant) {
+    for (const BranchId i : significant) {
         const Branch& other = branches.branch[i];
         const std::size_t bin = histogram.bin(other.merges) + 1;
-        if (other.parent != 0 || bin >= volume.size()) continue;
+        if (other.parent != kMainBranch || bin >= volume.size()) continue;
         const double tau = histogram.axis.height(histogram.low + static_cast<double>(bin) * histogram.width());
         const auto joining = static_cast<double>(other.voxels);
         if (joining < kPart * (volume[bin] + joining)) continue;
@@ -51,7 +51,7 @@ std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, c
         }
         const bool has_grown = volume[bin] > kGrown * above;
         const bool is_reproduced = volume_at(histogram, volume, tau + noise.at(tau)) >= kReproduced * volume[bin];
-        if (has_grown && is_reproduced) all.push_back({0, tau, 0, IsovalueReason::merge, -1, volume[bin]});
+        if (has_grown && is_reproduced) all.push_back({kMainBranch, tau, 0, IsovalueReason::merge, -1, volume[bin]});
     }
     return {all.begin() + static_cast<std::ptrdiff_t>(own.size()), all.end()};
 }

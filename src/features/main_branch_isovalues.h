@@ -9,7 +9,7 @@ namespace isoatlas {
 /// Only where the other one is at least a twentieth of what they become, where the main branch has grown by a third since the next of its
 /// isovalues, and where a standard deviation of the noise more takes at most a tenth of it away. significant: these branches, by rank;
 /// histogram, own: of the main branch. Reason merge. Cost: O(significant + bins).
-[[nodiscard]] std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, const std::vector<std::int64_t>& significant,
+[[nodiscard]] std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, const std::vector<BranchId>& significant,
                                                         const BranchHistogram& histogram, const std::vector<BranchIsovalue>& own,
                                                         const NoiseModel& noise);
 

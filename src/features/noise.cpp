@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/big_vector.h"
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "field/sample_range.h"
 
 namespace isoatlas {
@@ -27,9 +27,8 @@ double second_differences(std::span<const T> samples, const Extent& extent) {
     BigVector<double> differences;
     differences.reserve(static_cast<std::size_t>(extent.voxels() / stride_for(extent.voxels()) + 1));
     const std::int64_t stride = stride_for(extent.voxels());
-    BudgetPoll memory;
-    for (std::int64_t i = 1; i + 1 < extent.voxels(); i += stride) {
-        memory.step(bytes_of_stride<T>(stride));
+    for (const std::size_t k : streamed(count_by(1, extent.voxels() - 1, stride), {bytes_of_stride<T>(stride)})) {
+        const std::int64_t i = 1 + static_cast<std::int64_t>(k) * stride;
         const std::int64_t x = i % extent.size[0];
         if (x == 0 || x + 1 == extent.size[0]) continue;
         differences.push_back(
@@ -63,9 +62,8 @@ bool is_free_of_noise(std::span<const T> samples, const Extent& extent) {
     const auto [low, high] = sample_range(samples);
     const std::int64_t stride = 8 * stride_for(extent.voxels()) | 1;
     std::int64_t constant = 0, all = 0;
-    BudgetPoll memory;
-    for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
-        memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
+    for (const std::size_t k : streamed(count_by(0, extent.voxels(), stride), {3 * bytes_of_stride<T>(stride)})) {  // of three slices
+        const std::int64_t i = static_cast<std::int64_t>(k) * stride;
         const bool flat = local_variance(samples, extent, i) == 0;
         if (flat && (samples[i] == low || samples[i] == high)) continue;
         ++all;
@@ -79,9 +77,8 @@ double quiet_places(std::span<const T> samples, const Extent& extent) {
     if (is_free_of_noise(samples, extent)) return 0;
     BigVector<double> variances;
     const std::int64_t stride = 8 * stride_for(extent.voxels()) | 1;
-    BudgetPoll memory;
-    for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
-        memory.step(3 * bytes_of_stride<T>(stride));
+    for (const std::size_t k : streamed(count_by(0, extent.voxels(), stride), {3 * bytes_of_stride<T>(stride)})) {
+        const std::int64_t i = static_cast<std::int64_t>(k) * stride;
         const double variance = local_variance(samples, extent, i);
         if (variance > 0) variances.push_back(variance);
     }

@@ -34,4 +34,9 @@ struct NoiseModel {
 /// median of the finest second difference, to which smooth structure adds nothing. Cost: as above.
 [[nodiscard]] NoiseModel fit_noise(const VolumeView& volume);
 
+/// How many of first, first + stride, ... are less than end.
+[[nodiscard]] inline std::size_t count_by(std::int64_t first, std::int64_t end, std::int64_t stride) {
+    return first < end ? static_cast<std::size_t>((end - first + stride - 1) / stride) : 0;
+}
+
 }  // namespace isoatlas

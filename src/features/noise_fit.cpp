@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "features/noise.h"
 #include "field/sample_range.h"
 
@@ -53,9 +53,8 @@ std::vector<Window> windows_of(std::span<const T> samples, const Extent& extent)
     std::vector<Window> windows;
     const auto [low, high] = sample_range(samples);
     const std::int64_t stride = std::max<std::int64_t>(1, extent.voxels() / kWindows) | 1;
-    BudgetPoll memory;
-    for (std::int64_t i = 0; i < extent.voxels(); i += stride) {
-        memory.step(3 * bytes_of_stride<T>(stride));  // of three slices
+    for (const std::size_t k : streamed(count_by(0, extent.voxels(), stride), {3 * bytes_of_stride<T>(stride)})) {  // of three slices
+        const std::int64_t i = static_cast<std::int64_t>(k) * stride;
         const Index3 p = extent.voxel(i);
         bool is_inside = true;
         for (int axis = 0; axis < extent.rank; ++axis) is_inside = is_inside && p[axis] > 0 && p[axis] + 1 < extent.size[axis];

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "features/cavity_candidates.h"
 #include "features/noise.h"
 #include "features/rank.h"
@@ -24,14 +24,14 @@ template <class Id>
 CavityEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& side, const Candidate& row) {
     CavityEntry entry{};
     entry.id = side.voxel(arrays, row.event);
-    entry.branch_minimum = lowest_voxel(arrays, side.sublevel, static_cast<std::size_t>(side.branches.branch[row.branch].top));
+    entry.branch_minimum = lowest_voxel(arrays, side.sublevel, side.branches.branch[row.branch].top.index());
     entry.appears = -row.appears, entry.merges = -row.merges, entry.best_tau = -row.tau;
     entry.reason = std::ranges::find(side.chosen.isovalues, row.branch, &BranchIsovalue::branch)->reason;  // it has one row
     entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
-    entry.islands = static_cast<std::int64_t>(side.sublevel.contours[row.event]) - 1;
-    entry.tau_low = -side.sublevel.height[row.event];
+    entry.islands = static_cast<std::int64_t>(side.sublevel.contours[row.event.index()]) - 1;
+    entry.tau_low = -side.tree.height[row.event];
     entry.tau_high =
-        side.tree.is_root(row.event) ? std::numeric_limits<double>::infinity() : -side.sublevel.height[side.tree.parent[row.event]];
+        side.tree.is_root(row.event) ? std::numeric_limits<double>::infinity() : -side.tree.height[side.tree.parent(row.event)];
     const Index3 voxel = volume.info->extent.voxel(entry.id);
     for (std::size_t axis = 0; axis < 3; ++axis) entry.position[axis] = static_cast<double>(voxel[axis]);
     return entry;
@@ -41,11 +41,10 @@ CavityEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays,
 template <class Id>
 void add_isovalues(const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& side, CavityTable& table) {
     for (const BranchIsovalue& own : side.chosen.isovalues) {
-        const std::int64_t top = side.branches.branch[own.branch].top;
-        std::int64_t event = top;
-        while (!side.tree.is_root(event) && side.tree.height[side.tree.parent[event]] > own.tau)
-            event = static_cast<std::int64_t>(side.tree.parent[event]);
-        const std::int64_t minimum = lowest_voxel(arrays, side.sublevel, static_cast<std::size_t>(top));
+        const EventId top = side.branches.branch[own.branch].top;
+        EventId event = top;
+        while (!side.tree.is_root(event) && side.tree.height[side.tree.parent(event)] > own.tau) event = side.tree.parent(event);
+        const std::int64_t minimum = lowest_voxel(arrays, side.sublevel, top.index());
         table.isovalues.push_back({minimum, -own.tau, own.prominence, own.reason, side.voxel(arrays, event)});
     }
 }
@@ -109,8 +108,10 @@ CavityTable cavity_table(const VolumeView& volume, const Analysis& analysis, con
                          const CavityCandidates<Id>& side, const NoiseModel& noise, std::int64_t top) {
     CavityTable table;
     table.noise = noise.sigma;
-    BudgetPoll memory;
-    for (const Branch& b : side.branches.branch) table.branches += b.parent >= 0 && b.appears > b.merges, memory.step(sizeof b);
+    for (const BranchId i : streamed<BranchId>(side.branches.branch.size(), {sizeof(Branch)})) {
+        const Branch& b = side.branches.branch[i];
+        table.branches += b.parent.exists() && b.appears > b.merges;
+    }
     std::vector<Candidate> rows = side.chosen.rows;
     if (top > 0 && static_cast<std::int64_t>(rows.size()) > top) rows.resize(static_cast<std::size_t>(top));
     const std::vector<std::int64_t> around = closest_around(side.tree, rows);

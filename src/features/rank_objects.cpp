@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "analysis/analysis_data.h"
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "features/cavity_walls.h"
 #include "features/noise.h"
 #include "features/rank.h"
@@ -26,40 +26,40 @@ public:
 
     /// around: as for wall_isovalues().
     [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const CavityCandidates<Id>& cavities,
-                                    const std::vector<std::int64_t>& around_cavities) const {
+                                    const std::vector<EventId>& around_cavities) const {
         ObjectTable table;
         table.noise = noise.sigma;
-        BudgetPoll memory;
-        for (const Branch& b : branches_.branch) table.branches += b.appears > b.merges, memory.step(sizeof b);
+        for (const BranchId i : streamed<BranchId>(branches_.branch.size(), {sizeof(Branch)}))
+            table.branches += branches_.branch[i].appears > branches_.branch[i].merges;
         CandidateTable chosen = find_candidates(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
         const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, cavities, around_cavities);
         chosen.isovalues.insert(chosen.isovalues.end(), walls.begin(), walls.end());
         std::ranges::stable_sort(chosen.isovalues, {}, &BranchIsovalue::branch);
         for (const BranchIsovalue& own : chosen.isovalues)
-            table.isovalues.push_back({branches_.branch[own.branch].top, own.tau, own.prominence, own.reason, own.cavity});
+            table.isovalues.push_back({branches_.branch[own.branch].top.number(), own.tau, own.prominence, own.reason, own.cavity});
         for (std::size_t i = 0; i < chosen.rows.size(); ++i) table.entries.push_back(entry(chosen.rows[i], around[i]));
         return first_entries(std::move(table), 0);
     }
 
 private:
     [[nodiscard]] ObjectEntry entry(const Candidate& row, std::int64_t inside) const {
-        const ElementCode code{arrays_.code[arrays_.tree.top[branches_.highest[row.event]]]};
+        const ElementCode code{arrays_.code[arrays_.tree.top[branches_.highest[row.event].index()]]};
         ObjectEntry entry{};
         entry.id = code.index();  // the highest element of an object is a maximum: a voxel
         entry.event = row.event;
         entry.appears = row.appears, entry.merges = row.merges, entry.best_tau = row.tau;
         entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
-        const auto contours = static_cast<std::int64_t>(arrays_.measures.contours[row.event]);
+        const auto contours = static_cast<std::int64_t>(arrays_.measures.contours[row.event.index()]);
         entry.cavities = is_3d_ ? contours - 1 : 0;
-        entry.tunnels = 1 + entry.cavities - static_cast<std::int64_t>(arrays_.measures.chi[row.event]);
+        entry.tunnels = 1 + entry.cavities - static_cast<std::int64_t>(arrays_.measures.chi[row.event.index()]);
         entry.position = element_position(code, volume_.info->extent);
-        entry.tau_low = tree_.is_root(row.event) ? -std::numeric_limits<double>::infinity() : values_[tree_.parent[row.event]];
-        entry.tau_high = values_[row.event];
+        entry.tau_low = tree_.is_root(row.event) ? -std::numeric_limits<double>::infinity() : tree_.height[tree_.parent(row.event)];
+        entry.tau_high = tree_.height[row.event];
         entry.inside = inside;
         entry.branch_top = branches_.branch[row.branch].top;
         entry.outline = row.outline;
-        entry.main_branch = row.branch == 0;
+        entry.main_branch = row.branch == kMainBranch;
         return entry;
     }
 

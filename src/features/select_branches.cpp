@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "analysis/object_tree.h"
-#include "base/memory_limit.h"
 #include "base/paced_fill.h"
+#include "base/streamed.h"
 
 namespace isoatlas {
 namespace {
@@ -26,44 +26,43 @@ std::int64_t max_of(const Selection& selection, std::int64_t branches) {
 }  // namespace
 
 template <class Id>
-BigVector<double> branch_measures(const ObjectTree<Id>& tree, const BranchDecomposition& branches, const VolumeInfo& info) {
-    BigVector<double> measure(branches.branch.size());
+IdArray<BranchId, double> branch_measures(const ObjectTree<Id>& tree, const BranchDecomposition& branches, const VolumeInfo& info) {
+    IdArray<BranchId, double> measure(branches.branch.size());
     const bool uniform = std::ranges::all_of(info.geometry.coordinates, [](const auto& c) { return c.size() < 2; });
     if (uniform) {
         const double one = voxel_measure(info.geometry, info.extent, 0);
-        for (std::size_t i = 0; i < measure.size(); ++i) measure[i] = one * static_cast<double>(branches.branch[i].voxels);
+        for (const BranchId i : measure.ids()) measure[i] = one * static_cast<double>(branches.branch[i].voxels);
         return measure;
     }
-    BigVector<double> object = filled<double>(tree.size(), 0.0);
-    for (std::size_t v = 0; v < tree.zone.size(); ++v)
-        object[tree.zone[v]] += voxel_measure(info.geometry, info.extent, static_cast<std::int64_t>(v));
-    for (std::size_t e = 0; e < tree.size(); ++e) {
-        if (!tree.is_root(e)) object[tree.parent[e]] += object[e];
+    IdArray<EventId, double> object(filled(tree.size(), 0.0));
+    for (const VoxelId v : tree.zones.ids()) object[tree.zone(v)] += voxel_measure(info.geometry, info.extent, v.number());
+    for (const EventId e : object.ids()) {
+        if (!tree.is_root(e)) object[tree.parent(e)] += object[e];
     }
-    for (std::size_t i = 0; i < measure.size(); ++i) measure[i] = object[branches.branch[i].bottom];
+    for (const BranchId i : measure.ids()) measure[i] = object[branches.branch[i].bottom];
     return measure;
 }
 
-std::vector<std::int64_t> select_branches(const BranchDecomposition& branches, std::span<const double> measure,
-                                          const Selection& selection) {
-    const BigVector<Branch>& all = branches.branch;
+std::vector<BranchId> select_branches(const BranchDecomposition& branches, IdSpan<BranchId, const double> measure,
+                                      const Selection& selection) {
+    const IdArray<BranchId, Branch>& all = branches.branch;
     const std::int64_t max = max_of(selection, static_cast<std::int64_t>(all.size()));
-    const auto passes = [&](std::size_t i) {
+    const auto passes = [&](BranchId i) {
         const Branch& b = all[i];
-        return static_cast<std::int64_t>(i) < max && static_cast<double>(b.voxels) >= selection.min_voxels &&
-               b.persistence >= selection.min_persistence && b.hypervolume >= selection.min_hypervolume &&
-               (measure.empty() || measure[i] >= selection.min_measure);
+        return i < BranchId(max) && static_cast<double>(b.voxels) >= selection.min_voxels && b.persistence >= selection.min_persistence &&
+               b.hypervolume >= selection.min_hypervolume && (measure.empty() || measure[i] >= selection.min_measure);
     };
     std::vector<bool> keep(all.size());
-    BudgetPoll memory;
-    for (std::size_t i = 0; i < all.size(); ++i) keep[i] = i == 0 || passes(i), memory.step(sizeof(Branch) + sizeof(double));
+    for (const BranchId i : streamed<BranchId>(all.size(), {sizeof(Branch) + sizeof(double)}))
+        keep[i.index()] = i == kMainBranch || passes(i);
     // Sums are rounded, so a branch may seem larger than the one it ends in: then neither is kept. Events of a parent have larger numbers.
-    std::vector<std::int64_t> kept;
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<BranchId> kept;
+    StreamedPaths around(at_random());
+    const auto next = [&](BranchId b) { return keep[b.index()] ? all[b].parent : BranchId::none(); };
+    for (const BranchId i : all.ids()) {
         bool is_kept = true;
-        for (auto b = static_cast<std::int64_t>(i); is_kept && b >= 0; b = all[b].parent)
-            is_kept = keep[b], memory.step(BudgetPoll::kTouch);
-        if (is_kept) kept.push_back(static_cast<std::int64_t>(i));
+        for (const BranchId b : around.from(i, next)) is_kept = keep[b.index()];
+        if (is_kept) kept.push_back(i);
     }
     return kept;
 }
@@ -74,25 +73,22 @@ std::int64_t min_voxels(std::int64_t voxels) {
 
 double noise_height(double noise, std::int64_t voxels) { return 1.1 * std::sqrt(2 * std::log(static_cast<double>(voxels))) * noise; }
 
-std::vector<std::int64_t> significant_branches(const BranchDecomposition& branches, std::int64_t voxels, const NoiseModel& noise,
-                                               double sign) {
+std::vector<BranchId> significant_branches(const BranchDecomposition& branches, std::int64_t voxels, const NoiseModel& noise, double sign) {
     const double hypervolumes = 2 * std::pow(static_cast<double>(voxels), 2.0 / 3);  // in standard deviations
     const std::int64_t min = min_voxels(voxels);
-    std::vector<std::int64_t> kept{0};
-    const BigVector<Branch>& all = branches.branch;
-    BudgetPoll memory;
-    for (std::size_t i = 1; i < all.size(); ++i) {
-        memory.step(sizeof(Branch));
+    std::vector<BranchId> kept{kMainBranch};
+    const IdArray<BranchId, Branch>& all = branches.branch;
+    for (const BranchId i : streamed<BranchId>(all.size(), {sizeof(Branch)})) {
+        if (i == kMainBranch) continue;
         const Branch& b = all[i];
-        if (b.hypervolume < kRelativeSize * all[1].hypervolume) break;  // sorted by hypervolume
+        if (b.hypervolume < kRelativeSize * all[kMainBranch.next()].hypervolume) break;  // sorted by hypervolume
         const double sigma = noise.at(sign * b.merges);
-        if ((b.persistence > noise_height(sigma, voxels) && b.voxels >= min) || b.hypervolume > hypervolumes * sigma)
-            kept.push_back(static_cast<std::int64_t>(i));
+        if ((b.persistence > noise_height(sigma, voxels) && b.voxels >= min) || b.hypervolume > hypervolumes * sigma) kept.push_back(i);
     }
     return kept;
 }
 
-template BigVector<double> branch_measures(const ObjectTree<std::uint32_t>&, const BranchDecomposition&, const VolumeInfo&);
-template BigVector<double> branch_measures(const ObjectTree<std::uint64_t>&, const BranchDecomposition&, const VolumeInfo&);
+template IdArray<BranchId, double> branch_measures(const ObjectTree<std::uint32_t>&, const BranchDecomposition&, const VolumeInfo&);
+template IdArray<BranchId, double> branch_measures(const ObjectTree<std::uint64_t>&, const BranchDecomposition&, const VolumeInfo&);
 
 }  // namespace isoatlas

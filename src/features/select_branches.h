@@ -14,18 +14,19 @@ namespace isoatlas {
 /// Physical volume of the object of every branch just before it merges. Cost: O(branches); on rectilinear grids, where tree.zone is needed,
 /// one pass over the voxels.
 template <class Id>
-[[nodiscard]] BigVector<double> branch_measures(const ObjectTree<Id>& tree, const BranchDecomposition& branches, const VolumeInfo& info);
+[[nodiscard]] IdArray<BranchId, double> branch_measures(const ObjectTree<Id>& tree, const BranchDecomposition& branches,
+                                                        const VolumeInfo& info);
 
-/// Positions by rank, the main branch first. measure: of branch_measures(); empty when the selection does not use it. Cost: O(branches).
-[[nodiscard]] std::vector<std::int64_t> select_branches(const BranchDecomposition& branches, std::span<const double> measure,
-                                                        const Selection& selection);
+/// By rank, the main branch first. measure: of branch_measures(); empty when the selection does not use it. Cost: O(branches).
+[[nodiscard]] std::vector<BranchId> select_branches(const BranchDecomposition& branches, IdSpan<BranchId, const double> measure,
+                                                    const Selection& selection);
 
 /// How many voxels a shape needs to be significant, in a volume of so many.
 [[nodiscard]] std::int64_t min_voxels(std::int64_t voxels);
 
 /// Branches that noise does not explain and that are not tiny compared with the largest; the main branch first. The noise is that
 /// around the value where they merge. voxels: of the volume; sign: of ObjectTree. Cost: O(branches that are large enough).
-[[nodiscard]] std::vector<std::int64_t> significant_branches(const BranchDecomposition& branches, std::int64_t voxels,
-                                                             const NoiseModel& noise, double sign);
+[[nodiscard]] std::vector<BranchId> significant_branches(const BranchDecomposition& branches, std::int64_t voxels, const NoiseModel& noise,
+                                                         double sign);
 
 }  // namespace isoatlas

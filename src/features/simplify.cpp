@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/object_tree.h"
+#include "base/paced_fill.h"
 #include "features/hierarchy.h"
 #include "features/noise.h"
 #include "features/select_branches.h"
@@ -19,45 +20,55 @@ using Data = BranchHierarchy::Data;
 /// zone: of every voxel; of uniform grids it may be empty.
 template <class Id>
 void gather(const VolumeInfo& info, const AnalysisArrays<Id>& arrays, const ZoneSums& zones, Data& data) {
-    data.parent.assign(arrays.tree.parent.begin(), arrays.tree.parent.end());
-    data.voxels.assign(arrays.voxels.begin(), arrays.voxels.end());
-    const ObjectTree<Id> tree = superlevel_tree<Id>(arrays, data.value);
+    data.parent = IdArray<EventId, EventId>(arrays.tree.size());
+    for (const EventId e : data.parent.ids()) data.parent[e] = EventId(arrays.tree.parent[e.index()]);
+    data.voxels.items().assign(arrays.voxels.begin(), arrays.voxels.end());
+    const ObjectTree<Id> tree = superlevel_tree<Id>(arrays, data.value.items());
     data.branches = decompose_branches(tree, zones);
     data.measure = branch_measures(tree, data.branches, info);
-    for (std::size_t i = 0; i < data.branches.branch.size(); ++i) {
+    for (const BranchId i : data.branches.branch.ids()) {
         const Branch& b = data.branches.branch[i];
-        const std::int64_t id = ElementCode{arrays.code[arrays.tree.top[b.highest]]}.index();
+        const std::int64_t id = ElementCode{arrays.code[arrays.tree.top[b.highest.index()]]}.index();
         data.info.push_back({id, b.top, b.parent, b.appears, b.merges, b.persistence, b.hypervolume, b.voxels, data.measure[i]});
     }
 }
 
 /// The events that become nodes: where kept branches begin, and where they end.
-std::vector<bool> node_events(const Data& data, const std::vector<std::int64_t>& kept) {
+std::vector<bool> node_events(const Data& data, const std::vector<BranchId>& kept) {
     std::vector<bool> is_node(data.parent.size(), false);
-    for (const std::int64_t i : kept) {
+    for (const BranchId i : kept) {
         const Branch& b = data.branches.branch[i];
-        is_node[b.top] = true;
-        if (b.parent >= 0) is_node[data.parent[b.bottom]] = true;
+        is_node[b.top.index()] = true;
+        if (b.parent.exists()) is_node[data.parent[b.bottom].index()] = true;
     }
     return is_node;
 }
 
-/// Per event: the one of the node that its zone joins. On a kept branch that is the next node above; another branch goes by what it ends
-/// in.
-std::vector<std::int64_t> node_of_events(const Data& data, const std::vector<std::int64_t>& kept, const std::vector<bool>& is_node) {
-    std::vector<std::int64_t> node(data.parent.size(), -1);
-    for (const std::int64_t i : kept) {
+/// The event of the node that its zone joins. On a kept branch that is the next node above; another branch goes by what it ends in.
+IdArray<EventId, EventId> node_events_of(const Data& data, const std::vector<BranchId>& kept, const std::vector<bool>& is_node) {
+    IdArray<EventId, EventId> node(filled(data.parent.size(), EventId::none()));
+    for (const BranchId i : kept) {
         const Branch& b = data.branches.branch[i];
-        std::int64_t last = b.top;
-        for (std::int64_t e = b.top;; e = data.parent[e]) {
-            node[e] = last = is_node[e] ? e : last;
+        EventId last = b.top;
+        for (EventId e = b.top;; e = data.parent[e]) {
+            node[e] = last = is_node[e.index()] ? e : last;
             if (e == b.bottom) break;
         }
     }
-    for (std::size_t e = node.size(); e-- > 0;) {
-        if (node[e] < 0) node[e] = node[data.parent[e]];
+    for (EventId e(data.parent.size() - 1); e.exists(); e = e.previous()) {
+        if (!node[e].exists()) node[e] = node[data.parent[e]];
     }
     return node;
+}
+
+/// What lies in branches that are not kept.
+void add_hidden(const Data& data, const std::vector<bool>& is_kept, Simplified& result) {
+    for (const EventId e : data.voxels.ids()) {
+        if (!is_kept[data.branches.of_event[e].index()]) result.hidden_voxels += data.voxels[e];
+    }
+    for (std::size_t i = 0; i < is_kept.size(); ++i) {
+        if (!is_kept[i]) result.hidden_hypervolume = std::max(result.hidden_hypervolume, data.info[i].hypervolume);
+    }
 }
 
 SelectionCurve curve_of(const Data& data, const std::string& size, const auto& size_of) {
@@ -71,7 +82,8 @@ SelectionCurve curve_of(const Data& data, const std::string& size, const auto& s
         curve.kept.push_back(static_cast<std::int64_t>(i) + 1);
     }
     curve.automatic_threshold = std::numeric_limits<double>::infinity();
-    for (const std::int64_t i : data.significant) curve.automatic_threshold = std::min(curve.automatic_threshold, size_of(data.info[i]));
+    for (const BranchId i : data.significant)
+        curve.automatic_threshold = std::min(curve.automatic_threshold, size_of(data.info[i.index()]));
     return curve;
 }
 
@@ -84,21 +96,21 @@ ZoneSums sum_zones(const VolumeView& volume, const Analysis& analysis) {
     });
 }
 
-BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, const ZoneSums& zones, std::span<const std::int64_t> tops) {
+BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, const ZoneSums& zones, std::span<const EventId> tops) {
     auto data = std::make_unique<Data>();
     analysis.data().visit([&](const auto& held) {
-        data->value = event_values(held.arrays);
+        data->value = IdArray<EventId, double>(event_values(held.arrays));
         gather(info, held.arrays, zones, *data);
     });
-    for (std::size_t i = 0; i < data->info.size(); ++i) {
-        if (std::ranges::binary_search(tops, data->info[i].top)) data->significant.push_back(static_cast<std::int64_t>(i));
+    for (const BranchId i : ids<BranchId>(data->info.size())) {
+        if (std::ranges::binary_search(tops, data->info[i.index()].top)) data->significant.push_back(i);
     }
     return BranchHierarchy(std::move(data));
 }
 
-std::vector<std::int64_t> events_of(const Analysis& analysis, std::int64_t top, double merges) {
-    std::vector<std::int64_t> events;
-    for (std::int64_t id = top; id >= 0;) {
+std::vector<EventId> events_of(const Analysis& analysis, EventId top, double merges) {
+    std::vector<EventId> events;
+    for (EventId id = top; id.exists();) {
         const Event event = analysis.event(id);
         if (!(event.value > merges)) break;
         events.push_back(id);
@@ -112,7 +124,7 @@ BranchHierarchy::BranchHierarchy(const Volume& volume, const Analysis& analysis,
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
     analysis.data().visit([&](const auto& held) {
         if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "simplifying needs an analysis with zones"});
-        data_->value = event_values(held.arrays);
+        data_->value = IdArray<EventId, double>(event_values(held.arrays));
         gather(volume.info, held.arrays, sum_zones(VolumeView(volume), analysis), *data_);
     });
     data_->significant = significant_branches(data_->branches, volume.info.extent.voxels(), fit_noise(VolumeView(volume)), 1);
@@ -123,47 +135,43 @@ BranchHierarchy& BranchHierarchy::operator=(BranchHierarchy&&) noexcept = defaul
 BranchHierarchy::~BranchHierarchy() = default;
 
 std::span<const BranchInfo> BranchHierarchy::branches() const { return data_->info; }
-const std::vector<std::int64_t>& BranchHierarchy::significant() const { return data_->significant; }
+const std::vector<BranchId>& BranchHierarchy::significant() const { return data_->significant; }
 
-std::vector<std::int64_t> BranchHierarchy::kept(const Selection& selection) const {
+std::vector<BranchId> BranchHierarchy::kept(const Selection& selection) const {
     return select_branches(data_->branches, data_->measure, selection);
 }
 
 Simplified BranchHierarchy::simplify(const Selection& selection) const { return simplify(kept(selection)); }
 
-Simplified BranchHierarchy::simplify(std::vector<std::int64_t> kept) const {
+Simplified BranchHierarchy::simplify(std::vector<BranchId> kept) const {
     const std::vector<bool> is_node = node_events(*data_, kept);
+    const IdArray<EventId, EventId> node_event = node_events_of(*data_, kept, is_node);
     Simplified result;
-    result.node_of_event = node_of_events(*data_, kept, is_node);
-    std::vector<std::int64_t> number(is_node.size(), -1);
-    for (std::size_t e = 0; e < is_node.size(); ++e) {
-        if (!is_node[e]) continue;
-        number[e] = static_cast<std::int64_t>(result.nodes.size());
-        const std::int64_t branch = data_->branches.of_event[e];
-        const bool is_maximum = data_->branches.branch[branch].top == static_cast<std::int64_t>(e);
-        result.nodes.push_back({static_cast<std::int64_t>(e), branch, -1, is_maximum, 0, data_->value[e], 0, 0});
+    std::vector<std::int64_t>& number = result.node_of_event;  // first of the events that are nodes
+    number.assign(is_node.size(), -1);
+    for (const EventId e : node_event.ids()) {
+        if (!is_node[e.index()]) continue;
+        number[e.index()] = static_cast<std::int64_t>(result.nodes.size());
+        const BranchId branch = data_->branches.of_event[e];
+        const bool is_maximum = data_->branches.branch[branch].top == e;
+        result.nodes.push_back({e, branch, -1, is_maximum, 0, data_->value[e], 0, 0});
     }
-    std::vector<bool> is_kept(data_->info.size(), false);
-    for (const std::int64_t i : kept) is_kept[i] = true;
-    for (std::size_t e = 0; e < is_node.size(); ++e) {
-        std::int64_t& node = result.node_of_event[e];
-        node = number[node];
-        result.nodes[node].voxels += data_->voxels[e];
-        if (!is_kept[data_->branches.of_event[e]]) result.hidden_voxels += data_->voxels[e];
+    for (const EventId e : node_event.ids()) {
+        number[e.index()] = number[node_event[e].index()];
+        result.nodes[number[e.index()]].voxels += data_->voxels[e];
     }
-    for (std::size_t i = 0; i < result.nodes.size(); ++i) {
-        SimplifiedNode& node = result.nodes[i];
-        std::int64_t below = node.event;
-        while (!data_->is_root(below) && (below == node.event || !is_node[below])) below = data_->parent[below];
-        const bool is_last = below == node.event || !is_node[below];
-        node.parent = is_last ? -1 : number[below];
+    for (SimplifiedNode& node : result.nodes) {
+        EventId below = node.event;
+        while (!data_->is_root(below) && (below == node.event || !is_node[below.index()])) below = data_->parent[below];
+        const bool is_last = below == node.event || !is_node[below.index()];
+        node.parent = is_last ? -1 : number[below.index()];
         node.tau_low = is_last ? -std::numeric_limits<double>::infinity() : data_->value[below];
         node.object_voxels += node.voxels;
         if (!is_last) result.nodes[node.parent].object_voxels += node.object_voxels;
     }
-    for (std::size_t i = 0; i < is_kept.size(); ++i) {
-        if (!is_kept[i]) result.hidden_hypervolume = std::max(result.hidden_hypervolume, data_->info[i].hypervolume);
-    }
+    std::vector<bool> is_kept(data_->info.size(), false);
+    for (const BranchId i : kept) is_kept[i.index()] = true;
+    add_hidden(*data_, is_kept, result);
     result.hidden = static_cast<std::int64_t>(data_->info.size() - kept.size());
     result.kept = std::move(kept);
     return result;

@@ -1,7 +1,7 @@
 // Sums over the zones of events: what the hypervolume of branches follows from.
 #pragma once
 
-#include "base/big_vector.h"
+#include "base/id_array.h"
 
 namespace isoatlas {
 
@@ -10,7 +10,7 @@ struct VolumeView;
 
 /// Over the zone of each event.
 struct ZoneSums {
-    BigVector<double> height;
+    IdArray<EventId, double> height;
     double lowest = 0;  ///< height of the lowest sample
 };
 

@@ -27,31 +27,31 @@ Column sum(const Column& p, const Column& q) {
     return both;
 }
 
-/// Elements of the object of an event, of all when it is -1.
+/// Events of the object of an event, all when it is none.
 template <class Id>
-std::vector<bool> events_inside(const AnalysisArrays<Id>& arrays, std::int64_t event) {
-    std::vector<bool> inside(arrays.tree.size(), event < 0);
-    if (event < 0) return inside;
-    inside[event] = true;
-    for (auto e = static_cast<std::size_t>(event); e-- > 0;) inside[e] = inside[arrays.tree.parent[e]];
+std::vector<bool> events_inside(const AnalysisArrays<Id>& arrays, EventId event) {
+    std::vector<bool> inside(arrays.tree.size(), !event.exists());
+    if (!event.exists()) return inside;
+    inside[event.index()] = true;
+    for (std::size_t e = event.index(); e-- > 0;) inside[e] = inside[arrays.tree.parent[e]];
     return inside;
 }
 
 /// Elements that open and that close tunnels, descending.
 struct TunnelElements {
-    std::vector<std::int64_t> opening, closing;
+    std::vector<ElementId> opening, closing;
 };
 
 template <class Id>
-TunnelElements tunnel_elements(const AnalysisArrays<Id>& arrays, std::int64_t event) {
+TunnelElements tunnel_elements(const AnalysisArrays<Id>& arrays, EventId event) {
     const std::vector<bool> inside = events_inside(arrays, event);
     TunnelElements elements;
     for (std::size_t x = 0; x < arrays.code.size(); ++x) {
         const ElementCode code{arrays.code[x]};
         const bool in_one_contour = arrays.contours.above(x) == 1 && arrays.contours.below(x) == 1;
         if (!in_one_contour || !inside[arrays.tree.event_of_element[x]]) continue;
-        if (code.h0() == 2) elements.opening.push_back(static_cast<std::int64_t>(x));
-        if (code.l0() == 2) elements.closing.push_back(static_cast<std::int64_t>(x));
+        if (code.h0() == 2) elements.opening.emplace_back(x);
+        if (code.l0() == 2) elements.closing.emplace_back(x);
     }
     return elements;
 }
@@ -59,10 +59,10 @@ TunnelElements tunnel_elements(const AnalysisArrays<Id>& arrays, std::int64_t ev
 template <class T, class Id>
 class Reduction {
 public:
-    Reduction(const GridView<T>& grid, double tunnel_height, const AnalysisArrays<Id>& arrays, std::int64_t event, const Context& context)
+    Reduction(const GridView<T>& grid, double tunnel_height, const AnalysisArrays<Id>& arrays, EventId event, const Context& context)
         : arrays_(arrays), event_(event), context_(context), disks_(grid, tunnel_height), elements_(tunnel_elements(arrays, event)) {
         for (std::size_t row = 0; row < elements_.opening.size(); ++row)
-            row_of_[place_of(ElementCode{arrays.code[elements_.opening[row]]})] = static_cast<std::int64_t>(row);
+            row_of_[place_of(ElementCode{arrays.code[elements_.opening[row].index()]})] = static_cast<std::int64_t>(row);
     }
 
     [[nodiscard]] std::int64_t tunnels() const { return static_cast<std::int64_t>(elements_.opening.size()); }
@@ -82,9 +82,9 @@ public:
     }
 
 private:
-    [[nodiscard]] Column column(std::int64_t element) const {
+    [[nodiscard]] Column column(ElementId element) const {
         Column rows;
-        for (const ElementPlace place : disks_.boundary(ElementCode{arrays_.code[element]})) {
+        for (const ElementPlace place : disks_.boundary(ElementCode{arrays_.code[element.index()]})) {
             const auto row = row_of_.find(place);
             if (row != row_of_.end()) rows.push_back(row->second);
         }
@@ -92,7 +92,7 @@ private:
         return rows;
     }
 
-    void reduce(Column rows, std::int64_t element) {
+    void reduce(Column rows, ElementId element) {
         while (!rows.empty()) {
             const auto other = reduced_.find(rows.back());
             if (other == reduced_.end()) break;
@@ -106,17 +106,17 @@ private:
 
     /// Tunnels that are still open when the object merges.
     void add_open() {
-        const bool is_root = event_ < 0 || arrays_.tree.is_root(static_cast<std::size_t>(event_));
+        const bool is_root = !event_.exists() || arrays_.tree.is_root(event_.index());
         ISOATLAS_CHECK(!is_root || pairs_.size() == elements_.opening.size());
         if (is_root) return;
-        const auto merge = static_cast<std::int64_t>(arrays_.tree.top[arrays_.tree.parent[event_]]);
+        const ElementId merge(arrays_.tree.top[arrays_.tree.parent[event_.index()]]);
         for (std::size_t row = 0; row < elements_.opening.size(); ++row) {
             if (!reduced_.contains(static_cast<std::int64_t>(row))) pairs_.push_back({elements_.opening[row], merge, true});
         }
     }
 
     const AnalysisArrays<Id>& arrays_;
-    std::int64_t event_;
+    EventId event_;
     const Context& context_;
     DescendingDisks<T> disks_;
     TunnelElements elements_;
@@ -128,8 +128,8 @@ private:
 void check(const Volume& volume, const Analysis& analysis, const ExactHandles& options) {
     if (volume.info.extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
-    if (options.event >= analysis.event_count())
-        throw Error(ErrorKind::usage, {.what = "there is no event " + std::to_string(options.event)});
+    if (options.event >= EventId(analysis.event_count()))
+        throw Error(ErrorKind::usage, {.what = "there is no event " + std::to_string(options.event.number())});
 }
 
 void check_size(std::int64_t tunnels, std::int64_t max) {
@@ -156,15 +156,15 @@ std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& a
     });
 }
 
-std::int64_t event_of_highest(const Analysis& analysis, std::int64_t voxel) {
-    return analysis.data().visit([&](const auto& held) -> std::int64_t {
+EventId event_of_highest(const Analysis& analysis, VoxelId voxel) {
+    return analysis.data().visit([&](const auto& held) -> EventId {
         const auto& arrays = held.arrays;
         const auto is_it = [&](std::uint64_t bits) {
             const ElementCode code{bits};
-            return code.kind() == CodeKind::vertex && code.h0() == 0 && code.index() == voxel;
+            return code.kind() == CodeKind::vertex && code.h0() == 0 && code.index() == voxel.number();
         };
         const auto found = std::ranges::find_if(arrays.code, is_it);
-        if (found == arrays.code.end()) return -1;
+        if (found == arrays.code.end()) return EventId::none();
         std::vector<std::size_t> highest(arrays.tree.size());
         for (std::size_t e = 0; e < highest.size(); ++e) highest[e] = e;
         for (std::size_t e = 0; e < highest.size(); ++e) {
@@ -173,9 +173,9 @@ std::int64_t event_of_highest(const Analysis& analysis, std::int64_t voxel) {
         }
         std::size_t event = arrays.tree.event_of_element[found - arrays.code.begin()];
         const std::size_t top = event;
-        if (arrays.tree.top[top] != static_cast<std::size_t>(found - arrays.code.begin())) return -1;
+        if (arrays.tree.top[top] != static_cast<std::size_t>(found - arrays.code.begin())) return EventId::none();
         while (!arrays.tree.is_root(event) && highest[arrays.tree.parent[event]] == top) event = arrays.tree.parent[event];
-        return static_cast<std::int64_t>(event);
+        return EventId(event);
     });
 }
 

@@ -45,7 +45,7 @@ private:
         for (; change > 0; --change) open.push(static_cast<Id>(element));
         for (; change < 0; ++change) {
             ISOATLAS_CHECK(!open.empty());
-            pairs_.push_back({static_cast<std::int64_t>(open.top()), static_cast<std::int64_t>(element)});
+            pairs_.push_back({ElementId(open.top()), ElementId(element)});
             open.pop();
         }
         leave(element, open);

@@ -28,7 +28,7 @@ double next_above(const ObjectTable& table, const ObjectEntry& entry) {
         if (tau > entry.best_tau) next = std::min(next, tau);
     };
     for (const ObjectEntry& other : table.entries) consider(other.best_tau);
-    for (const RecommendedIsovalue& isovalue : isovalues_of(table.isovalues, entry.branch_top)) consider(isovalue.tau);
+    for (const RecommendedIsovalue& isovalue : isovalues_of(table.isovalues, entry.branch_top.number())) consider(isovalue.tau);
     return next;
 }
 

@@ -34,8 +34,8 @@ PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
     const std::array<double, 3> top = event.position;  // contained wherever the branch is separate
     PageEntry entry;
     entry.id = atlas.info().extent.index(std::llround(top[0]), std::llround(top[1]), std::llround(top[2]));
-    entry.tau = branch.parent < 0 ? std::midpoint(atlas.range()[0], branch.appears)
-                                  : branch.merges + (branch.appears - branch.merges) * kShareAboveMerge;
+    entry.tau = !branch.parent.exists() ? std::midpoint(atlas.range()[0], branch.appears)
+                                        : branch.merges + (branch.appears - branch.merges) * kShareAboveMerge;
     while (event.zone.tau_low >= entry.tau) event = analysis.event(event.parent);
     entry.tau_low = std::max(event.zone.tau_low, atlas.range()[0]), entry.tau_high = event.zone.tau_high;
     entry.tunnels = event.b1, entry.cavities = event.b2;
@@ -65,18 +65,18 @@ PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std
 std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, const BranchesWanted& wanted, const Context& context) {
     const Calibration scale = atlas.info().calibration;
     const std::span<const BranchInfo> all = hierarchy.branches();
-    const std::vector<std::int64_t> kept = hierarchy.kept(wanted.selection);
-    const std::span<const std::int64_t> listed = std::span(kept).first(std::min(kept.size(), static_cast<std::size_t>(wanted.top)));
+    const std::vector<BranchId> kept = hierarchy.kept(wanted.selection);
+    const std::span<const BranchId> listed = std::span(kept).first(std::min(kept.size(), static_cast<std::size_t>(wanted.top)));
     std::vector<PageEntry> entries;
-    for (const std::int64_t rank : listed) {
+    for (const BranchId branch : listed) {
         stop_if_cancelled(context);
-        entries.push_back(entry_of(atlas, all[static_cast<std::size_t>(rank)]));
+        entries.push_back(entry_of(atlas, all[branch.index()]));
     }
     return document("branches", [&](JsonStream& json) {
         json.key("source").value(shell_word(atlas.info().path)).key("all").value(all.size()).key("kept").value(kept.size());
         const auto put = [&](const char* name, auto&& value) {
             json.line().key(name).begin_array();
-            for (std::size_t i = 0; i < listed.size(); ++i) json.value(value(all[static_cast<std::size_t>(listed[i])], entries[i]));
+            for (std::size_t i = 0; i < listed.size(); ++i) json.value(value(all[listed[i].index()], entries[i]));
             json.end_array();
         };
         using Branch = const BranchInfo&;
@@ -91,12 +91,13 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
         put("cavities", [](Branch, Entry entry) { return entry.cavities; });
         put("appears", [&](Branch branch, Entry) { return scale.reported(branch.appears); });
         put("merges", [&](Branch branch, Entry) { return scale.reported(branch.merges); });
-        put("parent", [](Branch branch, Entry) { return branch.parent; });
+        put("parent", [](Branch branch, Entry) { return branch.parent.number(); });
         put("persistence", [&](Branch branch, Entry) { return scale.reported_difference(branch.persistence); });
         put("hypervolume", [&](Branch branch, Entry) { return scale.reported_difference(branch.hypervolume); });
         put("voxels", [](Branch branch, Entry) { return branch.voxels; });
         put("measure", [](Branch branch, Entry) { return branch.measure; });
-        put("significant", [&](Branch branch, Entry) { return std::ranges::binary_search(hierarchy.significant(), &branch - all.data()); });
+        put("significant",
+            [&](Branch branch, Entry) { return std::ranges::binary_search(hierarchy.significant(), BranchId(&branch - all.data())); });
     });
 }
 

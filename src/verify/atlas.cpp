@@ -37,17 +37,17 @@ std::optional<Volume> checksums_are_right(const Atlas& atlas, const Context& con
 
 /// Voxels of maxima and their events, of an analysis without zones.
 EventOfVoxel events_of_maxima(const Analysis& analysis) {
-    std::unordered_map<std::int64_t, std::int64_t> events;
+    std::unordered_map<VoxelId, EventId> events;
     analysis.data().visit([&](const auto& held) {
         for (std::size_t i = 0; i < held.arrays.code.size(); ++i) {
             const ElementCode code{held.arrays.code[i]};
             if (code.kind() == CodeKind::vertex && code.h0() == 0)
-                events.emplace(code.index(), static_cast<std::int64_t>(held.arrays.tree.event_of_element[i]));
+                events.emplace(VoxelId(code.index()), EventId(held.arrays.tree.event_of_element[i]));
         }
     });
-    return [events = std::move(events)](std::int64_t voxel) {
+    return [events = std::move(events)](VoxelId voxel) {
         const auto found = events.find(voxel);
-        return found == events.end() ? -1 : found->second;
+        return found == events.end() ? EventId::none() : found->second;
     };
 }
 

@@ -77,7 +77,7 @@ std::vector<double> random_isovalues(const Volume& volume, int count, std::uint6
 }
 
 TreeAtLevels::TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues) : objects_(isovalues.size()) {
-    analysis.visit_object_contours([&](std::int64_t id, std::span<const GenusCount> histogram) {
+    analysis.visit_object_contours([&](EventId id, std::span<const GenusCount> histogram) {
         const Event event = analysis.event(id);
         const auto begin = std::upper_bound(isovalues.begin(), isovalues.end(), event.zone.tau_low);
         const auto end = std::upper_bound(begin, isovalues.end(), event.zone.tau_high);
@@ -90,13 +90,12 @@ TreeAtLevels::TreeAtLevels(const Analysis& analysis, const std::vector<double>& 
     });
 }
 
-std::vector<std::int64_t> TreeAtLevels::owner(const Analysis& analysis, std::size_t i) const {
-    std::vector<std::int64_t> owner(static_cast<std::size_t>(analysis.event_count()), -1);
-    for (const Object& object : objects_[i]) owner[static_cast<std::size_t>(object.event)] = object.event;
-    for (std::int64_t id = analysis.event_count() - 1; id >= 0; --id) {  // parents first
-        const std::int64_t parent = analysis.event(id).parent;
-        if (owner[static_cast<std::size_t>(id)] < 0 && parent >= 0)
-            owner[static_cast<std::size_t>(id)] = owner[static_cast<std::size_t>(parent)];
+std::vector<EventId> TreeAtLevels::owner(const Analysis& analysis, std::size_t i) const {
+    std::vector<EventId> owner(static_cast<std::size_t>(analysis.event_count()), EventId::none());
+    for (const Object& object : objects_[i]) owner[object.event.index()] = object.event;
+    for (EventId id(analysis.event_count() - 1); id.exists(); id = id.previous()) {  // parents first
+        const EventId parent = analysis.event(id).parent;
+        if (!owner[id.index()].exists() && parent.exists()) owner[id.index()] = owner[parent.index()];
     }
     return owner;
 }
@@ -109,14 +108,15 @@ void compare_tree_and_cut(const Analysis& analysis, const TreeAtLevels& tree, st
                    " in the volume");
         return;
     }
-    const std::vector<std::int64_t> owner = tree.owner(analysis, i);
+    const std::vector<EventId> owner = tree.owner(analysis, i);
     std::vector<bool> taken(objects.size(), false);
     for (const CutObject& object : cut.objects) {
         const std::string name = at(cut.tau) + "object " + std::to_string(object.id);
-        const std::int64_t named = event_of(object.id), event = named < 0 ? -1 : owner[static_cast<std::size_t>(named)];
+        const EventId named = event_of(VoxelId(object.id)), event = named.exists() ? owner[named.index()] : named;
         const auto found =
-            std::lower_bound(objects.begin(), objects.end(), event, [](const auto& entry, std::int64_t id) { return entry.event < id; });
-        if (event < 0 || found == objects.end() || found->event != event || taken[static_cast<std::size_t>(found - objects.begin())]) {
+            std::lower_bound(objects.begin(), objects.end(), event, [](const auto& entry, EventId id) { return entry.event < id; });
+        if (!event.exists() || found == objects.end() || found->event != event ||
+            taken[static_cast<std::size_t>(found - objects.begin())]) {
             check.fail(name + " has no event of its own in the tree");
             continue;
         }

@@ -24,23 +24,24 @@ namespace isoatlas {
 class TreeAtLevels {
 public:
     struct Object {
-        std::int64_t event, chi, b1, b2;
+        EventId event;
+        std::int64_t chi, b1, b2;
         std::int64_t min_voxels, max_voxels;  ///< at the ends of its zone; 0, 0: not counted
         std::vector<std::int64_t> genera;     ///< sorted
     };
     TreeAtLevels(const Analysis& analysis, const std::vector<double>& isovalues);
 
-    /// The objects at isovalue number i, by event id.
+    /// The objects at isovalue number i, by event.
     [[nodiscard]] const std::vector<Object>& objects(std::size_t i) const { return objects_[i]; }
-    /// For every event: the event of the object at isovalue number i that it has become part of, -1 when its zones lie below.
-    [[nodiscard]] std::vector<std::int64_t> owner(const Analysis& analysis, std::size_t i) const;
+    /// For every event: the event of the object at isovalue number i that it has become part of, none when its zones lie below.
+    [[nodiscard]] std::vector<EventId> owner(const Analysis& analysis, std::size_t i) const;
 
 private:
     std::vector<std::vector<Object>> objects_;
 };
 
-/// The event at which the maximum that represents an object appears; -1: none.
-using EventOfVoxel = std::function<std::int64_t(std::int64_t)>;
+/// The event at which the maximum that represents an object appears; none: it is not known.
+using EventOfVoxel = std::function<EventId(VoxelId)>;
 
 /// Each object of the cut is exactly one of the tree: found by its representative voxel, with the same Betti numbers and genera, and a
 /// number of voxels within the bounds of its zone.

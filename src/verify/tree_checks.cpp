@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-std::string event_name(std::int64_t id) { return "event " + std::to_string(id); }
+std::string event_name(EventId id) { return "event " + std::to_string(id.number()); }
 
 std::string number(double value) {
     std::string text(32, '\0');
@@ -22,9 +22,9 @@ std::string number(double value) {
 }
 
 void check_children(const Analysis& analysis, const Event& event, Check& check) {
-    for (const std::int64_t child : event.children) {
-        if (child < 0 || child >= event.id) {
-            check.fail(event_name(event.id) + " has the impossible child " + std::to_string(child));
+    for (const EventId child : event.children) {
+        if (child < EventId(0) || child >= event.id) {
+            check.fail(event_name(event.id) + " has the impossible child " + std::to_string(child.number()));
         } else if (analysis.event(child).parent != event.id) {
             check.fail(event_name(child) + " does not call " + event_name(event.id) + " its parent");
         }
@@ -64,12 +64,12 @@ CheckResult join_tree_is_valid(const Analysis& analysis) {
                  []<class Id>(const AnalysisArrays<Id>& arrays) { return every_event_has_its_zone<Id>(arrays.tree, arrays.value); });
     if (!check.holds()) return check.result(std::to_string(count) + " events");
     std::int64_t children = 0;
-    for (std::int64_t id = 0; id < count; ++id) {
+    for (const EventId id : ids<EventId>(count)) {
         const Event event = analysis.event(id);
-        if (event.id != id) check.fail(event_name(id) + " has the id " + std::to_string(event.id));
+        if (event.id != id) check.fail(event_name(id) + " has the id " + std::to_string(event.id.number()));
         children += event.objects_in;
         check_children(analysis, event, check);
-        const double low = event.parent < 0 ? -INFINITY : analysis.event(event.parent).value;
+        const double low = event.parent.exists() ? analysis.event(event.parent).value : -INFINITY;
         if (event.zone.tau_high != event.value || event.zone.tau_low != low)
             check.fail("the zone of " + event_name(id) + " is not between it and its parent");
     }
@@ -82,21 +82,21 @@ CheckResult zones_partition_voxels(const Analysis& analysis, const Volume& volum
     const std::int64_t count = analysis.event_count();
     std::vector<std::int64_t> voxels(static_cast<std::size_t>(count), 0);
     std::vector<ZoneRange> ranges;
-    for (std::int64_t id = 0; id < count; ++id) ranges.push_back(analysis.event(id).zone);
+    for (const EventId id : ids<EventId>(count)) ranges.push_back(analysis.event(id).zone);
     visit_samples(volume, [&](auto samples) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            const std::int64_t zone = analysis.zone(static_cast<std::int64_t>(i));
-            if (zone < 0 || zone >= count) {
-                check.fail("voxel " + std::to_string(i) + " has the impossible zone " + std::to_string(zone));
+            const EventId zone = analysis.zone(VoxelId(i));
+            if (zone < EventId(0) || zone >= EventId(count)) {
+                check.fail("voxel " + std::to_string(i) + " has the impossible zone " + std::to_string(zone.number()));
                 continue;
             }
-            const ZoneRange& range = ranges[static_cast<std::size_t>(zone)];
+            const ZoneRange& range = ranges[zone.index()];
             const auto value = static_cast<double>(samples[i]);
             if (!(value > range.tau_low && value <= range.tau_high)) {
                 check.fail("voxel " + std::to_string(i) + " with value " + number(value) + " lies outside the interval of its zone " +
-                           std::to_string(zone));
+                           std::to_string(zone.number()));
             }
-            ++voxels[static_cast<std::size_t>(zone)];
+            ++voxels[zone.index()];
         }
     });
     for (std::int64_t id = 0; id < count; ++id) {
@@ -112,10 +112,10 @@ CheckResult euler_sums_hold(const Analysis& analysis) {
     if (!flat) {
         check_arrays(analysis, check, [](const auto& arrays) { return euler_numbers_add_up(arrays.contours, delta_chis(arrays.code, 3)); });
     }
-    analysis.visit_object_contours([&](std::int64_t id, std::span<const GenusCount> genera) {
+    analysis.visit_object_contours([&](EventId id, std::span<const GenusCount> genera) {
         const Event event = analysis.event(id);
         std::int64_t chi = event.delta_chi, voxels = event.zone.voxels, contours = 0, genus = 0;
-        for (const std::int64_t child : event.children) {
+        for (const EventId child : event.children) {
             chi += analysis.event(child).chi;
             voxels += analysis.event(child).object_voxels;
         }
@@ -131,7 +131,7 @@ CheckResult euler_sums_hold(const Analysis& analysis) {
         if (!flat && genus != event.b1) check.fail(event_name(id) + ": the genera of its contours do not add up to b1");
     });
     if (analysis.event_count() > 0) {
-        const Event root = analysis.event(analysis.event_count() - 1);
+        const Event root = analysis.event(EventId(analysis.event_count() - 1));
         if (root.chi != 1 || root.b1 != 0 || root.b2 != 0 || root.contours != 1) check.fail("the root is not a solid box");
         if (root.object_voxels != analysis.extent().voxels()) check.fail("the root does not hold all voxels");
     }
@@ -140,19 +140,20 @@ CheckResult euler_sums_hold(const Analysis& analysis) {
 
 CheckResult contour_tree_is_a_tree(const Analysis& analysis) {
     Check check("contour_tree_is_a_tree");
-    const std::int64_t elements = analysis.element_count(), arcs = analysis.contour_arc_count();
+    const ElementId outside(analysis.element_count());
+    const std::int64_t arcs = analysis.contour_arc_count();
     check_arrays(analysis, check, [](const auto& arrays) { return is_contour_tree_with_levels(arrays); });
     if (!check.holds()) return check.result(std::to_string(arcs) + " arcs");
     std::int64_t to_outside = 0;
     for (std::int64_t id = 0; id < arcs; ++id) {
         const ContourArc arc = analysis.contour_arc(id);
         const std::string name = "arc " + std::to_string(id);
-        if (arc.upper < 0 || arc.upper >= elements || arc.lower <= arc.upper || arc.lower > elements) {
+        if (arc.upper < ElementId(0) || arc.upper >= outside || arc.lower <= arc.upper || arc.lower > outside) {
             check.fail(name + " has impossible ends");
             continue;
         }
-        to_outside += arc.lower == elements ? 1 : 0;
-        const double low = arc.lower == elements ? -INFINITY : analysis.element(arc.lower).value;
+        to_outside += arc.lower == outside ? 1 : 0;
+        const double low = arc.lower == outside ? -INFINITY : analysis.element(arc.lower).value;
         if (arc.value_high != analysis.element(arc.upper).value || arc.value_low != low)
             check.fail(name + " has other values than its ends");
         if (!(arc.value_low < arc.value_high)) check.fail(name + " has no length");
@@ -173,23 +174,22 @@ CheckResult levels_match_events(const Analysis& analysis) {
         const std::string name = "level " + std::to_string(id);
         if (level.value > previous) check.fail(name + " is above the one before");
         previous = level.value;
-        if (level.event < 0 || level.event >= events || analysis.event(level.event).value != level.value) {
+        if (level.event < EventId(0) || level.event >= EventId(events) || analysis.event(level.event).value != level.value) {
             check.fail(name + " belongs to no event of its value");
             continue;
         }
         if (!std::is_sorted(level.in.begin(), level.in.end()) || !std::is_sorted(level.out.begin(), level.out.end()))
             check.fail(name + " is not sorted");
         if (level.in.size() == 1 && level.in == level.out) check.fail(name + " is trivial");
-        ++own[static_cast<std::size_t>(level.event)];
-        change[static_cast<std::size_t>(level.event)] += surface_chi(level.out) - surface_chi(level.in);
-        more[static_cast<std::size_t>(level.event)] +=
-            static_cast<std::int64_t>(level.out.size()) - static_cast<std::int64_t>(level.in.size());
+        ++own[level.event.index()];
+        change[level.event.index()] += surface_chi(level.out) - surface_chi(level.in);
+        more[level.event.index()] += static_cast<std::int64_t>(level.out.size()) - static_cast<std::int64_t>(level.in.size());
     }
-    for (std::int64_t id = 0; id < events; ++id) {
-        const auto i = static_cast<std::size_t>(id);
+    for (const EventId id : ids<EventId>(events)) {
+        const std::size_t i = id.index();
         const Event event = analysis.event(id);
         std::int64_t contours = more[i];
-        for (const std::int64_t child : event.children) contours += analysis.event(child).contours;
+        for (const EventId child : event.children) contours += analysis.event(child).contours;
         if (own[i] == 0) check.fail(event_name(id) + " has no level");
         if (contours != event.contours) check.fail("the levels of " + event_name(id) + " do not explain its number of contours");
         if (!flat && change[i] != 2 * event.delta_chi)

@@ -12,7 +12,7 @@ std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions
     std::vector<CheckResult> results{join_tree_is_valid(analysis), zones_partition_voxels(analysis, volume), euler_sums_hold(analysis),
                                      contour_tree_is_a_tree(analysis), levels_match_events(analysis)};
 
-    LevelChecks checks(analysis, isovalues_to_check(volume, options.levels), [&](std::int64_t voxel) { return analysis.zone(voxel); });
+    LevelChecks checks(analysis, isovalues_to_check(volume, options.levels), [&](VoxelId voxel) { return analysis.zone(voxel); });
     ExtractOptions own;
     own.interpolant = options.interpolant, own.tunnel_height = options.tunnel_height, own.normals = false;
     Context silent = context;  // nested progress would move the bar back and forth

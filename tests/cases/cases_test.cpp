@@ -36,7 +36,8 @@ Index count(const isoatlas::Analysis& analysis, const std::string& what) {
     if (what == "levels") return analysis.level_count();
     if (what == "events") return analysis.event_count();
     Index maxima = 0;
-    for (Index i = 0; i < analysis.event_count(); ++i) maxima += analysis.event(i).objects_in == 0 ? 1 : 0;
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(analysis.event_count()))
+        maxima += analysis.event(i).objects_in == 0 ? 1 : 0;
     return maxima;
 }
 
@@ -49,7 +50,7 @@ bool has_level(const isoatlas::Analysis& analysis, const Expectation& e) {
 }
 
 bool has_event(const isoatlas::Analysis& analysis, const Expectation& e) {
-    for (Index i = 0; i < analysis.event_count(); ++i) {
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         const isoatlas::Event event = analysis.event(i);
         if (std::abs(event.value - e.value) < 1e-3 && kind_word(event.kind) == e.kind && event.delta_chi == e.first[0]) return true;
     }

@@ -24,7 +24,7 @@ struct Maxima {
 
 Maxima count_maxima(const Analysis& analysis) {
     Maxima maxima;
-    for (std::int64_t i = 0; i < analysis.event_count(); ++i) maxima.events += analysis.event(i).objects_in == 0 ? 1 : 0;
+    for (const EventId i : ids<EventId>(analysis.event_count())) maxima.events += analysis.event(i).objects_in == 0 ? 1 : 0;
     for (std::int64_t i = 0; i < analysis.level_count(); ++i) maxima.levels += analysis.level(i).in.empty() ? 1 : 0;
     return maxima;
 }

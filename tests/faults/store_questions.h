@@ -58,7 +58,7 @@ inline std::string bytes_of_surface(const Surface& s) {
 inline std::string bytes_of_analysis(const Analysis& analysis) {
     Answer answer;
     answer.add_numbers(analysis.interpolant(), analysis.tunnel_height());
-    for (std::int64_t i = 0; i < analysis.element_count(); ++i) {
+    for (const ElementId i : ids<ElementId>(analysis.element_count())) {
         const Element e = analysis.element(i);
         answer.add_numbers(e.value, e.position, e.h0, e.l0, e.kind);
     }
@@ -70,7 +70,7 @@ inline std::string bytes_of_analysis(const Analysis& analysis) {
         const Level l = analysis.level(i);
         answer.add_numbers(l.value, l.event).add(l.in).add(l.out);
     }
-    for (std::int64_t i = 0; i < analysis.event_count(); ++i) {
+    for (const EventId i : ids<EventId>(analysis.event_count())) {
         const Event e = analysis.event(i);
         answer.add_numbers(e.value, e.position, e.kind, e.parent, e.objects_in, e.lows_out, e.delta_chi, e.chi, e.b1, e.b2, e.contours);
         answer.add_numbers(e.zone.tau_low, e.zone.tau_high, e.zone.voxels, e.object_voxels);

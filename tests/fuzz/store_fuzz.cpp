@@ -114,11 +114,11 @@ void query(std::span<const std::byte> content) {
         ask([&] { atlas.check(context); });
         ask([&] {
             const isoatlas::Analysis analysis = atlas.analysis();
-            for (std::int64_t i = 0; i < analysis.element_count(); ++i) (void)analysis.element(i);
-            for (std::int64_t i = 0; i < analysis.event_count(); ++i) (void)analysis.event(i);
+            for (const isoatlas::ElementId i : isoatlas::ids<isoatlas::ElementId>(analysis.element_count())) (void)analysis.element(i);
+            for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) (void)analysis.event(i);
             for (std::int64_t i = 0; i < analysis.level_count(); ++i) (void)analysis.level(i);
             for (std::int64_t i = 0; i < analysis.contour_arc_count(); ++i) (void)analysis.contour_arc(i);
-            analysis.visit_object_contours([](std::int64_t, std::span<const isoatlas::GenusCount>) {});
+            analysis.visit_object_contours([](isoatlas::EventId, std::span<const isoatlas::GenusCount>) {});
         });
     });
     ask([&] {

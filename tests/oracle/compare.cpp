@@ -22,10 +22,10 @@ std::string histogram(const std::vector<Index>& genera) {
 std::vector<std::string> contour_texts(const isoatlas::Analysis& analysis) {
     std::vector<std::string> texts(static_cast<std::size_t>(analysis.event_count()), "not visited");
     Index next = 0;
-    analysis.visit_object_contours([&](Index event, std::span<const isoatlas::GenusCount> counts) {
+    analysis.visit_object_contours([&](isoatlas::EventId event, std::span<const isoatlas::GenusCount> counts) {
         std::ostringstream out;
         for (const isoatlas::GenusCount& c : counts) out << c.genus << 'x' << c.count << ' ';
-        texts[static_cast<std::size_t>(event)] = event == next++ ? out.str() : "visited out of order";
+        texts[event.index()] = event.number() == next++ ? out.str() : "visited out of order";
     });
     return texts;
 }
@@ -67,7 +67,7 @@ std::string compare_elements(const Result& expected, const isoatlas::Analysis& a
     if (actual.element_count() != count) return Difference("elements").check("count", count, actual.element_count()).text();
     for (Index i = 0; i < count; ++i) {
         const CriticalElement& e = expected.critical[i];
-        const isoatlas::Element a = actual.element(i);
+        const isoatlas::Element a = actual.element(isoatlas::ElementId(i));
         Difference d(at("element", i));
         d.check("value", e.value, a.value).check("position", join(e.position), join(a.position));
         d.check("h0", e.h0, a.h0).check("l0", e.l0, a.l0).check("kind", static_cast<int>(e.type), static_cast<int>(a.kind));
@@ -77,15 +77,18 @@ std::string compare_elements(const Result& expected, const isoatlas::Analysis& a
 }
 
 std::string compare_arcs(const Result& expected, const isoatlas::Analysis& actual) {
-    const auto text = [](const auto& arc) {
+    const auto text = [](Index upper, Index lower, const auto& arc) {
         std::ostringstream out;
         out.precision(17);
-        out << arc.upper << "->" << arc.lower << " values " << arc.value_high << ".." << arc.value_low << " genus " << arc.genus;
+        out << upper << "->" << lower << " values " << arc.value_high << ".." << arc.value_low << " genus " << arc.genus;
         return out.str();
     };
     std::multiset<std::string> left, right;
-    for (const Arc& arc : expected.arcs) left.insert(text(arc));
-    for (Index i = 0; i < actual.contour_arc_count(); ++i) right.insert(text(actual.contour_arc(i)));
+    for (const Arc& arc : expected.arcs) left.insert(text(arc.upper, arc.lower, arc));
+    for (Index i = 0; i < actual.contour_arc_count(); ++i) {
+        const isoatlas::ContourArc arc = actual.contour_arc(i);
+        right.insert(text(arc.upper.number(), arc.lower.number(), arc));
+    }
     if (left == right) return {};
     std::vector<std::string> missing, extra;
     std::set_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(missing));
@@ -102,7 +105,7 @@ std::string compare_levels(const Result& expected, const isoatlas::Analysis& act
         const isoatlas::Level a = actual.level(i);
         Difference d(at("level", i));
         d.check("value", e.value, a.value)
-            .check("event", e.event, a.event)
+            .check("event", e.event, a.event.number())
             .check("in", join(e.in), join(a.in))
             .check("out", join(e.out), join(a.out));
         if (!d.text().empty()) return d.text();
@@ -116,12 +119,13 @@ std::string compare_events(const Result& expected, const isoatlas::Analysis& act
     const std::vector<std::string> contours = contour_texts(actual);
     for (Index i = 0; i < count; ++i) {
         const Event& e = expected.events[i];
-        const isoatlas::Event a = actual.event(i);
-        std::vector<Index> children(a.children.begin(), a.children.end());
+        const isoatlas::Event a = actual.event(isoatlas::EventId(i));
+        std::vector<Index> children = numbers_of(a.children);
         std::sort(children.begin(), children.end());
         Difference d(at("event", i));
-        d.check("id", i, a.id).check("value", e.value, a.value).check("position", join(e.position), join(a.position));
-        d.check("kind", std::string(kind_text(e.kind)), std::string(isoatlas::name_of(a.kind))).check("parent", e.parent, a.parent);
+        d.check("id", i, a.id.number()).check("value", e.value, a.value).check("position", join(e.position), join(a.position));
+        d.check("kind", std::string(kind_text(e.kind)), std::string(isoatlas::name_of(a.kind)))
+            .check("parent", e.parent, a.parent.number());
         d.check("children", join(e.children), join(children)).check("objects_in", static_cast<Index>(e.children.size()), a.objects_in);
         d.check("lows_out", e.lows_out, a.lows_out).check("delta_chi", e.delta_chi, a.delta_chi);
         d.check("tau_low", e.tau_low, a.zone.tau_low).check("tau_high", e.value, a.zone.tau_high);
@@ -135,9 +139,8 @@ std::string compare_events(const Result& expected, const isoatlas::Analysis& act
 
 std::string compare_zones(const Result& expected, const isoatlas::Analysis& actual) {
     for (std::size_t v = 0; v < expected.zone.size(); ++v) {
-        const auto voxel = static_cast<Index>(v);
-        if (expected.zone[v] != actual.zone(voxel))
-            return Difference(at("voxel", voxel)).check("zone", expected.zone[v], actual.zone(voxel)).text();
+        const Index zone = actual.zone(isoatlas::VoxelId(v)).number();
+        if (expected.zone[v] != zone) return Difference(at("voxel", static_cast<Index>(v))).check("zone", expected.zone[v], zone).text();
     }
     return {};
 }

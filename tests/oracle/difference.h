@@ -16,6 +16,14 @@ std::string join(const T& list) {
     return out.str();
 }
 
+/// Of a list of ids (isoatlas/id.h).
+template <class T>
+std::vector<Index> numbers_of(const T& ids) {
+    std::vector<Index> numbers;
+    for (const auto id : ids) numbers.push_back(id.number());
+    return numbers;
+}
+
 /// The first pair of unequal things, named.
 class Difference {
 public:

@@ -26,7 +26,7 @@ double interpolated(const Grid& grid, const std::array<Index, 3>& cell, const st
 /// Objects, chi, tunnels and cavities at an isovalue.
 std::array<Index, 4> numbers_at(const Analysis& analysis, double tau) {
     std::array<Index, 4> sum{};
-    for (Index e = 0; e < analysis.event_count(); ++e) {
+    for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         const isoatlas::Event event = analysis.event(e);
         if (!(event.zone.tau_low < tau && tau <= event.zone.tau_high)) continue;
         const std::array<Index, 4> object{1, event.chi, event.b1, event.b2};
@@ -122,7 +122,7 @@ FinerComparison compare_with_finer(const Grid& grid, const Grid& fine_grid, doub
     const isoatlas::Volume fine_volume = to_volume(fine_grid, isoatlas::ValueType::f64);
     const Analysis fine = isoatlas::analyse(fine_volume, {.interpolant = Interpolant::faces}, context);
     std::vector<double> critical;
-    for (Index e = 0; e < fine.element_count(); ++e) critical.push_back(fine.element(e).value);
+    for (const isoatlas::ElementId e : isoatlas::ids<isoatlas::ElementId>(fine.element_count())) critical.push_back(fine.element(e).value);
     std::sort(critical.begin(), critical.end());
     FinerComparison result;
     for (std::size_t c = 0; c + 1 < critical.size(); ++c) {

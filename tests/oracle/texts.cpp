@@ -46,10 +46,10 @@ std::string tree_text(Index events, Describe describe, Children children) {
 
 std::vector<std::string> histograms(const isoatlas::Analysis& analysis) {
     std::vector<std::string> texts(static_cast<std::size_t>(analysis.event_count()));
-    analysis.visit_object_contours([&](Index event, std::span<const isoatlas::GenusCount> counts) {
+    analysis.visit_object_contours([&](isoatlas::EventId event, std::span<const isoatlas::GenusCount> counts) {
         std::ostringstream out;
         for (const isoatlas::GenusCount& c : counts) out << c.genus << 'x' << c.count << ' ';
-        texts[static_cast<std::size_t>(event)] = out.str();
+        texts[event.index()] = out.str();
     });
     return texts;
 }
@@ -72,14 +72,11 @@ std::string canonical_text(const isoatlas::Analysis& analysis) {
     const auto describe = [&](Index e) {
         std::ostringstream out;
         out.precision(17);
-        put_event(out, analysis.event(e));
+        put_event(out, analysis.event(isoatlas::EventId(e)));
         out << " genera " << genera[static_cast<std::size_t>(e)];
         return out.str();
     };
-    const auto children = [&](Index e) {
-        const auto span = analysis.event(e).children;
-        return std::vector<Index>(span.begin(), span.end());
-    };
+    const auto children = [&](Index e) { return numbers_of(analysis.event(isoatlas::EventId(e)).children); };
     return sorted_text(std::move(levels)) + tree_text(analysis.event_count(), describe, children);
 }
 
@@ -101,26 +98,26 @@ std::string canonical_text(const Result& result) {
 std::string full_text(const isoatlas::Analysis& analysis) {
     std::ostringstream out;
     out.precision(17);
-    for (Index i = 0; i < analysis.element_count(); ++i) {
+    for (const isoatlas::ElementId i : isoatlas::ids<isoatlas::ElementId>(analysis.element_count())) {
         const isoatlas::Element e = analysis.element(i);
         out << "element " << e.value << " at " << join(e.position) << e.h0 << ' ' << e.l0 << ' ' << static_cast<int>(e.kind) << '\n';
     }
     for (Index i = 0; i < analysis.contour_arc_count(); ++i) {
         const isoatlas::ContourArc a = analysis.contour_arc(i);
-        out << "arc " << a.upper << ' ' << a.lower << ' ' << a.value_high << ' ' << a.value_low << ' ' << a.genus << '\n';
+        out << "arc " << a.upper.number() << ' ' << a.lower.number() << ' ' << a.value_high << ' ' << a.value_low << ' ' << a.genus << '\n';
     }
     for (Index i = 0; i < analysis.level_count(); ++i) {
         const isoatlas::Level level = analysis.level(i);
-        out << level.event << ' ' << level_text(level.value, level.in, level.out);
+        out << level.event.number() << ' ' << level_text(level.value, level.in, level.out);
     }
     const std::vector<std::string> genera = histograms(analysis);
-    for (Index i = 0; i < analysis.event_count(); ++i) {
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         const isoatlas::Event e = analysis.event(i);
         put_event(out, e);
-        out << " id " << e.id << " at " << join(e.position) << "parent " << e.parent << " children " << join(e.children)
-            << genera[static_cast<std::size_t>(i)] << '\n';
+        out << " id " << e.id.number() << " at " << join(e.position) << "parent " << e.parent.number() << " children "
+            << join(numbers_of(e.children)) << genera[i.index()] << '\n';
     }
-    for (Index v = 0; v < analysis.extent().voxels(); ++v) out << analysis.zone(v) << ' ';
+    for (const isoatlas::VoxelId v : isoatlas::ids<isoatlas::VoxelId>(analysis.extent().voxels())) out << analysis.zone(v).number() << ' ';
     return out.str();
 }
 

@@ -136,7 +136,7 @@ void active_objects_of_the_trees_walk_from_event_to_event() {
     const isoatlas::Analysis analysis = isoatlas::analyse(to_volume(grid));
     const ActiveIndex index(analysis);
     std::vector<double> expected;
-    for (Index e = 0; e < analysis.event_count(); ++e) {
+    for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         if (expected.empty() || expected.back() != analysis.event(e).value) expected.push_back(analysis.event(e).value);
     }
     double tau = expected.front() + 1;

@@ -133,9 +133,9 @@ std::string text(const isoatlas::ObjectTable& table) {
     out.precision(17);
     out << table.branches << ' ' << table.noise << '\n';
     for (const auto& o : table.entries) {
-        out << o.id << ' ' << o.event << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' ' << o.measure
-            << ' ' << o.tunnels << ' ' << o.cavities << ' ' << o.hypervolume << ' ' << join(o.position) << o.tau_low << ' ' << o.tau_high
-            << ' ' << o.inside << ' ' << o.branch_top << ' ' << o.note << '\n';
+        out << o.id << ' ' << o.event.number() << ' ' << o.appears << ' ' << o.merges << ' ' << o.best_tau << ' ' << o.voxels << ' '
+            << o.measure << ' ' << o.tunnels << ' ' << o.cavities << ' ' << o.hypervolume << ' ' << join(o.position) << o.tau_low << ' '
+            << o.tau_high << ' ' << o.inside << ' ' << o.branch_top.number() << ' ' << o.note << '\n';
         RC_ASSERT(isoatlas::isovalue_of(table, o).has_value());
     }
     for (const auto& i : table.isovalues)
@@ -173,9 +173,9 @@ std::string text(const isoatlas::BranchHierarchy& hierarchy, const isoatlas::Sel
     std::ostringstream out;
     out.precision(17);
     for (const isoatlas::BranchInfo& b : hierarchy.branches())
-        out << b.id << ' ' << b.top << ' ' << b.parent << ' ' << b.merges << ' ' << b.hypervolume << ' ' << b.voxels << ' ' << b.measure
-            << '\n';
-    out << join(hierarchy.significant()) << '\n' << join(hierarchy.simplify(selection).node_of_event);
+        out << b.id << ' ' << b.top.number() << ' ' << b.parent.number() << ' ' << b.merges << ' ' << b.hypervolume << ' ' << b.voxels
+            << ' ' << b.measure << '\n';
+    out << join(numbers_of(hierarchy.significant())) << '\n' << join(hierarchy.simplify(selection).node_of_event);
     return out.str();
 }
 

@@ -137,7 +137,7 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {
     const isoatlas::Analysis expected = isoatlas::analyse(volume, options), actual = Atlas(path_).analysis();
     RC_ASSERT(canonical_text(actual) == canonical_text(expected));
     RC_ASSERT(actual.element_count() == expected.element_count());
-    for (Index e = 0; e < expected.event_count(); ++e) {
+    for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(expected.event_count())) {
         RC_ASSERT(actual.event(e).zone.voxels == expected.event(e).zone.voxels);
         RC_ASSERT(actual.event(e).position == expected.event(e).position);
     }

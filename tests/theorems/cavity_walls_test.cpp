@@ -63,8 +63,8 @@ bool are_filled_as_brute_force_says(const Grid& grid, isoatlas::Interpolant inte
     const isoatlas::RankOptions all{.top = 0, .gate = false};
     analysis.data().visit([&]<class Id>(const isoatlas::IndexedArrays<Id>& held) {
         const isoatlas::NoiseModel noise = isoatlas::fit_noise(view);
-        const auto values = isoatlas::event_values(held.arrays);
-        const auto bright = isoatlas::superlevel_tree<Id>(held.arrays, values);
+        const isoatlas::IdArray<isoatlas::EventId, double> values(isoatlas::event_values(held.arrays));
+        const auto bright = isoatlas::superlevel_tree<Id>(held.arrays, values.items());
         const isoatlas::BranchDecomposition branches = isoatlas::decompose_branches(bright, isoatlas::sum_zones(bright, view));
         const auto dark = isoatlas::make_cavity_candidates(view, held.arrays, noise, all, {});
         const auto around = isoatlas::enclosures(bright, branches, dark, isoatlas::objects_around(analysis, held.arrays, dark));
@@ -76,12 +76,12 @@ bool are_filled_as_brute_force_says(const Grid& grid, isoatlas::Interpolant inte
             double below = std::max(branch.merges, branches.lowest);
             for (const double tau : interesting_values(elements)) {
                 if (!(branch.merges < tau && tau <= branch.appears) || tau <= branches.lowest) continue;
-                Index event = branch.top;
-                while (!bright.is_root(event) && values[bright.parent[event]] >= tau) event = static_cast<Index>(bright.parent[event]);
+                isoatlas::EventId event = branch.top;
+                while (!bright.is_root(event) && values[bright.parent(event)] >= tau) event = bright.parent(event);
                 const Snapshot at = snapshot(elements, elements.cut_at(tau));
                 const Nesting nesting(at);
                 const Index object =
-                    at.object_of[isoatlas::ElementCode{held.arrays.code[held.arrays.tree.top[branches.highest[event]]]}.index()];
+                    at.object_of[isoatlas::ElementCode{held.arrays.code[held.arrays.tree.top[branches.highest[event].index()]]}.index()];
                 Index count = 0;
                 for (Index v = 0; v < grid.voxels(); ++v) {
                     if (is_in_cavity(at, nesting, v, object)) was_in_cavity[v] = true;
@@ -152,7 +152,7 @@ TEST(CavityWalls, AreSharpAtOtherIsovaluesThanTheOuterBoundary) {
     const isoatlas::ObjectTable table = isoatlas::rank_objects(volume, analysis);
     ASSERT_FALSE(table.entries.empty());
     std::map<IsovalueReason, std::vector<RecommendedIsovalue>> by_reason;
-    for (const RecommendedIsovalue& isovalue : isovalues_of(table.isovalues, table.entries[0].branch_top))
+    for (const RecommendedIsovalue& isovalue : isovalues_of(table.isovalues, table.entries[0].branch_top.number()))
         by_reason[isovalue.reason].push_back(isovalue);
     const auto& outer = by_reason[IsovalueReason::outer];
     ASSERT_EQ(outer.size(), 1U);

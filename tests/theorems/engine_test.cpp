@@ -75,8 +75,9 @@ void engine_finds_the_flooding_tree_without_ties() {
     if (has_ties(both.elements)) return;
     const Flooding flooding = flood(both.elements, both.expected.critical);
     RC_ASSERT(both.actual.event_count() == static_cast<Index>(flooding.parent.size()));
-    for (Index e = 0; e < both.actual.event_count(); ++e) RC_ASSERT(both.actual.event(e).parent == flooding.parent[e]);
-    for (Index v = 0; v < both.elements.grid.voxels(); ++v) RC_ASSERT(both.actual.zone(v) == flooding.label[v]);
+    for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(both.actual.event_count()))
+        RC_ASSERT(both.actual.event(e).parent.number() == flooding.parent[e.index()]);
+    for (Index v = 0; v < both.elements.grid.voxels(); ++v) RC_ASSERT(both.actual.zone(isoatlas::VoxelId(v)).number() == flooding.label[v]);
 }
 
 void engine_finds_the_same_in_mirrored_and_transposed_volumes() {
@@ -96,7 +97,7 @@ TEST(Engine, TakesNegativeZeroForZero) {
         const Grid grid{3, {3, 3, 2}, {-0.0, 0.0, -1, 1, -0.0, 1, 0.0, -1, -0.0, 1, -0.0, 0.0, -0.0, 1, -1, -0.0, 1, 0.0}};
         const isoatlas::Analysis analysis = isoatlas::analyse(to_volume(grid), {.interpolant = interpolant});
         int zeros = 0;
-        for (Index i = 0; i < analysis.element_count(); ++i) {
+        for (const isoatlas::ElementId i : isoatlas::ids<isoatlas::ElementId>(analysis.element_count())) {
             const double value = analysis.element(i).value;
             zeros += value == 0;
             EXPECT_FALSE(value == 0 && std::signbit(value));
@@ -113,7 +114,7 @@ void engine_finds_the_same_trees_without_zones() {
     EXPECT_SAME(compare_elements(expected, bare));
     EXPECT_SAME(compare_levels(expected, bare));
     RC_ASSERT(bare.event_count() == static_cast<Index>(expected.events.size()));
-    RC_ASSERT_THROWS_AS(static_cast<void>(bare.zone(0)), isoatlas::Error);
+    RC_ASSERT_THROWS_AS(static_cast<void>(bare.zone(isoatlas::VoxelId(0))), isoatlas::Error);
 }
 
 RC_GTEST_PROP(Engine, FindsTheElementsOfTheOracle, ()) { engine_finds_the_elements_of_the_oracle(); }

@@ -138,15 +138,15 @@ void exact_handles_of_one_object_are_those_that_close_in_it() {
     const Volume volume = to_volume(grid);
     const Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
     const std::vector<Handle> all = isoatlas::pair_handles_exactly(volume, analysis);
-    const auto event = *rc::gen::inRange(Index{0}, analysis.event_count());
+    const isoatlas::EventId event(*rc::gen::inRange(Index{0}, analysis.event_count()));
     const double low = analysis.event(event).zone.tau_low;
     std::vector<std::array<double, 8>> expected, found;
     const auto row = [](const Handle& h, double closes) {
         return std::array<double, 8>{h.opens, closes, h.opened_at[0], h.opened_at[1], h.opened_at[2], 0, 0, 0};
     };
     for (const Handle& handle : all) {
-        Index e = handle.event;
-        while (e >= 0 && e != event) e = analysis.event(e).parent;
+        isoatlas::EventId e = handle.event;
+        while (e.exists() && e != event) e = analysis.event(e).parent;
         if (e == event) expected.push_back(row(handle, std::max(handle.closes, low)));
     }
     for (const Handle& handle : isoatlas::pair_handles_exactly(volume, analysis, {.event = event})) {
@@ -165,7 +165,8 @@ TEST(ExactHandles, RejectTooMany) {
     const Analysis analysis = isoatlas::analyse(volume);
     ASSERT_GT(isoatlas::pair_handles_exactly(volume, analysis).size(), 3U);
     EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.max = 3}), isoatlas::Error);
-    EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.event = analysis.event_count()}), isoatlas::Error);
+    EXPECT_THROW((void)isoatlas::pair_handles_exactly(volume, analysis, {.event = isoatlas::EventId(analysis.event_count())}),
+                 isoatlas::Error);
 }
 
 TEST(ExactHandles, AreFoundWhereTheyCostLittle) {

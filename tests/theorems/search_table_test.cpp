@@ -57,18 +57,18 @@ struct File {
     std::vector<double> cells;  ///< their highest samples, descending
 };
 
-bool becomes(const Analysis& analysis, Index from, Index to) {
-    while (from >= 0 && from != to) from = analysis.event(from).parent;
+bool becomes(const Analysis& analysis, isoatlas::EventId from, isoatlas::EventId to) {
+    while (from.exists() && from != to) from = analysis.event(from).parent;
     return from == to;
 }
 
-File file_of(const Grid& grid, const Analysis& analysis, Index event) {
+File file_of(const Grid& grid, const Analysis& analysis, isoatlas::EventId event) {
     const isoatlas::Event e = analysis.event(event);
     File file{e.zone.tau_low, e.zone.tau_high, {}, {}};
     std::vector<bool> inside(static_cast<std::size_t>(grid.voxels()));  // the object when its zone ends
-    for (Index v = 0; v < grid.voxels(); ++v) inside[v] = becomes(analysis, analysis.zone(v), event);
+    for (Index v = 0; v < grid.voxels(); ++v) inside[v] = becomes(analysis, analysis.zone(isoatlas::VoxelId(v)), event);
     for (Index v = 0; v < grid.voxels(); ++v) {
-        if (analysis.zone(v) == event) file.points.insert(v);
+        if (analysis.zone(isoatlas::VoxelId(v)) == event) file.points.insert(v);
         for (int d = 0; d < grid.directions(); ++d) {
             const Index other = grid.neighbour(v, d);
             if (!inside[v] && other >= 0 && inside[other]) file.points.insert(v);
@@ -102,7 +102,7 @@ void search_tables_are_those_of_the_written_files() {
     std::vector<File> files;
     double points = 0;
     std::set<double> values{*std::ranges::min_element(grid.value)};
-    for (Index e = 0; e < analysis.event_count(); ++e) {
+    for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         files.push_back(file_of(grid, analysis, e));
         points += static_cast<double>(files.back().points.size());
         values.insert(analysis.event(e).value);

@@ -20,27 +20,30 @@ namespace {
 
 using isoatlas::Analysis;
 using isoatlas::BranchHierarchy;
+using isoatlas::BranchId;
 using isoatlas::BranchInfo;
+using isoatlas::EventId;
 using isoatlas::Selection;
 using isoatlas::Simplified;
 using isoatlas::SimplifiedNode;
 using isoatlas::Volume;
+using isoatlas::VoxelId;
 
 /// A path of events from a leaf down to where it was pruned, and the sizes of the object at its low end.
 struct Arm {
-    std::vector<Index> events;  ///< from above
-    Index ends_in = -1;         ///< event; -1: the main branch
+    std::vector<EventId> events;        ///< from above
+    EventId ends_in = EventId::none();  ///< none: the main branch
     double hypervolume = 0, persistence = 0;
     Index voxels = 0;
 };
 
 /// The object of an event at its low end: every voxel in its zone or in one above it.
-Arm sizes_of(const Analysis& analysis, const Grid& grid, Index event, double base) {
+Arm sizes_of(const Analysis& analysis, const Grid& grid, EventId event, double base) {
     Arm arm;
     double sum = 0, highest = -kInfinity;
     for (Index v = 0; v < grid.voxels(); ++v) {
-        Index e = analysis.zone(v);
-        while (e >= 0 && e != event) e = analysis.event(e).parent;
+        EventId e = analysis.zone(VoxelId(v));
+        while (e.exists() && e != event) e = analysis.event(e).parent;
         if (e != event) continue;
         ++arm.voxels;
         sum += grid.value[v], highest = std::max(highest, grid.value[v]);
@@ -52,29 +55,31 @@ Arm sizes_of(const Analysis& analysis, const Grid& grid, Index event, double bas
 
 /// Takes the smallest arm away until one is left; arms in the order in which they went.
 std::vector<Arm> prune(const Analysis& analysis, const Grid& grid) {
-    std::vector<std::set<Index>> children(static_cast<std::size_t>(analysis.event_count()));
-    for (Index e = 0; e < analysis.event_count(); ++e) {
-        if (analysis.event(e).parent >= 0) children[analysis.event(e).parent].insert(e);
+    std::vector<std::set<EventId>> children(static_cast<std::size_t>(analysis.event_count()));
+    for (const EventId e : isoatlas::ids<EventId>(analysis.event_count())) {
+        if (analysis.event(e).parent.exists()) children[analysis.event(e).parent.index()].insert(e);
     }
-    std::vector<Index> leaves;
-    for (Index e = 0; e < analysis.event_count(); ++e) {
-        if (children[e].empty()) leaves.push_back(e);
+    std::vector<EventId> leaves;
+    for (const EventId e : isoatlas::ids<EventId>(analysis.event_count())) {
+        if (children[e.index()].empty()) leaves.push_back(e);
     }
     const double lowest = *std::min_element(grid.value.begin(), grid.value.end());
     std::vector<Arm> pruned;
     while (!leaves.empty()) {
         Arm smallest;
-        Index leaf_of_smallest = -1;
-        for (const Index leaf : leaves) {
-            std::vector<Index> events{leaf};
-            Index below = analysis.event(leaf).parent;
-            while (below >= 0 && children[below].size() == 1) events.push_back(below), below = analysis.event(below).parent;
-            Arm arm = sizes_of(analysis, grid, events.back(), below < 0 ? lowest : analysis.event(below).value);
+        EventId leaf_of_smallest = EventId::none();
+        for (const EventId leaf : leaves) {
+            std::vector<EventId> events{leaf};
+            EventId below = analysis.event(leaf).parent;
+            while (below.exists() && children[below.index()].size() == 1) events.push_back(below), below = analysis.event(below).parent;
+            Arm arm = sizes_of(analysis, grid, events.back(), below.exists() ? analysis.event(below).value : lowest);
             arm.events = events, arm.ends_in = below;
-            const auto key = [](const Arm& a) { return std::pair(a.hypervolume, -a.events.back()); };  // equal: the lower event goes first
-            if (leaf_of_smallest < 0 || key(arm) < key(smallest)) smallest = arm, leaf_of_smallest = leaf;
+            const auto key = [](const Arm& a) {
+                return std::pair(a.hypervolume, -a.events.back().number());
+            };  // equal: the lower event goes first
+            if (!leaf_of_smallest.exists() || key(arm) < key(smallest)) smallest = arm, leaf_of_smallest = leaf;
         }
-        if (smallest.ends_in >= 0) children[smallest.ends_in].erase(smallest.events.back());
+        if (smallest.ends_in.exists()) children[smallest.ends_in.index()].erase(smallest.events.back());
         leaves.erase(std::find(leaves.begin(), leaves.end(), leaf_of_smallest));
         pruned.push_back(smallest);
     }
@@ -82,12 +87,12 @@ std::vector<Arm> prune(const Analysis& analysis, const Grid& grid) {
 }
 
 bool is_kept(const Arm& arm, const Selection& selection) {
-    return arm.ends_in < 0 || (arm.hypervolume >= selection.min_hypervolume && arm.persistence >= selection.min_persistence &&
-                               static_cast<double>(arm.voxels) >= selection.min_voxels);
+    return !arm.ends_in.exists() || (arm.hypervolume >= selection.min_hypervolume && arm.persistence >= selection.min_persistence &&
+                                     static_cast<double>(arm.voxels) >= selection.min_voxels);
 }
 
 /// The event of the node whose zone the zone of an event joins.
-Index joined(const std::vector<Arm>& arms, const Selection& selection, const std::set<Index>& nodes, Index event) {
+EventId joined(const std::vector<Arm>& arms, const Selection& selection, const std::set<EventId>& nodes, EventId event) {
     for (;;) {
         const Arm* of = nullptr;
         for (const Arm& arm : arms) {
@@ -126,20 +131,20 @@ void simplification_is_pruning_one_by_one() {
     if (kind == 2) selection.min_voxels = static_cast<double>(some.voxels);
     const Simplified simplified = hierarchy.simplify(selection);
 
-    std::set<Index> nodes, tops;
+    std::set<EventId> nodes, tops;
     for (const Arm& arm : arms) {
         if (!is_kept(arm, selection)) continue;
         tops.insert(arm.events.front());
         nodes.insert(arm.events.front());
-        if (arm.ends_in >= 0) nodes.insert(arm.ends_in);
+        if (arm.ends_in.exists()) nodes.insert(arm.ends_in);
     }
     RC_ASSERT(simplified.kept.size() == tops.size());
     RC_ASSERT(simplified.hidden == static_cast<Index>(arms.size() - tops.size()));
-    for (const std::int64_t i : simplified.kept) RC_ASSERT(tops.count(hierarchy.branches()[i].top) == 1);
+    for (const BranchId i : simplified.kept) RC_ASSERT(tops.count(hierarchy.branches()[i.index()].top) == 1);
     RC_ASSERT(simplified.nodes.size() == nodes.size());
-    std::map<Index, Index> voxels;
-    for (Index e = 0; e < analysis.event_count(); ++e) {
-        const Index node = simplified.nodes[simplified.node_of_event[e]].event;
+    std::map<EventId, Index> voxels;
+    for (const EventId e : isoatlas::ids<EventId>(analysis.event_count())) {
+        const EventId node = simplified.nodes[simplified.node_of_event[e.index()]].event;
         RC_ASSERT(node == joined(arms, selection, nodes, e));
         voxels[node] += analysis.event(e).zone.voxels;
     }
@@ -167,16 +172,16 @@ void simplification_keeps_objects_as_they_are() {
     const Simplified simplified = hierarchy.simplify(Selection{.keep = keep});
     RC_ASSERT(static_cast<Index>(simplified.kept.size()) <= std::max<Index>(1, keep));
     for (const SimplifiedNode& node : simplified.nodes) {
-        Index below = node.event, last = node.event;
+        EventId below = node.event, last = node.event;
         do {
             last = below;
             below = analysis.event(below).parent;
-        } while (below >= 0 &&
+        } while (below.exists() &&
                  std::none_of(simplified.nodes.begin(), simplified.nodes.end(), [&](const auto& n) { return n.event == below; }));
-        RC_ASSERT((below < 0) == (node.parent < 0));
-        if (below >= 0) RC_ASSERT(simplified.nodes[node.parent].event == below);
+        RC_ASSERT(!below.exists() == (node.parent < 0));
+        if (below.exists()) RC_ASSERT(simplified.nodes[node.parent].event == below);
         RC_ASSERT(node.tau_high == analysis.event(node.event).value);
-        RC_ASSERT(node.tau_low == (below < 0 ? -kInfinity : analysis.event(below).value));
+        RC_ASSERT(node.tau_low == (below.exists() ? analysis.event(below).value : -kInfinity));
         RC_ASSERT(node.object_voxels == analysis.event(last).object_voxels);
     }
     const Simplified all = hierarchy.simplify(Selection{});
@@ -214,27 +219,28 @@ void simplification_is_what_the_table_of_objects_lists() {
     Selection selection;
     if (*rc::gen::arbitrary<bool>()) selection.min_measure = some.measure;
     if (*rc::gen::arbitrary<bool>()) selection.top_percent = *rc::gen::inRange(0, 101);
-    std::set<Index> listed, kept;
+    std::set<EventId> listed, kept;
     for (const auto& entry : isoatlas::rank_objects(volume, analysis, {.top = 0, .selection = selection}).entries)
         listed.insert(entry.branch_top);
-    for (const std::int64_t i : hierarchy.kept(selection)) kept.insert(hierarchy.branches()[i].top);
+    for (const BranchId i : hierarchy.kept(selection)) kept.insert(hierarchy.branches()[i.index()].top);
     RC_ASSERT(listed == kept);
-    for (const std::int64_t i : hierarchy.kept(selection)) RC_ASSERT(i == 0 || hierarchy.branches()[i].measure >= selection.min_measure);
+    for (const BranchId i : hierarchy.kept(selection))
+        RC_ASSERT(i == BranchId(0) || hierarchy.branches()[i.index()].measure >= selection.min_measure);
 }
 
 /// Voxels of the object of a branch just before it merges.
 std::set<Index> voxels_of(const Analysis& analysis, const BranchInfo& branch) {
-    Index bottom = branch.top;
-    while (analysis.event(bottom).parent >= 0 && analysis.event(analysis.event(bottom).parent).value > branch.merges)
+    EventId bottom = branch.top;
+    while (analysis.event(bottom).parent.exists() && analysis.event(analysis.event(bottom).parent).value > branch.merges)
         bottom = analysis.event(bottom).parent;
     std::vector<bool> inside(static_cast<std::size_t>(analysis.event_count()), false);
-    for (Index e = analysis.event_count(); e-- > 0;) {
-        const Index parent = analysis.event(e).parent;
-        inside[e] = e == bottom || (parent >= 0 && inside[parent]);
+    for (EventId e(analysis.event_count() - 1); e.exists(); e = e.previous()) {
+        const EventId parent = analysis.event(e).parent;
+        inside[e.index()] = e == bottom || (parent.exists() && inside[parent.index()]);
     }
     std::set<Index> voxels;
     for (Index v = 0; v < analysis.extent().voxels(); ++v) {
-        if (inside[analysis.zone(v)]) voxels.insert(v);
+        if (inside[analysis.zone(VoxelId(v)).index()]) voxels.insert(v);
     }
     return voxels;
 }
@@ -263,9 +269,9 @@ struct Bright {
     /// Of at least that hypervolume, without the main branch: the whole volume.
     [[nodiscard]] std::vector<Object> objects(double min) const {
         std::vector<Object> all;
-        for (const std::int64_t i : hierarchy.kept({.min_hypervolume = min})) {
-            const BranchInfo& branch = hierarchy.branches()[i];
-            if (i > 0) all.push_back({voxels_of(trees, branch), branch.hypervolume});
+        for (const BranchId i : hierarchy.kept({.min_hypervolume = min})) {
+            const BranchInfo& branch = hierarchy.branches()[i.index()];
+            if (i > BranchId(0)) all.push_back({voxels_of(trees, branch), branch.hypervolume});
         }
         return all;
     }

@@ -44,7 +44,7 @@ LevelCounts all_of(const Cut& cut) {
 /// The objects that contain the maximum at which a branch of the table begins, while the branch is there.
 LevelCounts significant_of(const Cut& cut, const Volume& volume, const Analysis& analysis, const isoatlas::ObjectTable& table) {
     std::set<Index> objects;
-    std::map<Index, bool> alive;
+    std::map<isoatlas::EventId, bool> alive;
     for (const isoatlas::ObjectEntry& entry : table.entries) {
         const isoatlas::Event top = analysis.event(entry.branch_top);
         RC_ASSERT(top.value == entry.appears);

@@ -14,6 +14,7 @@ namespace oracle {
 namespace {
 
 using isoatlas::Analysis;
+using isoatlas::EventId;
 
 struct Neighbours {
     Grid f, g;
@@ -34,29 +35,29 @@ Analysis analysis_of(const Grid& grid, isoatlas::Interpolant interpolant) {
     return isoatlas::analyse(to_volume(grid), {.interpolant = interpolant});
 }
 
-/// The object of a voxel at an isovalue, as an event; -1: Low.
-Index object_at(const Analysis& analysis, const Grid& grid, Index voxel, double tau) {
-    if (grid.value[voxel] < tau) return -1;
-    Index event = analysis.zone(voxel);
+/// The object of a voxel at an isovalue, as an event; none: Low.
+EventId object_at(const Analysis& analysis, const Grid& grid, Index voxel, double tau) {
+    if (grid.value[voxel] < tau) return EventId::none();
+    EventId event = analysis.zone(isoatlas::VoxelId(voxel));
     while (analysis.event(event).zone.tau_low >= tau) event = analysis.event(event).parent;
     return event;
 }
 
 /// Does every object of `inner` at tau + eps lie in one object of `outer` at tau?
 void expect_nested(const Grid& inner, const Grid& outer, double tau, double eps, const Analysis& of_inner, const Analysis& of_outer) {
-    std::map<Index, Index> around;  // by object of inner
+    std::map<EventId, EventId> around;  // by object of inner
     for (Index v = 0; v < inner.voxels(); ++v) {
-        const Index object = object_at(of_inner, inner, v, tau + eps);
-        if (object < 0) continue;
-        const Index found = object_at(of_outer, outer, v, tau);
-        RC_ASSERT(found >= 0);
+        const EventId object = object_at(of_inner, inner, v, tau + eps);
+        if (!object.exists()) continue;
+        const EventId found = object_at(of_outer, outer, v, tau);
+        RC_ASSERT(found.exists());
         RC_ASSERT(around.emplace(object, found).first->second == found);
     }
 }
 
 void objects_of_neighbours_are_nested(const Neighbours& both) {
     const Analysis f = analysis_of(both.f, both.interpolant), g = analysis_of(both.g, both.interpolant);
-    for (Index i = 0; i < f.event_count(); ++i) {
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(f.event_count())) {
         for (const double below : {0.0, 1 / 64.0, both.eps, 2 * both.eps}) {
             const double tau = std::round(64 * (f.event(i).value - below)) / 64;
             expect_nested(both.f, both.g, tau, both.eps, f, g);
@@ -76,13 +77,13 @@ struct Pair {
 std::vector<Pair> pairs_by_the_elder_rule(const Analysis& analysis) {
     std::vector<Pair> pairs;
     std::vector<double> birth;
-    for (Index i = 0; i < analysis.event_count(); ++i) {
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         const isoatlas::Event event = analysis.event(i);
         birth.push_back(event.children.empty() ? event.value : -kInfinity);
-        for (const Index child : event.children) birth.back() = std::max(birth.back(), birth[static_cast<std::size_t>(child)]);
+        for (const EventId child : event.children) birth.back() = std::max(birth.back(), birth[child.index()]);
         bool is_eldest_seen = false;
-        for (const Index child : event.children) {
-            const double of_child = birth[static_cast<std::size_t>(child)];
+        for (const EventId child : event.children) {
+            const double of_child = birth[child.index()];
             if (of_child == birth.back() && !is_eldest_seen) {
                 is_eldest_seen = true;
             } else {

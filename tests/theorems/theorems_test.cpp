@@ -43,7 +43,7 @@ void contours_are_objects_and_lows_less_one(const Subject& subject) {
             const isoatlas::ContourArc arc = subject.analysis.contour_arc(i);
             contours += is_inside(tau, arc.value_low, arc.value_high) ? 1 : 0;
         }
-        for (Index i = 0; i < subject.analysis.event_count(); ++i) {
+        for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(subject.analysis.event_count())) {
             const isoatlas::ZoneRange zone = subject.analysis.event(i).zone;
             objects += is_inside(tau, zone.tau_low, zone.tau_high) ? 1 : 0;
         }
@@ -56,7 +56,7 @@ void contours_are_objects_and_lows_less_one(const Subject& subject) {
 void every_euler_number_is_a_sum_over_elements(const Subject& subject) {
     subject.at_every_value([&](double tau, const Snapshot& s) {
         Index chi = 0;
-        for (Index i = 0; i < subject.analysis.element_count(); ++i) {
+        for (const isoatlas::ElementId i : isoatlas::ids<isoatlas::ElementId>(subject.analysis.element_count())) {
             const isoatlas::Element e = subject.analysis.element(i);
             if (e.value < tau) continue;
             if (subject.elements.grid.rank == 3) chi += e.l0 - e.h0;
@@ -70,25 +70,25 @@ void every_euler_number_is_a_sum_over_elements(const Subject& subject) {
 void every_object_is_a_sum_over_its_subtree(const Subject& subject) {
     const isoatlas::Analysis& a = subject.analysis;
     std::vector<Index> chi(static_cast<std::size_t>(a.event_count())), genera(chi.size());
-    a.visit_object_contours([&](Index event, std::span<const isoatlas::GenusCount> counts) {
-        for (const isoatlas::GenusCount& c : counts) genera[static_cast<std::size_t>(event)] += c.genus * c.count;
+    a.visit_object_contours([&](isoatlas::EventId event, std::span<const isoatlas::GenusCount> counts) {
+        for (const isoatlas::GenusCount& c : counts) genera[event.index()] += c.genus * c.count;
     });
-    for (Index i = 0; i < a.event_count(); ++i) {
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(a.event_count())) {
         const isoatlas::Event e = a.event(i);
-        Index& own = chi[static_cast<std::size_t>(i)];
+        Index& own = chi[i.index()];
         own += e.delta_chi;
-        if (e.parent >= 0) chi[static_cast<std::size_t>(e.parent)] += own;
+        if (e.parent.exists()) chi[e.parent.index()] += own;
         RC_ASSERT(e.chi == own);
         if (subject.elements.grid.rank == 3) {
             RC_ASSERT(e.b2 == e.contours - 1);
-            RC_ASSERT(e.b1 == genera[static_cast<std::size_t>(i)]);
+            RC_ASSERT(e.b1 == genera[i.index()]);
         } else {
             RC_ASSERT(e.b1 == e.contours - 1);
             RC_ASSERT(e.b2 == 0);
         }
         RC_ASSERT(e.chi == 1 - e.b1 + e.b2);
-        RC_ASSERT((e.parent == -1) == (i == a.event_count() - 1));
-        RC_ASSERT(e.parent == -1 || (e.parent > i && a.event(e.parent).value < e.value));
+        RC_ASSERT(!e.parent.exists() == (i == isoatlas::EventId(a.event_count() - 1)));
+        RC_ASSERT(!e.parent.exists() || (e.parent > i && a.event(e.parent).value < e.value));
     }
 }
 
@@ -117,26 +117,26 @@ void genera_change_by_contours_and_euler_number(const Subject& subject) {
         for (const Index g : level.in) change -= g;
         RC_ASSERT(level.in.size() != 1 || level.out.size() != 1 || change != 0);  // trivial levels are not listed
         RC_ASSERT(level.value == a.event(level.event).value);
-        predicted[static_cast<std::size_t>(level.event)] +=
-            static_cast<Index>(level.out.size()) - static_cast<Index>(level.in.size()) - change;
+        predicted[level.event.index()] += static_cast<Index>(level.out.size()) - static_cast<Index>(level.in.size()) - change;
     }
-    for (Index i = 0; i < a.event_count(); ++i) RC_ASSERT(a.event(i).delta_chi == predicted[static_cast<std::size_t>(i)]);
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(a.event_count()))
+        RC_ASSERT(a.event(i).delta_chi == predicted[i.index()]);
 }
 
 // T6: climbing from the zones of two voxels down to tau meets the same event exactly when the voxels are in one object at tau.
 void climbing_from_a_zone_finds_the_object(const Subject& subject) {
     const isoatlas::Analysis& a = subject.analysis;
     subject.at_every_value([&](double tau, const Snapshot& s) {
-        std::vector<Index> event_of(s.objects.size(), -1);
+        std::vector<isoatlas::EventId> event_of(s.objects.size(), isoatlas::EventId::none());
         for (Index v = 0; v < subject.elements.grid.voxels(); ++v) {
             if (s.object_of[v] < 0) continue;
-            Index event = a.zone(v);
+            isoatlas::EventId event = a.zone(isoatlas::VoxelId(v));
             while (a.event(event).zone.tau_low >= tau) event = a.event(event).parent;
-            Index& expected = event_of[s.object_of[v]];
-            if (expected < 0) expected = event;
+            isoatlas::EventId& expected = event_of[s.object_of[v]];
+            if (!expected.exists()) expected = event;
             RC_ASSERT(event == expected);
         }
-        const std::vector<Index> events = sorted(event_of);
+        const std::vector<isoatlas::EventId> events = sorted(event_of);
         RC_ASSERT(std::adjacent_find(events.begin(), events.end()) == events.end());
     });
 }
@@ -148,8 +148,8 @@ void sizes_grow_towards_the_main_branch() {
     const isoatlas::Volume volume = to_volume(grid);
     const isoatlas::BranchHierarchy hierarchy(volume, isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()}));
     for (const isoatlas::BranchInfo& branch : hierarchy.branches()) {
-        if (branch.parent < 0) continue;
-        const isoatlas::BranchInfo& parent = hierarchy.branches()[static_cast<std::size_t>(branch.parent)];
+        if (!branch.parent.exists()) continue;
+        const isoatlas::BranchInfo& parent = hierarchy.branches()[branch.parent.index()];
         RC_ASSERT(parent.hypervolume >= branch.hypervolume);
         RC_ASSERT(parent.persistence >= branch.persistence);
         RC_ASSERT(parent.voxels >= branch.voxels);

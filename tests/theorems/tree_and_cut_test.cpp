@@ -21,12 +21,12 @@ void tree_and_cut_agree_on_every_object() {
     const double tau = *rc::gen::elementOf(interesting_values(elements));
     const isoatlas::Cut cut = isoatlas::cut(volume, tau, {.interpolant = interpolant});
     std::size_t objects = 0;
-    for (Index i = 0; i < analysis.event_count(); ++i) {
+    for (const isoatlas::EventId i : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
         const isoatlas::Event event = analysis.event(i);
         if (!(event.zone.tau_low < tau && tau <= event.zone.tau_high)) continue;
         ++objects;
         const auto found = std::find_if(cut.objects.begin(), cut.objects.end(), [&](const isoatlas::CutObject& o) {
-            Index zone = analysis.zone(o.id);
+            isoatlas::EventId zone = analysis.zone(isoatlas::VoxelId(o.id));
             while (analysis.event(zone).zone.tau_low >= tau) zone = analysis.event(zone).parent;
             return zone == i;
         });

@@ -17,35 +17,35 @@ void check_zones(const Volume& volume, const Context& context) {
     const oracle::Grid grid = oracle::to_grid(volume);
     const Analysis analysis = analyse(volume, {}, context);
     std::vector<Event> events;
-    for (Index i = 0; i < analysis.event_count(); ++i) events.push_back(analysis.event(i));
+    for (const EventId i : ids<EventId>(analysis.event_count())) events.push_back(analysis.event(i));
     std::vector<Index> voxels(events.size(), 0);
     for (Index v = 0; v < grid.voxels(); ++v) {
-        const Index zone = analysis.zone(v);
+        const EventId zone = analysis.zone(VoxelId(v));
         const double value = grid.value[v];
-        ASSERT_TRUE(events[zone].zone.tau_low < value && value <= events[zone].value) << "voxel " << v;
-        ++voxels[zone];
+        ASSERT_TRUE(events[zone.index()].zone.tau_low < value && value <= events[zone.index()].value) << "voxel " << v;
+        ++voxels[zone.index()];
         bool is_maximum = true;
         for (int d = 0; d < grid.directions(); ++d) {
             const Index w = grid.neighbour(v, d);
             if (w < 0 || grid.value[w] < value) continue;
             is_maximum = false;
-            Index climbed = analysis.zone(w);
-            while (events[climbed].zone.tau_low >= value) climbed = events[climbed].parent;
+            EventId climbed = analysis.zone(VoxelId(w));
+            while (events[climbed.index()].zone.tau_low >= value) climbed = events[climbed.index()].parent;
             ASSERT_EQ(climbed, zone) << "voxel " << v << " beside " << w;
         }
         if (is_maximum) {
-            ASSERT_EQ(events[zone].value, value) << "voxel " << v;
+            ASSERT_EQ(events[zone.index()].value, value) << "voxel " << v;
         }
     }
     for (std::size_t e = 0; e < events.size(); ++e) {
         ASSERT_EQ(voxels[e], events[e].zone.voxels) << "event " << e;
         Index object = voxels[e];
-        for (const Index child : events[e].children) object += events[child].object_voxels;
+        for (const EventId child : events[e].children) object += events[child.index()].object_voxels;
         ASSERT_EQ(object, events[e].object_voxels) << "event " << e;
         if (events[e].objects_in == 0) {
             const std::array<double, 3>& p = events[e].position;
-            ASSERT_EQ(analysis.zone(grid.index(static_cast<Index>(p[0]), static_cast<Index>(p[1]), static_cast<Index>(p[2]))),
-                      static_cast<Index>(e));
+            const VoxelId highest(grid.index(static_cast<Index>(p[0]), static_cast<Index>(p[1]), static_cast<Index>(p[2])));
+            ASSERT_EQ(analysis.zone(highest), EventId(e));
         }
     }
 }

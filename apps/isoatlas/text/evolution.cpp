@@ -28,7 +28,7 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
     const FoundHandles found = find_handles(source.info(), analysis_, min, [&] { return source.volume(); }, source.context());
     exact_tunnels_ = found.exact;
     for (const Handle& handle : found.handles) {
-        if (rank_of_event_[static_cast<std::size_t>(handle.event)] >= 0) tunnels_.push_back({handle.opens, handle.closes});
+        if (rank_of_event_[handle.event.index()] >= 0) tunnels_.push_back({handle.opens, handle.closes});
     }
     std::set<std::array<double, 3>> known;  // several lines may show the same cavity
     for (const CavityEntry& cavities : source.cavities(options).entries) {
@@ -36,14 +36,12 @@ Evolution::Evolution(const Arguments& arguments, Source& source, std::pair<Analy
     }
 }
 
-void Evolution::mark_kept(const BranchHierarchy& hierarchy, const std::vector<std::int64_t>& kept) {
+void Evolution::mark_kept(const BranchHierarchy& hierarchy, const std::vector<BranchId>& kept) {
     rank_of_event_.assign(static_cast<std::size_t>(analysis_.event_count()), -1);
-    for (const std::int64_t rank : kept) {
-        const BranchInfo& branch = hierarchy.branches()[static_cast<std::size_t>(rank)];
+    for (const BranchId id : kept) {
+        const BranchInfo& branch = hierarchy.branches()[id.index()];
         objects_.push_back({branch.appears, branch.merges});
-        for (const std::int64_t event : events_of(analysis_, branch.top, branch.merges)) {
-            rank_of_event_[static_cast<std::size_t>(event)] = rank;
-        }
+        for (const EventId event : events_of(analysis_, branch.top, branch.merges)) rank_of_event_[event.index()] = id.number();
     }
 }
 
@@ -76,7 +74,7 @@ Frame Evolution::at(double tau, const std::optional<double>& before) const {
 std::map<std::int64_t, std::int64_t> Evolution::kept_objects(double tau) const {
     std::map<std::int64_t, std::int64_t> ranks;
     for (const ActiveObject& object : index_->at(tau, {.contours = false}).objects) {
-        const std::int64_t rank = rank_of_event_[static_cast<std::size_t>(object.event)];
+        const std::int64_t rank = rank_of_event_[object.event.index()];
         if (rank >= 0) ranks.emplace(object.id, rank);
     }
     return ranks;

@@ -45,7 +45,7 @@ private:
     };
 
     Evolution(const Arguments& arguments, Source& source, std::pair<Analysis, BranchHierarchy> trees);
-    void mark_kept(const BranchHierarchy& hierarchy, const std::vector<std::int64_t>& kept);
+    void mark_kept(const BranchHierarchy& hierarchy, const std::vector<BranchId>& kept);
     [[nodiscard]] Census kept_at(double tau, const std::optional<double>& before) const;
 
     Analysis analysis_;  ///< the index refers to it

@@ -18,7 +18,7 @@ constexpr std::int64_t kDefaultTop = 24;
 Json handle_json(const Handle& handle, const VolumeInfo& info) {
     Json json{{"opens", info.calibration.reported(handle.opens)}, {"closes", info.calibration.reported(handle.closes)}};
     if (handle.is_open) json["open"] = true;
-    json["event"] = handle.event;
+    json["event"] = handle.event.number();
     json["opened_at"] = handle.opened_at;
     json["closed_at"] = handle.closed_at;
     return json;
@@ -42,11 +42,11 @@ void print_text(Terminal& terminal, Source& source, const std::vector<Handle>& h
         terminal.say(fmt::format("and {} more", count_text(static_cast<std::int64_t>(handles.size()) - shown)));
 }
 
-/// The event of --object; -1: all of them.
-std::int64_t wanted_event(const Arguments& arguments, const Analysis& analysis) {
-    if (arguments.objects.empty()) return -1;
-    const std::int64_t event = event_of_highest(analysis, arguments.objects[0]);
-    if (event >= 0) return event;
+/// The event of --object; none: all of them.
+EventId wanted_event(const Arguments& arguments, const Analysis& analysis) {
+    if (arguments.objects.empty()) return EventId::none();
+    const EventId event = event_of_highest(analysis, VoxelId(arguments.objects[0]));
+    if (event.exists()) return event;
     throw Error(ErrorKind::not_found, {.file = arguments.file,
                                        .what = fmt::format("voxel {} is not the highest voxel of an object", arguments.objects[0]),
                                        .expected = "an id of the table of objects",

@@ -53,8 +53,8 @@ Labels label_simplified(Source& source, Terminal& terminal) {
     Labels labels{{},
                   static_cast<std::int64_t>(simplified.nodes.size()),
                   {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
-    for (std::int64_t i = 0; i < volume.info.extent.voxels(); ++i) {
-        const std::int64_t node = simplified.node_of_event[static_cast<std::size_t>(analysis.zone(i))];
+    for (const VoxelId voxel : ids<VoxelId>(volume.info.extent.voxels())) {
+        const std::int64_t node = simplified.node_of_event[analysis.zone(voxel).index()];
         labels.of_voxel.push_back(static_cast<std::uint32_t>(node + 1));
     }
     terminal.say(hidden_text(simplified, volume.info.extent.voxels()));
@@ -69,8 +69,8 @@ Labels label_zones(const Arguments& arguments, Source& source, Terminal& termina
     Labels labels{std::vector<std::uint32_t>(static_cast<std::size_t>(voxels)),
                   analysis.event_count(),
                   {.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .tau = {}}};
-    for (std::int64_t i = 0; i < voxels; ++i)
-        labels.of_voxel[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(analysis.zone(i) + 1);
+    for (const VoxelId voxel : ids<VoxelId>(voxels))
+        labels.of_voxel[voxel.index()] = static_cast<std::uint32_t>(analysis.zone(voxel).number() + 1);
     return labels;
 }
 

@@ -30,11 +30,11 @@ std::string extract_command(const Arguments& arguments, std::int64_t id, const s
 // The table: objects at their best isovalues.
 
 Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
-    Json json{{"id", entry.id}, {"event", entry.event}};
+    Json json{{"id", entry.id}, {"event", entry.event.number()}};
     add_isovalues(json, entry, scale);
     const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
     json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
-    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top), scale);
+    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top.number()), scale);
     json["chi"] = 1 - entry.tunnels + entry.cavities;
     json["b1"] = entry.tunnels;
     json["b2"] = entry.cavities;
@@ -48,7 +48,7 @@ Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const Volume
 std::int64_t shown_objects(const ObjectTable& table) {
     std::set<std::array<double, 4>> branches;  // no two objects have the same peak and the same size
     for (const ObjectEntry& entry : table.entries) {
-        const auto top = static_cast<double>(entry.branch_top);
+        const auto top = static_cast<double>(entry.branch_top.number());
         branches.insert({entry.appears, entry.merges, entry.hypervolume, top});
     }
     return static_cast<std::int64_t>(branches.size());
@@ -85,9 +85,9 @@ void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
 /// Recommended isovalues without a line of their own.
 void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Scale& scale) {
     std::set<std::pair<std::int64_t, double>> told;
-    for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top, entry.best_tau);
+    for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top.number(), entry.best_tau);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
-        std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_top);
+        std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_top.number());
         std::erase_if(others, [&](const RecommendedIsovalue& isovalue) { return !told.emplace(isovalue.branch_top, isovalue.tau).second; });
         tell_isovalues(terminal, i, others, scale);
     }

@@ -33,7 +33,7 @@ std::string interpolant_of(const Volume& volume, const Analysis& analysis) {
 
 void print_counts(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     std::map<Criticality, std::int64_t> kinds;
-    for (std::int64_t id = 0; id < analysis.event_count(); ++id) ++kinds[analysis.event(id).kind];
+    for (const EventId id : ids<EventId>(analysis.event_count())) ++kinds[analysis.event(id).kind];
     Table table({{"kind", true}, {"events"}});
     for (const auto& [kind, count] : kinds) table.add({name_of(kind), count_text(count)});
     table.print(terminal);
@@ -46,31 +46,31 @@ void print_counts(Terminal& terminal, const Volume& volume, const Analysis& anal
 /// The largest zones, each indented below its nearest ancestor in the list.
 void print_largest_zones(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     const Scale scale(volume.info);
-    std::vector<std::pair<std::int64_t, std::int64_t>> largest;  // (-voxels, id)
-    for (std::int64_t id = 0; id < analysis.event_count(); ++id) largest.emplace_back(-analysis.event(id).zone.voxels, id);
+    std::vector<std::pair<std::int64_t, EventId>> largest;  // (-voxels, id)
+    for (const EventId id : ids<EventId>(analysis.event_count())) largest.emplace_back(-analysis.event(id).zone.voxels, id);
     const auto shown = std::min<std::ptrdiff_t>(kShown, static_cast<std::ptrdiff_t>(largest.size()));
     std::partial_sort(largest.begin(), largest.begin() + shown, largest.end());
-    std::vector<std::int64_t> ids;
-    for (std::ptrdiff_t i = 0; i < shown; ++i) ids.push_back(largest[static_cast<std::size_t>(i)].second);
-    std::sort(ids.rbegin(), ids.rend());  // parents first
+    std::vector<EventId> events;
+    for (std::ptrdiff_t i = 0; i < shown; ++i) events.push_back(largest[static_cast<std::size_t>(i)].second);
+    std::sort(events.rbegin(), events.rend());  // parents first
 
-    std::unordered_map<std::int64_t, int> depth;
-    std::unordered_map<std::int64_t, std::vector<std::int64_t>> below;  // shown children of a shown event; -1: top
-    for (const std::int64_t id : ids) {
-        std::int64_t ancestor = analysis.event(id).parent;
-        while (ancestor >= 0 && depth.count(ancestor) == 0) ancestor = analysis.event(ancestor).parent;
-        depth[id] = ancestor < 0 ? 0 : depth[ancestor] + 1;
+    std::unordered_map<EventId, int> depth;
+    std::unordered_map<EventId, std::vector<EventId>> below;  // shown children of a shown event; none: top
+    for (const EventId id : events) {
+        EventId ancestor = analysis.event(id).parent;
+        while (ancestor.exists() && depth.count(ancestor) == 0) ancestor = analysis.event(ancestor).parent;
+        depth[id] = ancestor.exists() ? depth[ancestor] + 1 : 0;
         below[ancestor].push_back(id);
     }
     Table table(
         {{"zones with most voxels", true}, {"from"}, {"down to"}, {"voxels in zone"}, {"object voxels"}, {"tunnels"}, {"cavities"}});
-    std::vector<std::int64_t> stack(below[-1].rbegin(), below[-1].rend());
+    std::vector<EventId> stack(below[EventId::none()].rbegin(), below[EventId::none()].rend());
     while (!stack.empty()) {
-        const std::int64_t id = stack.back();
+        const EventId id = stack.back();
         stack.pop_back();
         const Event event = analysis.event(id);
-        table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(event.kind), id),
-                   scale.brief(event.zone.tau_high), event.parent < 0 ? "bottom" : scale.brief(event.zone.tau_low),
+        table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(event.kind), id.number()),
+                   scale.brief(event.zone.tau_high), event.parent.exists() ? scale.brief(event.zone.tau_low) : "bottom",
                    count_text(event.zone.voxels), count_text(event.object_voxels), count_text(event.b1), count_text(event.b2)});
         const auto& children = below[id];
         stack.insert(stack.end(), children.rbegin(), children.rend());
@@ -88,7 +88,7 @@ void print_levels(Terminal& terminal, const Volume& volume, const Analysis& anal
     const std::int64_t shown = std::min(kShown, analysis.level_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const Level level = analysis.level(id);
-        table.add({fmt::format("{}", id), scale.brief(level.value), fmt::format("{}", level.event), genera_text(level.in),
+        table.add({fmt::format("{}", id), scale.brief(level.value), fmt::format("{}", level.event.number()), genera_text(level.in),
                    genera_text(level.out)});
     }
     table.print(terminal);
@@ -100,7 +100,7 @@ void print_elements(Terminal& terminal, const Volume& volume, const Analysis& an
     Table table({{"element"}, {"value"}, {"position", true}, {"h0"}, {"l0"}});
     const std::int64_t shown = std::min(kShown, analysis.element_count());
     for (std::int64_t id = 0; id < shown; ++id) {
-        const Element element = analysis.element(id);
+        const Element element = analysis.element(ElementId(id));
         table.add({fmt::format("{}", id), scale.brief(element.value), position_text(element.position), fmt::format("{}", element.h0),
                    fmt::format("{}", element.l0)});
     }
@@ -115,7 +115,7 @@ void print_contours(Terminal& terminal, const Volume& volume, const Analysis& an
     for (std::int64_t id = 0; id < shown; ++id) {
         const ContourArc arc = analysis.contour_arc(id);
         table.add({fmt::format("{}", id), scale.brief(arc.value_high),
-                   arc.lower == analysis.element_count() ? "bottom" : scale.brief(arc.value_low), fmt::format("{}", arc.genus)});
+                   arc.lower == ElementId(analysis.element_count()) ? "bottom" : scale.brief(arc.value_low), fmt::format("{}", arc.genus)});
     }
     table.print(terminal);
     print_rest(terminal, analysis.contour_arc_count(), shown);

@@ -22,7 +22,7 @@ constexpr std::array kNodeKeys{GraphmlKey{"event", "long", "node"},     GraphmlK
 
 /// A node in reported values.
 struct NodeView {
-    std::int64_t event, object, parent;
+    std::int64_t event, object, parent;  ///< as numbers
     std::array<double, 3> position;
     const char* kind;
     double tau_low, tau_high;
@@ -32,8 +32,8 @@ struct NodeView {
 NodeView view_of(const SimplifiedTree& tree, std::size_t i) {
     const SimplifiedNode& node = tree.simplified.nodes[i];
     const Calibration& calibration = tree.info.calibration;
-    return {.event = node.event,
-            .object = tree.hierarchy.branches()[static_cast<std::size_t>(node.branch)].id,
+    return {.event = node.event.number(),
+            .object = tree.hierarchy.branches()[node.branch.index()].id,
             .parent = node.parent,
             .position = tree.analysis.event(node.event).position,
             .kind = name_of(node.is_maximum ? Criticality::maximum : Criticality::merge),

@@ -13,7 +13,11 @@ void put_events(ByteWriter& out, const TreeView& tree) {
         "genera");
     visit_events(tree, [&](const Event& e, std::span<const GenusCount> genera) {
         CsvRow row = table.row();
-        row.number(e.id).real(tree.reported(e.value)).position(e.position).text(isoatlas::name_of(e.kind)).number(e.parent, e.parent >= 0);
+        row.number(e.id.number())
+            .real(tree.reported(e.value))
+            .position(e.position)
+            .text(isoatlas::name_of(e.kind))
+            .number(e.parent.number(), e.parent.exists());
         row.text(list_text(e.children)).number(e.objects_in).number(e.lows_out).number(e.delta_chi);
         row.real(tree.reported(e.zone.tau_low)).real(tree.reported(e.zone.tau_high)).number(e.zone.voxels, tree.has_zones);
         row.number(e.chi).number(e.b1).number(e.b2).number(e.object_voxels, tree.has_zones).number(e.contours).text(histogram_text(genera));
@@ -24,15 +28,20 @@ void put_levels(ByteWriter& out, const TreeView& tree) {
     const CsvTable table(out, tree.connectivity(), "id,value,event,in,out");
     for (std::int64_t id = 0; id < tree.analysis.level_count(); ++id) {
         const Level level = tree.analysis.level(id);
-        table.row().number(id).real(tree.reported(level.value)).number(level.event).text(list_text(level.in)).text(list_text(level.out));
+        table.row()
+            .number(id)
+            .real(tree.reported(level.value))
+            .number(level.event.number())
+            .text(list_text(level.in))
+            .text(list_text(level.out));
     }
 }
 
 void put_elements(ByteWriter& out, const TreeView& tree) {
     const CsvTable table(out, tree.connectivity(), "id,value,x,y,z,h0,l0");
-    for (std::int64_t id = 0; id < tree.analysis.element_count(); ++id) {
+    for (const ElementId id : ids<ElementId>(tree.analysis.element_count())) {
         const Element e = tree.analysis.element(id);
-        table.row().number(id).real(tree.reported(e.value)).position(e.position).number(e.h0).number(e.l0);
+        table.row().number(id.number()).real(tree.reported(e.value)).position(e.position).number(e.h0).number(e.l0);
     }
 }
 
@@ -41,7 +50,7 @@ void put_contours(ByteWriter& out, const TreeView& tree) {
     for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
         const ContourArc arc = tree.analysis.contour_arc(id);
         CsvRow row = table.row();
-        row.number(id).number(arc.upper).number(arc.lower, !tree.is_outside(arc.lower));
+        row.number(id).number(arc.upper.number()).number(arc.lower.number(), !tree.is_outside(arc.lower));
         row.real(tree.reported(arc.value_high)).real(tree.reported(arc.value_low)).number(arc.genus);
     }
 }

@@ -42,8 +42,7 @@ std::int64_t TreeView::item_count() const {
 }
 
 void visit_events(const TreeView& tree, const EventVisitor& visit) {
-    tree.analysis.visit_object_contours(
-        [&](std::int64_t id, std::span<const GenusCount> genera) { visit(tree.analysis.event(id), genera); });
+    tree.analysis.visit_object_contours([&](EventId id, std::span<const GenusCount> genera) { visit(tree.analysis.event(id), genera); });
 }
 
 const char* name_of(TreeDetail detail) {
@@ -65,6 +64,12 @@ std::string histogram_text(std::span<const GenusCount> genera) {
 std::string list_text(std::span<const std::int64_t> numbers) {
     std::string text;
     for (const std::int64_t number : numbers) text += (text.empty() ? "" : " ") + std::to_string(number);
+    return text;
+}
+
+std::string list_text(std::span<const EventId> events) {
+    std::string text;
+    for (const EventId event : events) text += (text.empty() ? "" : " ") + std::to_string(event.number());
     return text;
 }
 

@@ -27,7 +27,7 @@ struct TreeView {
         return {analysis.interpolant(), volume.info.calibration.reported_difference(analysis.tunnel_height())};
     }
     [[nodiscard]] std::int64_t item_count() const;  ///< of the chosen detail
-    [[nodiscard]] bool is_outside(std::int64_t element) const { return element == analysis.element_count(); }
+    [[nodiscard]] bool is_outside(ElementId element) const { return element == ElementId(analysis.element_count()); }
 };
 
 using EventVisitor = std::function<void(const Event&, std::span<const GenusCount>)>;
@@ -46,5 +46,6 @@ void write_tree_vtu(Sink& sink, const TreeView& tree);
 [[nodiscard]] std::string histogram_text(std::span<const GenusCount> genera);
 /// Numbers between spaces.
 [[nodiscard]] std::string list_text(std::span<const std::int64_t> numbers);
+[[nodiscard]] std::string list_text(std::span<const EventId> events);
 
 }  // namespace isoatlas

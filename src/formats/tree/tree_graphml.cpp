@@ -23,7 +23,7 @@ constexpr std::array kContourKeys{GraphmlKey{"value", "double", "node"},   Graph
 
 void put_events(ByteWriter& out, const TreeView& tree) {
     visit_events(tree, [&](const Event& e, std::span<const GenusCount> genera) {
-        begin_node(out, e.id);
+        begin_node(out, e.id.number());
         put(out, "value", tree.reported(e.value));
         put(out, e.position);
         put_text(out, "kind", isoatlas::name_of(e.kind));
@@ -43,19 +43,19 @@ void put_events(ByteWriter& out, const TreeView& tree) {
         put_text(out, "genera", histogram_text(genera));
         out.text("</node>\n");
     });
-    for (std::int64_t id = 0; id < tree.analysis.event_count(); ++id) {
-        const std::int64_t parent = tree.analysis.event(id).parent;
-        if (parent < 0) continue;
-        begin_edge(out, id, parent);
+    for (const EventId id : ids<EventId>(tree.analysis.event_count())) {
+        const EventId parent = tree.analysis.event(id).parent;
+        if (!parent.exists()) continue;
+        begin_edge(out, id.number(), parent.number());
         out.text("</edge>\n");
     }
 }
 
 /// The node after the last element is the outside of the volume.
 void put_contours(ByteWriter& out, const TreeView& tree) {
-    for (std::int64_t id = 0; id < tree.analysis.element_count(); ++id) {
+    for (const ElementId id : ids<ElementId>(tree.analysis.element_count())) {
         const Element e = tree.analysis.element(id);
-        begin_node(out, id);
+        begin_node(out, id.number());
         put(out, "value", tree.reported(e.value));
         put(out, e.position);
         put(out, "h0", std::int64_t{e.h0});
@@ -66,7 +66,7 @@ void put_contours(ByteWriter& out, const TreeView& tree) {
     out.text("</node>\n");
     for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
         const ContourArc arc = tree.analysis.contour_arc(id);
-        begin_edge(out, arc.upper, arc.lower);
+        begin_edge(out, arc.upper.number(), arc.lower.number());
         put(out, "id", id);
         put(out, "tau_high", tree.reported(arc.value_high));
         put(out, "tau_low", tree.reported(arc.value_low));

@@ -31,11 +31,11 @@ void put_genera(JsonStream& json, std::span<const GenusCount> genera, bool liste
 }
 
 void put_event(JsonStream& json, const TreeView& tree, const Event& event, std::span<const GenusCount> genera, bool listed) {
-    json.line().begin_object().key("id").value(event.id).key("value").value(tree.reported(event.value));
+    json.line().begin_object().key("id").value(event.id.number()).key("value").value(tree.reported(event.value));
     json.key("position").value(event.position).key("kind").value(isoatlas::name_of(event.kind));
-    put_count_or_null(json, "parent", event.parent, event.parent >= 0);
+    put_count_or_null(json, "parent", event.parent.number(), event.parent.exists());
     json.key("children").begin_array();
-    for (const std::int64_t child : event.children) json.value(child);
+    for (const EventId child : event.children) json.value(child.number());
     json.end_array().key("objects_in").value(event.objects_in).key("lows_out").value(event.lows_out);
     json.key("delta_chi").value(event.delta_chi).key("zone").begin_object();
     json.key("tau_low").value(tree.reported(event.zone.tau_low)).key("tau_high").value(tree.reported(event.zone.tau_high));
@@ -48,7 +48,7 @@ void put_event(JsonStream& json, const TreeView& tree, const Event& event, std::
 
 bool contours_fit(const TreeView& tree) {
     std::int64_t total = 0;
-    for (std::int64_t id = 0; id < tree.analysis.event_count(); ++id) {
+    for (const EventId id : ids<EventId>(tree.analysis.event_count())) {
         total += tree.analysis.event(id).contours;
         if (total > tree.options.max_listed_contours) return false;
     }
@@ -71,7 +71,7 @@ void put_levels(JsonStream& json, const TreeView& tree) {
     json.line().key("levels").begin_array();
     for (std::int64_t id = 0; id < tree.analysis.level_count(); ++id) {
         const Level level = tree.analysis.level(id);
-        json.line().begin_object().key("value").value(tree.reported(level.value)).key("event").value(level.event);
+        json.line().begin_object().key("value").value(tree.reported(level.value)).key("event").value(level.event.number());
         put_list(json, "in", level.in);
         put_list(json, "out", level.out);
         json.end_object();
@@ -80,7 +80,7 @@ void put_levels(JsonStream& json, const TreeView& tree) {
 
 void put_elements(JsonStream& json, const TreeView& tree) {
     json.line().key("elements").begin_array();
-    for (std::int64_t id = 0; id < tree.analysis.element_count(); ++id) {
+    for (const ElementId id : ids<ElementId>(tree.analysis.element_count())) {
         const Element element = tree.analysis.element(id);
         json.line().begin_object().key("value").value(tree.reported(element.value)).key("position").value(element.position);
         json.key("h0").value(element.h0).key("l0").value(element.l0).end_object();
@@ -91,8 +91,8 @@ void put_contours(JsonStream& json, const TreeView& tree) {
     json.line().key("contours").begin_array();
     for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
         const ContourArc arc = tree.analysis.contour_arc(id);
-        json.line().begin_object().key("id").value(id).key("upper").value(arc.upper);
-        put_count_or_null(json, "lower", arc.lower, !tree.is_outside(arc.lower));
+        json.line().begin_object().key("id").value(id).key("upper").value(arc.upper.number());
+        put_count_or_null(json, "lower", arc.lower.number(), !tree.is_outside(arc.lower));
         json.key("tau_high").value(tree.reported(arc.value_high)).key("tau_low").value(tree.reported(arc.value_low));
         json.key("genus").value(arc.genus).end_object();
     }

@@ -30,13 +30,14 @@ TtkType type_of(const Element& e) {
 VtuLines lines_of(const TreeView& tree) {
     VtuLines lines;
     if (tree.options.detail == TreeDetail::events) {
-        for (std::int64_t id = 0; id < tree.analysis.event_count(); ++id) {
-            if (const std::int64_t parent = tree.analysis.event(id).parent; parent >= 0) lines.add(id, id, parent);
+        for (const EventId id : ids<EventId>(tree.analysis.event_count())) {
+            const EventId parent = tree.analysis.event(id).parent;
+            if (parent.exists()) lines.add(id.number(), id.number(), parent.number());
         }
     } else if (tree.options.detail == TreeDetail::contours) {
         for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
             const ContourArc arc = tree.analysis.contour_arc(id);
-            if (!tree.is_outside(arc.lower)) lines.add(id, arc.upper, arc.lower);  // the outside has no position
+            if (!tree.is_outside(arc.lower)) lines.add(id, arc.upper.number(), arc.lower.number());  // the outside has no position
         }
     }
     return lines;
@@ -45,14 +46,14 @@ VtuLines lines_of(const TreeView& tree) {
 VtuGraph graph_of_events(const TreeView& tree) {
     const Analysis& analysis = tree.analysis;
     const auto at = [&tree](std::int64_t id) {
-        const Event e = tree.analysis.event(id);
+        const Event e = tree.analysis.event(EventId(id));
         return VtuPoint{e.position, tree.reported(e.value), type_of(e)};
     };
     VtuGraph graph(analysis.event_count(), at, lines_of(tree));
     const auto add = [&](const char* name, std::int64_t Event::* number) {
-        graph.point_array<std::int64_t>(name, [&analysis, number](std::int64_t id) { return analysis.event(id).*number; });
+        graph.point_array<std::int64_t>(name, [&analysis, number](std::int64_t id) { return analysis.event(EventId(id)).*number; });
     };
-    const auto zone_voxels = [&analysis](std::int64_t id) { return analysis.event(id).zone.voxels; };
+    const auto zone_voxels = [&analysis](std::int64_t id) { return analysis.event(EventId(id)).zone.voxels; };
     if (tree.has_zones) {
         graph.point_array<std::int64_t>("RegionSize", zone_voxels);
         add("ObjectVoxels", &Event::object_voxels);
@@ -68,12 +69,12 @@ VtuGraph graph_of_events(const TreeView& tree) {
 VtuGraph graph_of_elements(const TreeView& tree) {
     const Analysis& analysis = tree.analysis;
     const auto at = [&tree](std::int64_t id) {
-        const Element e = tree.analysis.element(id);
+        const Element e = tree.analysis.element(ElementId(id));
         return VtuPoint{e.position, tree.reported(e.value), type_of(e)};
     };
     VtuGraph graph(analysis.element_count(), at, lines_of(tree));
-    graph.point_array<std::int32_t>("H0", [&analysis](std::int64_t id) { return analysis.element(id).h0; });
-    graph.point_array<std::int32_t>("L0", [&analysis](std::int64_t id) { return analysis.element(id).l0; });
+    graph.point_array<std::int32_t>("H0", [&analysis](std::int64_t id) { return analysis.element(ElementId(id)).h0; });
+    graph.point_array<std::int32_t>("L0", [&analysis](std::int64_t id) { return analysis.element(ElementId(id)).l0; });
     graph.line_array<std::int64_t>("Genus", [&analysis](std::int64_t id) { return analysis.contour_arc(id).genus; });
     return graph;
 }

@@ -57,17 +57,17 @@ TEST(CountColumns, AreTheIntervalsWhenTheseAreFew) {
 RC_GTEST_PROP(BranchIntervals, FollowTheEventsDown, ()) {
     const Volume volume = oracle::to_volume(*oracle::arbitrary_grid());
     const Analysis analysis = analyse(volume);
-    const double merges = analysis.event(analysis.event_count() - 1).value - 1;
-    for (std::int64_t id = 0; id < analysis.event_count(); ++id) {
+    const double merges = analysis.event(EventId(analysis.event_count() - 1)).value - 1;
+    for (const EventId id : ids<EventId>(analysis.event_count())) {
         if (analysis.event(id).objects_in > 0) continue;
-        std::int64_t event = id;
+        EventId event = id;
         for (const SpectrumInterval& interval : branch_intervals(analysis, id, merges)) {
             const Event there = analysis.event(event);
             RC_ASSERT(interval.high == there.value && interval.low == there.zone.tau_low);
             RC_ASSERT(interval.all == (LevelCounts{1, there.contours, there.b1, there.b2}));
             event = there.parent;
         }
-        RC_ASSERT(event == -1);
+        RC_ASSERT(!event.exists());
     }
 }
 

@@ -22,7 +22,7 @@ TEST(BranchHistogram, MapsHeightsOfBothSidesThereAndBack) {
 
 TEST(BranchHistogram, OfIntegersHasNoBinWithoutAValue) {
     for (const double bend : {0.0, 1.0, 100.0}) {
-        BranchHistogram histogram(0, 0, 30000, true, HeightAxis({0, 30000, bend}, 1));
+        BranchHistogram histogram(BranchId(0), 0, 30000, true, HeightAxis({0, 30000, bend}, 1));
         for (int value = 1; value <= 30000; ++value) histogram.add(value, 1);
         EXPECT_GT(*std::ranges::min_element(histogram.added), 0) << bend;
     }
@@ -31,7 +31,7 @@ TEST(BranchHistogram, OfIntegersHasNoBinWithoutAValue) {
 // Background up to 51, a body from 200 on, one in it from 20000 on: with equal steps of values the outer boundary lies in three bins.
 TEST(BranchHistogram, ThatIsBentShowsBodiesOfLowValues) {
     const auto taus = [](double bend) {
-        BranchHistogram histogram(0, 0, 30000, true, HeightAxis({0, 30000, bend}, 1));
+        BranchHistogram histogram(BranchId(0), 0, 30000, true, HeightAxis({0, 30000, bend}, 1));
         for (int i = 0; i <= 100; ++i) histogram.add(1 + i / 2, 20000), histogram.add(200 + i, 3000), histogram.add(20000 + 90 * i, 10);
         std::vector<double> result;
         for (const StableIsovalue& peak : stable_isovalues(histogram)) result.push_back(peak.tau);

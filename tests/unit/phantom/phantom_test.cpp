@@ -22,10 +22,10 @@ struct Expected {
 
 void expect_events(const Analysis& analysis, const std::vector<Expected>& expected, double tolerance) {
     ASSERT_EQ(analysis.event_count(), static_cast<Index>(expected.size()));
-    for (Index i = 0; i < analysis.event_count(); ++i) {
+    for (const EventId i : ids<EventId>(analysis.event_count())) {
         const Event event = analysis.event(i);
-        const Expected& e = expected[static_cast<std::size_t>(i)];
-        SCOPED_TRACE(i);
+        const Expected& e = expected[i.index()];
+        SCOPED_TRACE(i.number());
         EXPECT_NEAR(event.value, e.value, tolerance);
         EXPECT_STREQ(name_of(event.kind), name_of(e.kind));
         EXPECT_EQ(event.chi, e.chi);
@@ -143,7 +143,7 @@ TEST(Phantom, DemoTellsItsStory) {
 TEST(Phantom, MarschnerLobbIsCriticalInItsFirstAndLastSliceOnly) {
     const Analysis analysis = analyse(make_phantom("marschner-lobb"));
     const double last = static_cast<double>(analysis.extent().size[2] - 1);
-    for (Index i = 0; i < analysis.element_count(); ++i) {
+    for (const ElementId i : ids<ElementId>(analysis.element_count())) {
         const Element e = analysis.element(i);
         EXPECT_TRUE(e.position[2] == 0 || e.position[2] == last || e.kind == ElementKind::face) << e.position[2];
         EXPECT_EQ(e.position[2], std::floor(e.position[2]));  // only faces across z are ambiguous
@@ -162,7 +162,7 @@ TEST(Phantom, CheckerboardCounts) {
         options.size = n;
         const Analysis analysis = analyse(make_phantom("checkerboard", options));
         Index maxima = 0;
-        for (Index i = 0; i < analysis.event_count(); ++i) {
+        for (const EventId i : ids<EventId>(analysis.event_count())) {
             const Event event = analysis.event(i);
             maxima += event.objects_in == 0 ? 1 : 0;
             if (event.value != 0.5) continue;

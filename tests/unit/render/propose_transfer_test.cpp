@@ -30,9 +30,9 @@ ObjectTable any_table() {
     for (int i = *rc::gen::inRange(0, 6); i > 0; --i) {
         const int tau = *rc::gen::inRange(10, 900);
         table.entries.push_back(entry_at(tau, tau + *rc::gen::inRange(1, 1000 - tau), *rc::gen::inRange(1, 500)));
-        table.entries.back().branch_top = *rc::gen::inRange(0, 2);
+        table.entries.back().branch_top = EventId(*rc::gen::inRange(0, 2));
         for (int n = *rc::gen::inRange(0, 3); n > 0; --n) {
-            table.isovalues.push_back({.branch_top = table.entries.back().branch_top,
+            table.isovalues.push_back({.branch_top = table.entries.back().branch_top.number(),
                                        .tau = static_cast<double>(*rc::gen::inRange(10, 1000)),
                                        .prominence = 1,
                                        .reason = IsovalueReason::stable});

@@ -69,7 +69,7 @@ TEST_F(ServiceTest, BranchesAreThoseOfTheHierarchy) {
         EXPECT_EQ(json["id"][i], branch.id);
         EXPECT_EQ(json["persistence"][i], branch.persistence);
         EXPECT_EQ(json["voxels"][i], branch.voxels);
-        EXPECT_EQ(json["parent"][i], branch.parent);
+        EXPECT_EQ(json["parent"][i], branch.parent.number());
         significant += json["significant"][i].get<bool>();
         const double tau = json["tau"][i];
         EXPECT_GT(tau, branch.merges);
@@ -92,7 +92,7 @@ TEST_F(ServiceTest, BranchesAreChosenAsOnTheCommandLine) {
         const auto kept = hierarchy.kept({.min_voxels = 5, .min_persistence = height});
         EXPECT_EQ(json["kept"], kept.size());
         ASSERT_EQ(json["rank"].size(), std::min<std::size_t>(kept.size(), 3));
-        for (std::size_t i = 0; i < json["rank"].size(); ++i) EXPECT_EQ(json["rank"][i], kept[i]);
+        for (std::size_t i = 0; i < json["rank"].size(); ++i) EXPECT_EQ(json["rank"][i], kept[i].number());
     }
 }
 

@@ -137,7 +137,7 @@ protected:
     bool tree_agrees(const Cut& at) {
         Check check("tree_equals_cut");
         compare_tree_and_cut(
-            analysis_, TreeAtLevels(analysis_, {at.tau}), 0, at, [&](std::int64_t voxel) { return analysis_.zone(voxel); }, check);
+            analysis_, TreeAtLevels(analysis_, {at.tau}), 0, at, [&](VoxelId voxel) { return analysis_.zone(voxel); }, check);
         return check.holds();
     }
     bool mesh_agrees(const Cut& at, const Surface& surface) {

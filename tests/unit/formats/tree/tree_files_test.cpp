@@ -53,14 +53,14 @@ TEST_F(TreeFiles, csv_has_a_row_for_each_item) {
     const auto events = csv_rows(write("events.csv"));
     ASSERT_EQ(events.size(), 15U);
     for (const auto& row : events) EXPECT_EQ(row.size(), events[0].size());
-    for (std::int64_t id = 0; id < 14; ++id) {
+    for (const EventId id : ids<EventId>(14)) {
         const Event event = analysis_->event(id);
-        const auto& row = events[static_cast<std::size_t>(id) + 1];
-        EXPECT_EQ(row[0], std::to_string(id));
+        const auto& row = events[id.index() + 1];
+        EXPECT_EQ(row[0], std::to_string(id.number()));
         EXPECT_EQ(std::stod(row[1]), 2 * event.value + 1);
         EXPECT_EQ(row[5], name_of(event.kind));
-        EXPECT_EQ(row[6], event.parent < 0 ? "" : std::to_string(event.parent));
-        EXPECT_EQ(row[11].empty(), event.parent < 0);
+        EXPECT_EQ(row[6], event.parent.exists() ? std::to_string(event.parent.number()) : "");
+        EXPECT_EQ(row[11].empty(), !event.parent.exists());
         EXPECT_EQ(row[13], std::to_string(event.zone.voxels));
     }
     EXPECT_EQ(csv_rows(write("levels.csv", TreeDetail::levels)).size(), static_cast<std::size_t>(analysis_->level_count()) + 1);
@@ -83,8 +83,7 @@ TEST_F(TreeFiles, graphml_is_xml_with_typed_keys) {
             << data.attribute("key").value();
     }
     for (const auto& edge : graph.children("edge")) {
-        const std::int64_t child = std::stoll(edge.attribute("source").value() + 1),
-                           parent = std::stoll(edge.attribute("target").value() + 1);
+        const EventId child(std::stoll(edge.attribute("source").value() + 1)), parent(std::stoll(edge.attribute("target").value() + 1));
         EXPECT_EQ(analysis_->event(child).parent, parent);
     }
     ASSERT_TRUE(document.load_file(write("contours.graphml", TreeDetail::contours).c_str()));
@@ -124,9 +123,9 @@ TEST_F(TreeFiles, vtu_opens_in_vtk) {
         "  assert (a, b) == (c.GetArray('upNodeId').GetValue(i), c.GetArray('downNodeId').GetValue(i)) and "
         "p.GetArray('Scalar').GetValue(a) > p.GetArray('Scalar').GetValue(b)\n"
         "print(p.GetArray('RegionSize').GetRange()[1])\n");
-    const Event first = analysis_->event(0);
+    const Event first = analysis_->event(EventId(0));
     std::int64_t largest = 0;
-    for (std::int64_t id = 0; id < 14; ++id) largest = std::max(largest, analysis_->event(id).zone.voxels);
+    for (const EventId id : ids<EventId>(14)) largest = std::max(largest, analysis_->event(id).zone.voxels);
     std::ostringstream expected;
     const auto python_number = [](double x) {
         return x == std::floor(x) ? std::to_string(static_cast<long>(x)) + ".0" : std::to_string(static_cast<long>(x * 10) / 10) + ".5";

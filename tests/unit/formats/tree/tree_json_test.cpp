@@ -53,17 +53,19 @@ RC_GTEST_PROP(TreeJson, events_are_the_analysis, ()) {
     RC_ASSERT(schema_problem(document, "events") == "");
     RC_ASSERT(document["contours_listed"] == true);
     RC_ASSERT(static_cast<std::int64_t>(document["events"].size()) == analysis.event_count());
-    for (std::int64_t id = 0; id < analysis.event_count(); ++id) {
-        const Json& json = document["events"][static_cast<std::size_t>(id)];
+    for (const EventId id : ids<EventId>(analysis.event_count())) {
+        const Json& json = document["events"][id.index()];
         const Event event = analysis.event(id);
-        RC_ASSERT(json["id"] == id);
+        RC_ASSERT(json["id"] == id.number());
         RC_ASSERT(json["value"] == event.value * 0.5 - 3);
         RC_ASSERT(json["position"] == Json(event.position));
         RC_ASSERT(json["kind"] == name_of(event.kind));
-        RC_ASSERT(json["parent"] == (event.parent < 0 ? Json() : Json(event.parent)));
-        RC_ASSERT(json["children"] == Json(std::vector<std::int64_t>(event.children.begin(), event.children.end())));
+        RC_ASSERT(json["parent"] == (event.parent.exists() ? Json(event.parent.number()) : Json()));
+        std::vector<std::int64_t> children;
+        for (const EventId child : event.children) children.push_back(child.number());
+        RC_ASSERT(json["children"] == Json(children));
         RC_ASSERT(json["objects_in"] == event.objects_in && json["lows_out"] == event.lows_out && json["delta_chi"] == event.delta_chi);
-        RC_ASSERT(json["zone"]["tau_low"] == (event.parent < 0 ? Json() : Json(event.zone.tau_low * 0.5 - 3)));
+        RC_ASSERT(json["zone"]["tau_low"] == (event.parent.exists() ? Json(event.zone.tau_low * 0.5 - 3) : Json()));
         RC_ASSERT(json["zone"]["tau_high"] == event.zone.tau_high * 0.5 - 3);
         RC_ASSERT(json["zone"]["voxels"] == event.zone.voxels);
         RC_ASSERT(json["object"]["chi"] == event.chi && json["object"]["b1"] == event.b1 && json["object"]["b2"] == event.b2);
@@ -104,11 +106,11 @@ RC_GTEST_PROP(TreeJson, levels_elements_and_contours_are_the_analysis, ()) {
     for (std::int64_t id = 0; id < analysis.level_count(); ++id) {
         const Json& json = levels["levels"][static_cast<std::size_t>(id)];
         const Level level = analysis.level(id);
-        RC_ASSERT(json["value"] == level.value && json["event"] == level.event && json["in"] == Json(level.in) &&
+        RC_ASSERT(json["value"] == level.value && json["event"] == level.event.number() && json["in"] == Json(level.in) &&
                   json["out"] == Json(level.out));
     }
-    for (std::int64_t id = 0; id < analysis.element_count(); ++id) {
-        const Json& json = elements["elements"][static_cast<std::size_t>(id)];
+    for (const ElementId id : ids<ElementId>(analysis.element_count())) {
+        const Json& json = elements["elements"][id.index()];
         const Element e = analysis.element(id);
         RC_ASSERT(json["value"] == e.value && json["position"] == Json(e.position) && json["h0"] == e.h0 && json["l0"] == e.l0);
     }
@@ -116,10 +118,11 @@ RC_GTEST_PROP(TreeJson, levels_elements_and_contours_are_the_analysis, ()) {
     for (std::int64_t id = 0; id < analysis.contour_arc_count(); ++id) {
         const Json& json = contours["contours"][static_cast<std::size_t>(id)];
         const ContourArc arc = analysis.contour_arc(id);
-        const bool is_outside = arc.lower == analysis.element_count();
+        const bool is_outside = arc.lower == ElementId(analysis.element_count());
         outside += is_outside ? 1 : 0;
-        RC_ASSERT(json["id"] == id && json["upper"] == arc.upper && json["genus"] == arc.genus && json["tau_high"] == arc.value_high);
-        RC_ASSERT(json["lower"] == (is_outside ? Json() : Json(arc.lower)));
+        RC_ASSERT(json["id"] == id && json["upper"] == arc.upper.number() && json["genus"] == arc.genus &&
+                  json["tau_high"] == arc.value_high);
+        RC_ASSERT(json["lower"] == (is_outside ? Json() : Json(arc.lower.number())));
         RC_ASSERT(json["tau_low"] == (is_outside ? Json() : Json(arc.value_low)));
     }
     RC_ASSERT(outside == 1);
