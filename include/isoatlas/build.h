@@ -24,9 +24,11 @@ struct BuildOptions {
     std::optional<Geometry> geometry{};  ///< instead of that of the file
     /// Instead of analysis.tunnel_height: percent of the range of the samples that are analysed, filtered ones included; 0: off.
     double tunnel_height_percent = 0;
-    double gaussian = 0;      ///< filters the samples first: sigma as of gaussian_filter(); 0: off
-    std::int64_t memory = 0;  ///< bytes for the whole process, 64 MiB or more; 0: half of what the machine or its control group has
-    bool restart = false;     ///< discards finished phases
+    double gaussian = 0;  ///< filters the samples first: sigma as of gaussian_filter(); 0: off
+    /// Bytes, 80 MiB or more; 0: half of what the machine or its control group has. The whole process stays within it, or within the sum of
+    /// all budgets where other builds run at the same time (environment.h). Of no meaning in an environment with a budget, which holds.
+    std::int64_t memory = 0;
+    bool restart = false;  ///< discards finished phases
     /// Which volume of its file the reader reads, as in OpenOptions: recorded to compare phases and stores.
     std::optional<std::int64_t> time_step{};
     /// Marks the store as a by-product of a page, which may be rebuilt with other options. The mark changes no result.
@@ -38,7 +40,7 @@ struct BuildEstimate {
     std::int64_t critical_elements = 0;
     std::int64_t memory = 0;       ///< that all arrays would take at once, bytes
     std::int64_t min_memory = 0;   ///< smallest budget that this volume can be built with
-    std::int64_t budget = 0;       ///< BuildOptions::memory, or the default
+    std::int64_t budget = 0;       ///< of the environment, else BuildOptions::memory, or the default
     bool uses_scratch = false;     ///< arrays go to a scratch file
     std::int64_t disk = 0;         ///< for store, finished phases and scratch file together
     std::int64_t disk_free = 0;    ///< in the folder of the store

@@ -27,6 +27,7 @@
 #include "isoatlas/criticality.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/dump.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/handles.h"

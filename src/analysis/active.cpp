@@ -9,6 +9,7 @@
 #include "analysis/active_index.h"
 #include "base/cancel.h"
 #include "field/order.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 
@@ -206,6 +207,7 @@ ActiveIndex& ActiveIndex::operator=(ActiveIndex&&) noexcept = default;
 ActiveIndex::~ActiveIndex() = default;
 
 ActiveObjects ActiveIndex::at(double tau, const ActiveOptions& options, const Context& context) const {
+    const EnvironmentScope scope(context);
     require_finite(tau);
     return data_->at(tau, options, context);
 }

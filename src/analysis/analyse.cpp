@@ -7,10 +7,12 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "field/volume_view.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 
 Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
     auto data = std::make_unique<Analysis::Data>();
     data->extent = volume.info.extent;

@@ -17,6 +17,7 @@
 #include "census/level_census.h"
 #include "codec/checksum.h"
 #include "critical/bodies.h"
+#include "isoatlas/environment.h"
 #include "levelset/cut_level.h"
 #include "mesh/extract_level.h"
 #include "store/container.h"
@@ -125,6 +126,7 @@ Interpolant Atlas::interpolant() const { return data_->store.contents().paramete
 double Atlas::tunnel_height() const { return data_->store.contents().parameters.tunnel_height; }
 
 Cut Atlas::cut(double tau, const CutOptions& options, const Context& context, QueryCost* cost) const {
+    const EnvironmentScope scope(context);
     CutOptions own = options;
     own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
     return data_->at_level(tau, true, context, cost, [&](const TauLevel& level, std::int64_t* active) {
@@ -135,6 +137,7 @@ Cut Atlas::cut(double tau, const CutOptions& options, const Context& context, Qu
 }
 
 Surface Atlas::extract(double tau, const ExtractOptions& options, const Context& context, QueryCost* cost) const {
+    const EnvironmentScope scope(context);
     ExtractOptions own = options;
     own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
     if (own.objects.size() == 1 && own.contours.empty() && std::isfinite(tau)) {
@@ -149,12 +152,14 @@ Surface Atlas::extract(double tau, const ExtractOptions& options, const Context&
 }
 
 ActiveObjects Atlas::active(double tau, bool contours, const Context& context) const {
+    const EnvironmentScope scope(context);
     return active_index().at(tau, {.contours = contours, .integer_samples = !is_floating(info().type)}, context);
 }
 
 const ActiveIndex& Atlas::active_index() const { return data_->trees_now().active; }
 
 ObjectTable Atlas::objects(const RankOptions& options, const Context& context) const {
+    const EnvironmentScope scope(context);
     if (has_objects(data_->store) && (options.gate || options.selection)) {
         const ObjectTable& stored = data_->objects.get([this] { return objects_of(data_->store); });
         if (!options.selection && (is_whole(stored) || (options.top > 0 && options.top <= std::ssize(stored.entries))))
@@ -169,6 +174,7 @@ ObjectTable Atlas::objects(const RankOptions& options, const Context& context) c
 }
 
 CavityTable Atlas::cavities(const RankOptions& options, const Context& context) const {
+    const EnvironmentScope scope(context);
     if (has_cavities(data_->store) && options.gate && !options.selection) {
         CavityTable stored = cavities_of(data_->store);
         if (is_whole(stored) || (options.top > 0 && options.top <= std::ssize(stored.entries)))
@@ -179,6 +185,7 @@ CavityTable Atlas::cavities(const RankOptions& options, const Context& context) 
 }
 
 BranchHierarchy Atlas::hierarchy(const Context& context) const {
+    const EnvironmentScope scope(context);
     if (std::optional<BranchHierarchy> stored = stored_hierarchy(*this, context)) return std::move(*stored);
     const Volume whole = volume(context);
     return {whole, zoned_analysis_of(data_->store, whole, context), context};
@@ -187,6 +194,7 @@ BranchHierarchy Atlas::hierarchy(const Context& context) const {
 Analysis Atlas::analysis() const { return analysis_of(data_->store, {}); }
 
 Volume Atlas::volume(const Context& context) const {
+    const EnvironmentScope scope(context);
     Volume volume = make_volume(info().extent, info().type, info().geometry);
     volume.info = info();
     IoCounters counters;
@@ -196,6 +204,7 @@ Volume Atlas::volume(const Context& context) const {
 }
 
 Volume Atlas::volume(const SamplesWanted& wanted, const Context& context, QueryCost* cost) const {
+    const EnvironmentScope scope(context);
     Volume volume = make_volume(info().extent, info().type, info().geometry);
     volume.info = info();
     StoredSamples& samples = *data_->samples;
@@ -208,6 +217,7 @@ Volume Atlas::volume(const SamplesWanted& wanted, const Context& context, QueryC
 }
 
 std::vector<std::int64_t> Atlas::histogram(std::span<const double> edges, const Context& context) const {
+    const EnvironmentScope scope(context);
     if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end())) {
         throw Error(ErrorKind::usage, {.where = "edges of a histogram", .what = "not ascending", .expected = "two or more, ascending"});
     }
@@ -224,6 +234,7 @@ bool Atlas::is_replaceable() const { return data_->store.contents().is_replaceab
 bool Atlas::has_present_values() const { return data_->store.contents().has_present_values(); }
 
 Volume Atlas::check(const Context& context) const {
+    const EnvironmentScope scope(context);
     data_->store.check_all();
     data_->samples->check(context);
     Volume samples = volume(context);

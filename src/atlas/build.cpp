@@ -18,6 +18,7 @@
 #include "field/gaussian.h"
 #include "field/volume_view.h"
 #include "formats/volume/load_samples.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "store/brick_writer.h"
 #include "store/container.h"
@@ -102,6 +103,7 @@ double range_of(const VolumeView& volume) {
 class Build {
 public:
     Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {
+        context_.environment = nullptr;  // that of this thread: with the budget of the build
         context_.progress = [this, told = context.progress](const Progress& progress) {
             folder_.say(clock_.at(progress));
             if (told) told(progress);
@@ -178,6 +180,7 @@ private:
 }  // namespace
 
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     Build build(path, options.restart, context);  // obstacles are reported before anything is read
     const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
     check_estimate(estimate, reader.info().path, path);
@@ -201,6 +204,7 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
 }
 
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
     BuildOptions asked;
     asked.analysis = options;

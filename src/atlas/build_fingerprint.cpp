@@ -5,6 +5,7 @@
 #include "codec/checksum.h"
 #include "formats/volume/read_slabs.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/environment.h"
 #include "store/container.h"
 
 namespace isoatlas {
@@ -131,6 +132,7 @@ std::uint64_t SummingReader::sum() const {
 
 std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& volume, const BuildOptions& options, bool compare_samples,
                                            const Context& context) {
+    const EnvironmentScope scope(context);
     const Contents& contents = AtlasAccess::store(atlas).contents();
     double tunnel_height = options.analysis.tunnel_height;
     if (options.tunnel_height_percent > 0) {

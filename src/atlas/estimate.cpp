@@ -69,7 +69,7 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const auto voxels = static_cast<double>(info.extent.voxels());
     const double sample = static_cast<double>(info.calibration.slope < 0 ? sizeof(double) : size_of(info.type));
     BuildEstimate estimate;
-    estimate.budget = options.memory > 0 ? options.memory : available_memory() / 2;
+    estimate.budget = memory_is_limited() ? memory_limit() : options.memory > 0 ? options.memory : available_memory() / 2;
     const double elements = sampled_density(reader, options.analysis, estimate.budget) * voxels;
     const double id = voxels < 0x1p31 && elements < 0x1p30 ? 4 : 8;
     const int workers = thread_count(threads);

@@ -5,6 +5,7 @@
 #include "atlas/access.h"
 #include "base/cancel.h"
 #include "bricks/stored_samples.h"
+#include "isoatlas/environment.h"
 #include "levelset/level_bricks.h"
 
 namespace isoatlas {
@@ -52,6 +53,7 @@ private:
 }  // namespace
 
 Locator::Locator(const Atlas& atlas, std::int64_t voxel, const Context& context) : atlas_(&atlas) {
+    const EnvironmentScope scope(context);
     const Extent& extent = atlas.info().extent;
     if (voxel < 0 || voxel >= extent.voxels()) {
         throw Error(ErrorKind::usage, {.where = "voxel " + std::to_string(voxel),

@@ -6,6 +6,7 @@
 
 #include "atlas/access.h"
 #include "bricks/stored_samples.h"
+#include "isoatlas/environment.h"
 #include "mesh/extract_level.h"
 
 namespace isoatlas {
@@ -82,27 +83,32 @@ std::optional<double> Navigator::tau() const { return data_->tau; }
 const Surface& Navigator::surface() const { return data_->surface; }
 
 const Surface& Navigator::go_to(double tau, const Context& context) {
+    const EnvironmentScope scope(context);
     data_->move(tau, context);
     return data_->surface;
 }
 
 const Surface& Navigator::step(double delta, const Context& context) {
+    const EnvironmentScope scope(context);
     data_->require_position();
     return go_to(*data_->tau + delta, context);
 }
 
 const Surface& Navigator::show(std::vector<std::int64_t> objects, double tau, const Context& context) {
+    const EnvironmentScope scope(context);
     data_->options.objects = std::move(objects);
     return go_to(tau, context);
 }
 
 bool Navigator::to_event_below(const Context& context) {
+    const EnvironmentScope scope(context);
     data_->require_position();
     const std::optional<ActiveObject> object = data_->shown_object();
     return data_->move_to(object ? object->zone.tau_low : data_->atlas.active_index().event_below(*data_->tau), context);
 }
 
 bool Navigator::to_event_above(const Context& context) {
+    const EnvironmentScope scope(context);
     data_->require_position();
     const std::optional<ActiveObject> object = data_->shown_object();
     if (object && object->above == object->zone.tau_high) return false;  // it begins here

@@ -6,6 +6,7 @@
 #include "bricks/stored_samples.h"
 #include "census/level_census.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 namespace {
@@ -17,6 +18,7 @@ Bounds bounds(std::int64_t min, std::int64_t max) { return {min, max}; }
 // Triangles: three edges each, every edge shared by two, so with P points and Euler number chi there are 2 (P - chi) of them
 // (docs/theory/5-surfaces.md#spider-web). Every point is a hit, but for articulation points.
 SurfacePreview Atlas::preview(double tau, const Context& context) const {
+    const EnvironmentScope scope(context);
     const ActiveObjects active = this->active(tau, false, context);  // rejects non-finite isovalues
     const bool is_3d = info().extent.rank == 3;
     SurfacePreview preview;

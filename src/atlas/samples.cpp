@@ -7,6 +7,7 @@
 #include "codec/checksum.h"
 #include "formats/volume/read_slabs.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 namespace {
@@ -62,6 +63,7 @@ CoarseVolume halved(const CoarseVolume& fine) {
 }  // namespace
 
 Volume Atlas::samples(const SampleBox& box, std::int64_t step, const Context& context) const {
+    const EnvironmentScope scope(context);
     check_box(box, step, info());
     Extent extent = info().extent;
     for (int a = 0; a < 3; ++a) extent.size[a] = steps_along(box.end[a] - box.begin[a], step);
@@ -74,6 +76,7 @@ Volume Atlas::samples(const SampleBox& box, std::int64_t step, const Context& co
 }
 
 CoarseVolume Atlas::coarse(std::int64_t max, const Context& context) const {
+    const EnvironmentScope scope(context);
     constexpr std::int64_t kLargestCube = 8;  // that lies in one brick
     if (max < 1) throw Error(ErrorKind::usage, {.where = "max", .what = "no values would be left", .expected = "1 or more"});
     CoarseVolume result{.step = 1, .extent = info().extent, .mean = {}};
@@ -96,6 +99,7 @@ CoarseVolume Atlas::coarse(std::int64_t max, const Context& context) const {
 }
 
 bool Atlas::is_of(VolumeReader& volume, const Context& context) const {
+    const EnvironmentScope scope(context);
     const VolumeInfo &own = info(), &other = volume.info();
     if (own.extent != other.extent || own.type != other.type) return false;
     Checksum sum;

@@ -15,6 +15,7 @@
 #include "base/phase.h"
 #include "census/count_intervals.h"
 #include "isoatlas/active.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "mesh/extract_level.h"
@@ -120,6 +121,7 @@ std::vector<SpectrumSize> measure_all(const std::vector<double>& taus, const Con
 }  // namespace
 
 Spectrum spectrum(const Volume& volume, const Analysis& analysis, const SpectrumOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     Spectrum spectrum = count(analysis, rank_objects(volume, analysis, ranking(options), context));
     spectrum.selected = options.selection.has_value();
     const auto [low, high] = visit_samples(volume, [](auto samples) {
@@ -140,6 +142,7 @@ Spectrum spectrum(const Volume& volume, const Analysis& analysis, const Spectrum
 }
 
 Spectrum spectrum(const Atlas& atlas, const SpectrumOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     ObjectTable table = atlas.objects(ranking(options), context);
     if (!knows_branches(table)) {
         const Volume volume = atlas.volume(context);

@@ -59,7 +59,7 @@ public:
     void put(char* memory, std::size_t size) {
         const std::lock_guard lock(mutex_);
         used_ -= size;
-        if (memory_is_limited()) {
+        if (process_is_limited()) {
             munmap(memory, size);
             return;
         }
@@ -130,17 +130,18 @@ Pool& pool() {
     return *pool;
 }
 
-}  // namespace
-
-void* allocate_big(std::size_t bytes) {
-    if (void* scratch = take_scratch(bytes)) return scratch;
+void* allocate_in_memory(std::size_t bytes) {
     if (bytes < kSmall) return ::operator new(bytes);
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
     return pool().take(rounded(bytes));
 }
 
+}  // namespace
+
+void* allocate_big(std::size_t bytes) { return take_array(bytes, allocate_in_memory); }
+
 void free_big(void* memory, std::size_t bytes) noexcept {
-    if (give_scratch(memory, bytes)) return;
+    if (give_array(memory, bytes)) return;
     if (bytes < kSmall) {
         ::operator delete(memory);
     } else {

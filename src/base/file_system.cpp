@@ -2,17 +2,8 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <utility>
 
 namespace isoatlas {
-namespace {
-
-FileSystem*& in_use() {
-    static FileSystem* files = &system_files();
-    return files;
-}
-
-}  // namespace
 
 File::~File() = default;
 std::ptrdiff_t File::read_at(std::int64_t, std::span<std::byte>) { return -EBADF; }
@@ -43,10 +34,22 @@ int FileSystem::remove_folder(const std::string&) { return -EROFS; }
 std::vector<std::string> FileSystem::entries(const std::string&, std::size_t) { return {}; }
 int FileSystem::sync_folder(const std::string&) { return -EROFS; }
 
-FileSystem& file_system() { return *in_use(); }
+FileSystem& file_system() {
+    FileSystem* const files = current_environment().files;
+    return files != nullptr ? *files : system_files();
+}
 
-ReplacedFileSystem::ReplacedFileSystem(FileSystem& files) : before_(std::exchange(in_use(), &files)) {}
-ReplacedFileSystem::~ReplacedFileSystem() { in_use() = before_; }
+namespace {
+
+Environment with_files(FileSystem& files) {
+    Environment environment = current_environment();
+    environment.files = &files;
+    return environment;
+}
+
+}  // namespace
+
+ReplacedFileSystem::ReplacedFileSystem(FileSystem& files) : scope_(with_files(files)) {}
 
 int write_fully(File& file, std::int64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {

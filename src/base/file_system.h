@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "isoatlas/environment.h"
+
 namespace isoatlas {
 
 /// An open file, closed by its destructor. Offsets are absolute; nothing is buffered. Operations that a kind of file does not support fail.
@@ -104,21 +106,18 @@ public:
     [[nodiscard]] virtual int sync_folder(const std::string& path);
 };
 
-/// The file system in use, in all threads: the operating system's, unless a test has replaced it.
+/// The file system of the current environment: the operating system's, unless a test has replaced it.
 [[nodiscard]] FileSystem& file_system();
 /// That of the operating system.
 [[nodiscard]] FileSystem& system_files();
 
-/// For tests: while it lives, `files` is in use in the whole process. Not thread safe.
+/// For tests: while it lives, the current environment has these files.
 class ReplacedFileSystem {
 public:
     explicit ReplacedFileSystem(FileSystem& files);
-    ~ReplacedFileSystem();
-    ReplacedFileSystem(const ReplacedFileSystem&) = delete;
-    ReplacedFileSystem& operator=(const ReplacedFileSystem&) = delete;
 
 private:
-    FileSystem* before_;
+    EnvironmentScope scope_;
 };
 
 /// Writes all bytes, repeating short and interrupted writes. 0 or -errno.

@@ -14,8 +14,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "base/memory_limit.h"
+#include "base/budget_poll.h"
 #include "base/refusals.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 namespace {
@@ -43,10 +44,15 @@ void execute(int threads, const Work& work) try {
 
 }  // namespace
 
-int thread_count(int requested) { return requested > 0 ? requested : tbb::info::default_concurrency(); }
+int thread_count(int requested) {
+    if (requested <= 0) requested = current_environment().threads;
+    return requested > 0 ? requested : tbb::info::default_concurrency();
+}
 
 void for_each_block(int threads, std::int64_t blocks, const std::function<void(std::int64_t)>& block_work) {
+    const Environment& environment = current_environment();
     const auto work = [&](std::int64_t block) {
+        const EnvironmentScope scope(environment);  // of each block: a thread that waits for others does blocks of other calls meanwhile
         block_work(block);
         check_memory();
     };
@@ -63,10 +69,23 @@ void run_both(int threads, const std::function<void()>& first, const std::functi
         second();
         return;
     }
-    execute(thread_count(threads), [&] { tbb::parallel_invoke(first, second); });
+    const Environment& environment = current_environment();
+    const auto in_environment = [&environment](const std::function<void()>& job) {
+        return [&] {
+            const EnvironmentScope scope(environment);
+            job();
+        };
+    };
+    execute(thread_count(threads), [&] { tbb::parallel_invoke(in_environment(first), in_environment(second)); });
 }
 
-void with_threads(int threads, const std::function<void()>& job) { execute(thread_count(threads), job); }
+void with_threads(int threads, const std::function<void()>& job) {
+    const Environment& environment = current_environment();
+    execute(thread_count(threads), [&] {  // perhaps on another thread, where the arena has none left
+        const EnvironmentScope scope(environment);
+        job();
+    });
+}
 
 }  // namespace isoatlas
 

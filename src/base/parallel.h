@@ -1,16 +1,16 @@
 // The only interface to threads. Work is cut into numbered blocks; what a block computes must not depend on which thread runs it.
-// Where the system refuses a thread, Error{resource}.
+// All blocks work in the environment of the caller (isoatlas/environment.h). Where the system refuses a thread, Error{resource}.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
 
-#include "base/memory_limit.h"
+#include "base/budget_poll.h"
 
 namespace isoatlas {
 
-/// Number of threads that `requested` (0: all processors) means here.
+/// Number of threads that `requested` (0: those of the environment, else all processors) means here.
 [[nodiscard]] int thread_count(int requested);
 
 /// Runs work(block) for block in [0, blocks) on at most `threads` threads (0: all); exceptions are carried out (the first one).
@@ -35,7 +35,8 @@ void for_each_index(int threads, std::size_t n, const Work& work) {
 /// Runs two independent jobs, at the same time when threads allow.
 void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second);
 
-/// Runs a job that starts threads by itself (a library that works with oneTBB), which then has at most `threads` (0: all).
+/// Runs a job that starts threads by itself (a library that works with oneTBB), which then has at most `threads` (0: all). Those threads
+/// have no environment: they make no arrays of ours and open no files.
 void with_threads(int threads, const std::function<void()>& job);
 
 }  // namespace isoatlas

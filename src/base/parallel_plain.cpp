@@ -12,16 +12,22 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 
-int thread_count(int requested) { return requested > 0 ? requested : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+int thread_count(int requested) {
+    if (requested <= 0) requested = current_environment().threads;
+    return requested > 0 ? requested : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 void for_each_block(int threads, std::int64_t blocks, const std::function<void(std::int64_t)>& work) {
     std::atomic<std::int64_t> next{0};
     std::exception_ptr first_error;
     std::mutex error_lock;
+    const Environment& environment = current_environment();
     const auto take_blocks = [&] {
+        const EnvironmentScope scope(environment);
         for (std::int64_t block; (block = next++) < blocks;) try {
                 work(block);
             } catch (...) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "base/memory_limit.h"
+#include "base/budget_poll.h"
 
 namespace isoatlas {
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
+
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 
@@ -17,7 +20,10 @@ Workers::~Workers() {
 
 bool Workers::post(std::function<void()> job) {
     const std::lock_guard lock(mutex_);
-    jobs_.push_back(std::move(job));
+    jobs_.emplace_back([environment = current_environment(), job = std::move(job)] {
+        const EnvironmentScope scope(environment);
+        job();
+    });
     if (idle_ < std::ssize(jobs_) && std::ssize(threads_) < max_) {
         try {
             threads_.reserve(threads_.size() + 1);

@@ -19,7 +19,8 @@ public:
     /// Waits for all jobs.
     ~Workers();
 
-    /// Thread safe. The job begins when a thread is free; it must not throw. False: there is no thread, and the system refuses one.
+    /// Thread safe. The job begins when a thread is free, in the environment of the caller; it must not throw. False: there is no thread,
+    /// and the system refuses one.
     [[nodiscard]] bool post(std::function<void()> job);
     /// Returns when no job waits or runs.
     void wait();

@@ -8,6 +8,7 @@
 #include "census/zone_files.h"
 #include "field/brick_grid.h"
 #include "field/slab_work.h"
+#include "isoatlas/environment.h"
 #include "levelset/volume_cells.h"
 
 namespace isoatlas {
@@ -139,10 +140,12 @@ Counted count_all(const Volume& volume, const Analysis& analysis, const Context&
 }  // namespace
 
 std::vector<SearchCost> search_costs(const Volume& volume, const Analysis& analysis, const Context& context) {
+    const EnvironmentScope scope(context);
     return count_all(volume, analysis, context).costs;
 }
 
 SearchTable search_table(const Volume& volume, const Analysis& analysis, const Context& context) {
+    const EnvironmentScope scope(context);
     const Counted counted = count_all(volume, analysis, context);
     const std::vector<SearchCost>& costs = counted.costs;
     SearchTable table;

@@ -11,6 +11,7 @@
 #include "field/order.h"
 #include "isoatlas/active.h"
 #include "isoatlas/cavities.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 namespace {
@@ -131,6 +132,7 @@ template CavityTable cavity_table(const VolumeView&, const Analysis&, const Anal
                                   const CavityCandidates<std::uint64_t>&, const NoiseModel&, std::int64_t);
 
 CavityTable rank_cavities(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     return rank_cavities(VolumeView(volume), analysis, options, context);
 }
 
@@ -145,6 +147,7 @@ CavityTable rank_cavities(const VolumeView& volume, const Analysis& analysis, co
 
 std::vector<std::uint32_t> label_cavities(const Volume& volume, const Analysis& analysis, double tau, std::vector<std::int64_t>& ids,
                                           const Context& context) {
+    const EnvironmentScope scope(context);
     if (!std::isfinite(tau))
         throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
     require_same_volume(volume, analysis);

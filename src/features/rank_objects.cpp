@@ -8,6 +8,7 @@
 #include "features/noise.h"
 #include "features/rank.h"
 #include "field/order.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/objects.h"
 
 namespace isoatlas {
@@ -94,6 +95,7 @@ ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, con
 }
 
 ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     return rank_objects(VolumeView(volume), analysis, options, context);
 }
 
@@ -108,6 +110,7 @@ ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis,
 }
 
 ObjectsAndCavities rank_both(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     return rank_both(VolumeView(volume), analysis, options, context);
 }
 

@@ -10,6 +10,7 @@
 #include "features/noise.h"
 #include "features/select_branches.h"
 #include "field/order.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 
@@ -119,7 +120,8 @@ std::vector<EventId> events_of(const Analysis& analysis, EventId top, double mer
     return events;
 }
 
-BranchHierarchy::BranchHierarchy(const Volume& volume, const Analysis& analysis, const Context&) : data_(std::make_unique<Data>()) {
+BranchHierarchy::BranchHierarchy(const Volume& volume, const Analysis& analysis, const Context& context) : data_(std::make_unique<Data>()) {
+    const EnvironmentScope scope(context);
     if (volume.info.extent != analysis.extent())
         throw Error(ErrorKind::usage, {.what = "the analysis is of another volume: the extents differ"});
     analysis.data().visit([&](const auto& held) {

@@ -13,6 +13,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "isoatlas/environment.h"
 
 namespace isoatlas {
 namespace {
@@ -162,12 +163,14 @@ void filter_in_place(VolumeInfo& info, std::byte* samples, double sigma, const C
 }
 
 Volume gaussian_filter(const Volume& volume, double sigma, const Context& context) {
+    const EnvironmentScope scope(context);
     Volume result = volume;
     filter_in_place(result.info, result.bytes.data(), sigma, context);
     return result;
 }
 
 Volume gaussian_filter(const Volume& volume, const SampleBox& box, double sigma, const Context& context) {
+    const EnvironmentScope scope(context);
     const Extent& extent = volume.info.extent;
     const Index3 radius = gaussian_radius(volume.info, sigma);
     Volume part = crop(volume, box);

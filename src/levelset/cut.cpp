@@ -5,6 +5,7 @@
 
 #include "critical/bodies.h"
 #include "field/slab_work.h"
+#include "isoatlas/environment.h"
 #include "levelset/components.h"
 #include "levelset/contour_counts.h"
 
@@ -118,6 +119,7 @@ Cut cut_level(const TauLevel& level, const CutOptions& options, const Context& c
 }
 
 Cut cut(const Volume& volume, double tau, const CutOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     const HighBits high = classify(volume, tau, context);
     return cut_level({volume, tau, high}, options, context);
 }

@@ -5,6 +5,7 @@
 #include "base/big_vector.h"
 #include "critical/bodies.h"
 #include "field/slab_work.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "mesh/cells.h"
 #include "mesh/count_cells.h"
@@ -218,6 +219,7 @@ void extract_level(const TauLevel& level, const ExtractOptions& options, const C
 }
 
 Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     const HighBits high = classify(volume, tau, context);
     return extract_level({volume, tau, high}, options, context);
 }

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "catalogue/longest_tunnels.h"
+#include "isoatlas/environment.h"
 #include "page/page_json.h"
 #include "page/template.h"
 
@@ -43,6 +44,7 @@ PageReport report_of(const PageContents& contents) {
 }  // namespace
 
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     check(options);
     if (page_template().empty()) {
         throw Error(ErrorKind::unsupported,

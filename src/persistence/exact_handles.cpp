@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/phase.h"
 #include "field/volume_view.h"
+#include "isoatlas/environment.h"
 #include "persistence/descending_disk.h"
 #include "persistence/handle_pairs.h"
 
@@ -143,6 +144,7 @@ void check_size(std::int64_t tunnels, std::int64_t max) {
 
 std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& analysis, const ExactHandles& options,
                                          const Context& context) {
+    const EnvironmentScope scope(context);
     check(volume, analysis, options);
     if (analysis.extent().rank == 2) return {};
     const double tunnel_height = tunnel_height_of(analysis.interpolant(), analysis.tunnel_height());

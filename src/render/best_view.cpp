@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "isoatlas/environment.h"
 #include "render/camera_rays.h"
 #include "render/ray_surfaces.h"
 #include "render/scene_box.h"
@@ -78,6 +79,7 @@ View view_from(double around, double above, const Vec3& up) {
 }
 
 View best_view(const Scene& scene, const Vec3& up, const Context& context) {
+    const EnvironmentScope scope(context);
     const SceneBox box = box_of(scene);
     const Frame frame{box.centre(), box.radius()};
     const std::vector<HalfSpace> none;

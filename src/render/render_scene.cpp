@@ -5,6 +5,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/phase.h"
+#include "isoatlas/environment.h"
 #include "render/film.h"
 #include "render/overlay.h"
 #include "render/scene_box.h"
@@ -86,6 +87,7 @@ Image blank_picture(const RenderOptions& options) {
 }
 
 Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     check_options(scene, options);
     const SceneBox box = box_of(scene);
     const Frame frame{box.centre(), box.radius()};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "isoatlas/environment.h"
 #include "render/colours.h"
 #include "render/pen.h"
 #include "render/vectors.h"
@@ -117,6 +118,7 @@ void check_slice(const Volume& volume, const SliceOptions& options) {
 }  // namespace
 
 SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     check_slice(volume, options);
     const Plane plane = plane_of(options.axis);
     const Extent& extent = volume.info.extent;

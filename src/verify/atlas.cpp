@@ -8,6 +8,7 @@
 #include "base/phase.h"
 #include "base/portable.h"
 #include "field/order.h"
+#include "isoatlas/environment.h"
 #include "verify/level_checks.h"
 #include "verify/store_checks.h"
 #include "verify/tree_checks.h"
@@ -124,6 +125,7 @@ void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analy
 }  // namespace
 
 std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     std::vector<CheckResult> results;
     const std::optional<Volume> samples = checksums_are_right(atlas, context, results);
     if (!samples) return results;

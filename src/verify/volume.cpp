@@ -2,12 +2,14 @@
 #include <string>
 
 #include "base/phase.h"
+#include "isoatlas/environment.h"
 #include "verify/level_checks.h"
 #include "verify/tree_checks.h"
 
 namespace isoatlas {
 
 std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     const Analysis analysis = analyse(volume, {.interpolant = options.interpolant, .tunnel_height = options.tunnel_height}, context);
     std::vector<CheckResult> results{join_tree_is_valid(analysis), zones_partition_voxels(analysis, volume), euler_sums_hold(analysis),
                                      contour_tree_is_a_tree(analysis), levels_match_events(analysis)};

@@ -25,7 +25,7 @@ LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for roo
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
-    "base": "array bounds context error id index3 output_file sink text version",
+    "base": "array bounds context environment error id index3 output_file sink text version",
     "field": "filter interpolant isovalue samples_wanted shell volume",
     "tree": "criticality",
     "analysis": "active analysis",
@@ -49,8 +49,8 @@ MAX_LINES = 400
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
 DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
-    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_limit\.cpp|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
-    r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_limit\.cpp|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
+    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
+    r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_(budgets\.h|limit\.cpp)|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
     r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/store/hdf5_layout\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
@@ -174,8 +174,28 @@ def findings_of(path, text):
     if path.startswith(("src/", "include/")):
         for number, line in enumerate(without_comments_and_strings(text).splitlines(), 1):
             for pattern, reason in FORBIDDEN_IN_SOURCE.items():
-                if re.search(pattern, line) and not path.startswith(("src/base/parallel", "src/base/memory_limit", "src/base/workers")):
+                if re.search(pattern, line) and not path.startswith(("src/base/parallel", "src/base/memory_", "src/base/workers")):
                     yield number, f"{re.search(pattern, line).group(0).strip()}: {reason}"
+
+
+PUBLIC_CALL = re.compile(r"^(?:class|struct) (\w+)[^;{]*\{|^\}|^[^/\n]*?\b(\w+)\((?:[^()]|\([^()]*\))*?const Context& context = \{\}", re.M)
+
+
+def without_scope(headers, sources):
+    """Public functions with a Context that do not begin with its environment; a Server keeps its context."""
+    for text in headers.values():
+        inside = None
+        for found in PUBLIC_CALL.finditer(text):
+            inside = found[1] if not found[2] else inside
+            if not found[2] or inside == "Server":
+                continue
+            name = f"{inside}::{found[2]}" if inside else found[2]
+            definition = re.compile(r"^(?:\S[^\n;={}]*[ &])?" + re.escape(name) + r"\(((?:[^;{}]|\{\})*?const Context& context[^;{}]*?\)[^;{}]*?)\{\n", re.M)
+            for path, source in sources.items():
+                for begin in definition.finditer(source):
+                    is_inner = "VolumeView&" in begin[1] or path.startswith("src/server/")
+                    if not is_inner and not source[begin.end():].startswith("    const EnvironmentScope scope(context);"):
+                        yield path, source.count("\n", 0, begin.start()) + 1, name
 
 
 def sources_of(root):
@@ -234,6 +254,11 @@ def check(root):
         count += 1
         relative = path.relative_to(root).as_posix()
         findings += [f"{relative}:{line}: {message}" for line, message in findings_of(relative, path.read_text(encoding="utf-8"))]
+    texts = {path.relative_to(root).as_posix(): path.read_text(encoding="utf-8") for path in sources_of(root)}
+    headers = {path: text for path, text in texts.items() if path.startswith("include/")}
+    sources = {path: text for path, text in texts.items() if path.startswith("src/") and path.endswith(".cpp")}
+    findings += [f"{path}:{line}: {name}: begin with const EnvironmentScope scope(context);"
+                 for path, line, name in without_scope(headers, sources)]
     for finding in findings:
         print(finding)
     print(f"layering: {count} files, {len(findings)} findings")
@@ -300,6 +325,11 @@ def self_test():
     if len(list(twice({"a.h": "struct A {\n", "b.h": "template <class T>\nclass A {\n", "c.h": "struct A;\nstruct B : C {\n"}))) != 1:
         wrong += 1
         print("self-test: a type that is declared twice is not found, or one that is not is")
+    header = "class A {\n    int f(int x, const Context& context = {}) const;\n};\nint g(const Context& context = {});\n"
+    good = "int A::f(int x, const Context& context) const {\n    const EnvironmentScope scope(context);\n"
+    if [name for *_, name in without_scope({"a.h": header}, {"a.cpp": good, "b.cpp": "int g(const Context& context) {\n    return 1;\n"})] != ["g"]:
+        wrong += 1
+        print("self-test: a call that leaves out its environment is not found, or one that does not is")
     print(f"layering self-test: {len(SNIPPETS)} snippets, {wrong} wrong")
     return 1 if wrong else 0
 

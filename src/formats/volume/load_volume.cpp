@@ -6,6 +6,7 @@
 #include "formats/common/missing.h"
 #include "formats/volume/load_samples.h"
 #include "formats/volume/read_slabs.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -67,6 +68,7 @@ VolumeInfo load_samples(VolumeReader& reader, const MissingPolicy& missing, cons
 }
 
 Volume load_volume(VolumeReader& reader, const MissingPolicy& missing, const Context& context) {
+    const EnvironmentScope scope(context);
     Volume volume;
     const Allocate allocate = [&volume](std::size_t bytes) {
         volume.bytes.resize(bytes);
@@ -77,6 +79,7 @@ Volume load_volume(VolumeReader& reader, const MissingPolicy& missing, const Con
 }
 
 Volume load_volume(const std::string& path, const OpenOptions& options, const MissingPolicy& missing, const Context& context) {
+    const EnvironmentScope scope(context);
     const std::unique_ptr<VolumeReader> reader = open_volume(path, options);
     return load_volume(*reader, missing, context);
 }
