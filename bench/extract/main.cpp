@@ -30,7 +30,7 @@ struct Arguments {
     int repeats = 5;
     bool check = false;
     isoatlas::Context context;
-    isoatlas::ExtractOptions options;
+    isoatlas::SurfaceOptions options;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -126,7 +126,7 @@ void measure(const Arguments& arguments) {
     for (int i = 0; i < arguments.repeats; ++i) {
         surface = {};
         const auto start = std::chrono::steady_clock::now();
-        surface = isoatlas::extract(volume, arguments.tau, arguments.options, arguments.context);
+        surface = isoatlas::extract(volume, arguments.tau, {.surface = arguments.options}, arguments.context);
         seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     ordered_json result{{"seconds", seconds}, {"points", surface.points.size()}, {"triangles", surface.triangles.size()}};

@@ -111,9 +111,8 @@ void measure(Arguments arguments) {
     if (arguments.surface) {
         phases.begin("extract");
         if (table.entries.empty()) throw std::runtime_error("no object");
-        isoatlas::ExtractOptions options;
-        options.ids = false;
-        isoatlas::Surface surface = isoatlas::extract(volume, table.entries[0].best_tau, options, arguments.context);
+        isoatlas::Surface surface = isoatlas::extract(volume, table.entries[0].best_tau,
+                                                      {.surface = {.objects = {}, .contours = {}, .ids = false}}, arguments.context);
         scene.objects.push_back({.surface = std::move(surface), .colour = isoatlas::palette(0)});
         phases.end();
     } else {

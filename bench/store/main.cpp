@@ -82,7 +82,7 @@ double seconds_of(const Work& work) {
 }
 
 /// A query of an open store, with the file's pages in memory: without bricks, then with those that it needs.
-ordered_json measure_warm(const Arguments& arguments, const isoatlas::ExtractOptions& options) {
+ordered_json measure_warm(const Arguments& arguments, const isoatlas::SurfaceOptions& options) {
     ordered_json result{{"open", ordered_json::array()}, {"warm", ordered_json::array()}, {"again", ordered_json::array()}};
     Surface surface;
     const auto extract = [&](const Atlas& atlas) { surface = atlas.extract(arguments.tau(), options, arguments.context); };
@@ -107,7 +107,7 @@ ordered_json measure_warm(const Arguments& arguments, const isoatlas::ExtractOpt
 }
 
 /// Opening and the first query, the file's pages dropped.
-void measure_cold(const Arguments& arguments, const isoatlas::ExtractOptions& options, ordered_json& result) {
+void measure_cold(const Arguments& arguments, const isoatlas::SurfaceOptions& options, ordered_json& result) {
     for (int i = 0; i < arguments.repeats; ++i) {
         drop_pages(arguments.word(1));
         const std::int64_t before = bytes_from_disk();
@@ -120,7 +120,7 @@ void measure_cold(const Arguments& arguments, const isoatlas::ExtractOptions& op
     }
 }
 
-ordered_json measure(const Arguments& arguments, const isoatlas::ExtractOptions& options) {
+ordered_json measure(const Arguments& arguments, const isoatlas::SurfaceOptions& options) {
     ordered_json result = measure_warm(arguments, options);
     measure_cold(arguments, options, result);
     return result;
@@ -142,8 +142,8 @@ ordered_json build(const Arguments& arguments) {
             {"sample_bytes", isoatlas::size_of(volume.info.type)}};
 }
 
-isoatlas::ExtractOptions without_ids() {
-    isoatlas::ExtractOptions options;
+isoatlas::SurfaceOptions without_ids() {
+    isoatlas::SurfaceOptions options;
     options.ids = false;
     return options;
 }
@@ -156,7 +156,7 @@ ordered_json surface(const Arguments& arguments) {
 
 /// Steps in one direction, as a key that is held down makes them: each meets bricks that none before has read.
 ordered_json measure_steps(const Arguments& arguments) {
-    const isoatlas::ExtractOptions options = without_ids();
+    const isoatlas::SurfaceOptions options = without_ids();
     const Atlas walked(arguments.word(1)), fresh(arguments.word(1));
     isoatlas::Navigator navigator(walked, options);
     const std::array<double, 2> range = walked.range();
@@ -179,7 +179,7 @@ ordered_json object(const Arguments& arguments) {
     const auto distance = [&](const isoatlas::CutObject& o) { return std::abs(o.voxels - arguments.voxels); };
     const isoatlas::CutObject& chosen =
         *std::min_element(cut.objects.begin(), cut.objects.end(), [&](const auto& p, const auto& q) { return distance(p) < distance(q); });
-    isoatlas::ExtractOptions options = without_ids();
+    isoatlas::SurfaceOptions options = without_ids();
     options.objects = {chosen.id};
     ordered_json result = measure(arguments, options);
     result["object_voxels"] = chosen.voxels;
@@ -191,10 +191,10 @@ ordered_json check(const Arguments& arguments) {
     const Atlas atlas(arguments.word(1));
     bool same = true;
     for (const isoatlas::Boundary boundary : {isoatlas::Boundary::closed, isoatlas::Boundary::open}) {
-        isoatlas::ExtractOptions options = without_ids();
+        isoatlas::SurfaceOptions options = without_ids();
         options.boundary = boundary;
         const Surface own = atlas.extract(arguments.tau(), options, arguments.context);
-        const Surface other = isoatlas::extract(volume, arguments.tau(), options, arguments.context);
+        const Surface other = isoatlas::extract(volume, arguments.tau(), {.surface = options}, arguments.context);
         same = same && own.points == other.points && own.triangles == other.triangles && own.normals == other.normals;
     }
     return {{"same_as_the_volume", same}};

@@ -70,6 +70,11 @@ struct AtlasOptions {
     std::int64_t cache_bytes = 0;
 };
 
+/// As CutOptions, with the interpolant of the store.
+struct AtlasCutOptions {
+    bool label = false;  ///< fill Cut::label (4 bytes a voxel)
+};
+
 /// A store, open for reading. Queries are thread safe.
 class Atlas {
 public:
@@ -90,10 +95,10 @@ public:
     /// Does it hold the values that this version would compute from its samples? Not before version 3: saddles were rounded differently.
     [[nodiscard]] bool has_present_values() const;
 
-    /// The same as cut() and extract() of the volume, with the interpolant of the store; that of the options is ignored. Bricks that the
-    /// isovalue does not divide and that no active cell touches are not read. What the query has cost is added to `cost`.
-    [[nodiscard]] Cut cut(double tau, const CutOptions& options = {}, const Context& context = {}, QueryCost* cost = nullptr) const;
-    [[nodiscard]] Surface extract(double tau, const ExtractOptions& options = {}, const Context& context = {},
+    /// The same as cut() and extract() of the volume, with the interpolant of the store. Bricks that the isovalue does not divide and that
+    /// no active cell touches are not read. What the query has cost is added to `cost`.
+    [[nodiscard]] Cut cut(double tau, const AtlasCutOptions& options = {}, const Context& context = {}, QueryCost* cost = nullptr) const;
+    [[nodiscard]] Surface extract(double tau, const SurfaceOptions& options = {}, const Context& context = {},
                                   QueryCost* cost = nullptr) const;
 
     /// The objects and contours at an isovalue, as in cut(), from the trees alone: no brick is read. Throws Error: usage (tau is not

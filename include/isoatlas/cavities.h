@@ -14,7 +14,7 @@
 
 namespace isoatlas {
 
-/// One cavity and the isovalue that shows it best. Its wall: extract() at best_tau with ExtractOptions::contours = {id}.
+/// One cavity and the isovalue that shows it best. Its wall: extract() at best_tau with SurfaceOptions::contours = {id}.
 struct CavityEntry {
     std::int64_t id;                 ///< index of its lowest voxel at best_tau: that of the contour around it (CutContour::id)
     double appears;                  ///< stored values: it is on its own for tau in (appears, merges]

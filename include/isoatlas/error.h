@@ -2,10 +2,15 @@
 //
 // Bad input is a reported fact: what happened, in which file and where, what was expected, what to do next.
 // Every public function may throw isoatlas::Error and nothing else of ours; a bug is a failed check (kind internal).
+// The texts speak of the API. A program with a user interface of its own (isoatlas, a binding) looks at the reason, and says which of its
+// own options or buttons helps.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace isoatlas {
 
@@ -21,13 +26,85 @@ enum class ErrorKind : int {
     cancelled = 130    ///< stopped by the user
 };
 
+/// Why an operation failed, for programs: one reason for each thing that a caller can do about it. Names are stable, numbers are not.
+enum class Reason : std::uint16_t {
+    none,  ///< only the text says it
+
+    // Input
+    raw_layout_unknown,      ///< RAW: OpenOptions::dims or type is missing; value: name of a sidecar that could hold them
+    raw_has_header,          ///< another file describes this RAW file; value: that file
+    raw_type_differs,        ///< the size of the RAW file fits these dims with another type; value: the types
+    raw_last_size_differs,   ///< the same with another size of the last axis; value: that size
+    raw_sizes_differ,        ///< the same with other sizes; value: NXxNYxNZ
+    raw_has_more,            ///< a RAW file is longer than its samples; value: OpenOptions::skip_bytes if they are its end
+    raw_size_differs,        ///< the size of the RAW file fits nothing near these options
+    wrong_dimension,         ///< OpenOptions::dims has not 2 or 3 sizes
+    zero_spacing,            ///< OpenOptions::spacing has an axis without a distance
+    skip_exceeds_file,       ///< OpenOptions::skip_bytes is not in the file
+    contradicts_sidecar,     ///< an option says something else than the sidecar; value: member of OpenOptions
+    contradicts_header,      ///< the same for the header of a file that is not RAW
+    sidecar_invalid,         ///< the sidecar of a RAW file cannot be understood
+    unknown_format,          ///< not a format that is read; value: the nearest known extension, or empty
+    foreign_format,          ///< the same, with advice how to convert it
+    analyze_pair,            ///< the samples of an Analyze pair: RAW with a header that is not read
+    bytes_after_samples,     ///< OpenOptions::skip_rest ignores them
+    file_outside_folder,     ///< a header names a file outside its folder; OpenOptions::follow_links allows it
+    time_step_needed,        ///< the file has more than one volume; value: the last OpenOptions::time_step
+    no_such_time_step,       ///< OpenOptions::time_step is larger than the last one, which is the value
+    no_time_steps,           ///< the file has one volume
+    missing_samples,         ///< NaN, infinite or no-data values; MissingPolicy says what to put in their place
+    only_missing_samples,    ///< there are no others
+    replacement_not_stored,  ///< MissingPolicy::value is not a value of the type of the samples
+    no_value_below,          ///< MissingPolicy::Action::below: the type has no value below the lowest sample, which is the value
+    unequal_spacing,         ///< the samples of a volume that is filtered are not equally spaced
+    not_a_store,
+    unknown_store_version,
+    no_such_part,  ///< of a store: StoreDump::parts() lists them
+
+    // Resources
+    not_enough_memory,        ///< the system has no more
+    memory_budget_too_small,  ///< for a build; the message has the smallest one
+    no_scratch_space,         ///< the disk has no room for a store and its scratch file
+    threads_refused,          ///< by the system
+    disk_full,                ///< an output
+    file_too_large,           ///< an output, for its file system
+    folder_missing,           ///< of an output
+    not_permitted,            ///< to write in this folder
+    disk_read_only,           ///< of an output
+    output_is_folder,         ///< an output has the name of a folder
+    output_refused,           ///< an output would replace what is not a regular file of this user
+    output_read_only,         ///< an output is there and may not be written to
+    build_folder_taken,       ///< the folder of a build is something else
+    store_being_built,        ///< by another process
+    too_many_triangles,       ///< more than SurfaceOptions::max_triangles
+
+    // Server
+    port_in_use,
+    no_server,          ///< none answers at this address
+    no_token,           ///< for the server at this address
+    not_an_address,     ///< of a server
+    token_wrong,        ///< or missing
+    labels_too_large,   ///< for the memory of the server
+    not_in_space,       ///< the curves of a 2D image are not a surface
+    built_without_web,  ///< this build of isoatlas has no pages
+
+    bug  ///< of isoatlas
+};
+
+/// "raw_layout_unknown", ...; "none".
+[[nodiscard]] const char* name_of(Reason reason);
+/// nullopt: there is no reason of this name.
+[[nodiscard]] std::optional<Reason> reason_of(std::string_view name);
+
 /// The parts of an error message. Empty parts are left out.
 struct ErrorText {
     std::string file{};      ///< path of the file concerned
     std::string where{};     ///< offset, line, field or voxel
     std::string what{};      ///< what happened
     std::string expected{};  ///< what was expected instead
-    std::string next{};      ///< what the user can do
+    std::string next{};      ///< what the caller can do, in words of the API
+    Reason reason = Reason::none;
+    std::string value{};  ///< that goes with the reason (see there); not part of the message
 };
 
 /// "FILE: WHERE: WHAT (expected EXPECTED). Next: NEXT"
@@ -38,6 +115,7 @@ public:
     Error(ErrorKind kind, ErrorText text);
     [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
     [[nodiscard]] const ErrorText& text() const noexcept { return text_; }
+    [[nodiscard]] Reason reason() const noexcept { return text_.reason; }
 
 private:
     ErrorKind kind_;

@@ -17,8 +17,8 @@ namespace isoatlas {
 /// Navigators may use one Atlas at once.
 class Navigator {
 public:
-    /// The atlas must live as long as this. options: as for extract(); objects select what is shown, see show(). Reads nothing.
-    explicit Navigator(const Atlas& atlas, const ExtractOptions& options = {});
+    /// The atlas must live as long as this. options: as for Atlas::extract(); objects select what is shown, see show(). Reads nothing.
+    explicit Navigator(const Atlas& atlas, const SurfaceOptions& options = {});
     Navigator(Navigator&&) noexcept;
     Navigator& operator=(Navigator&&) noexcept;
     ~Navigator();
@@ -32,7 +32,7 @@ public:
     const Surface& go_to(double tau, const Context& context = {});
     /// Moves by a difference, up or down. Throws Error{usage} before the first go_to().
     const Surface& step(double delta, const Context& context = {});
-    /// Shows some objects only (any voxel index in each, as in ExtractOptions; none: all) at an isovalue, and from then on.
+    /// Shows some objects only (any voxel index in each, as in SurfaceOptions; none: all) at an isovalue, and from then on.
     const Surface& show(std::vector<std::int64_t> objects, double tau, const Context& context = {});
 
     /// Moves to the next isovalue at which something happens: with one object shown by its id (its highest voxel), to this object, else

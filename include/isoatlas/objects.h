@@ -14,7 +14,7 @@ namespace isoatlas {
 
 /// One entry of the table: a branch of the criticality tree and the isovalue that shows it best.
 struct ObjectEntry {
-    std::int64_t id;                 ///< index of the highest voxel of the object at best_tau, for ExtractOptions::objects
+    std::int64_t id;                 ///< index of the highest voxel of the object at best_tau, for SurfaceOptions::objects
     EventId event;                   ///< the event whose zone contains best_tau
     double appears, merges;          ///< stored values: the object is on its own for tau in (merges, appears]; merges = -infinity: never
     double best_tau;                 ///< stored value

@@ -42,9 +42,8 @@ enum class Boundary : std::uint8_t { closed, open };
 enum class SurfaceStyle : std::uint8_t { compact, full };
 enum class ShellChoice : std::uint8_t { all, outer, inner };
 
-struct ExtractOptions {
-    Interpolant interpolant = Interpolant::trilinear;
-    double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
+/// What to extract and how it is triangulated.
+struct SurfaceOptions {
     Boundary boundary = Boundary::closed;
     SurfaceStyle style = SurfaceStyle::compact;
     std::vector<std::int64_t> objects;   ///< voxel indices: the objects at tau that contain them; empty: all
@@ -53,6 +52,13 @@ struct ExtractOptions {
     bool normals = true;
     bool ids = true;                 ///< fill Surface::object and Surface::contour
     std::int64_t max_triangles = 0;  ///< more (2D: segments) are refused before memory is taken for them; 0: any number
+};
+
+/// Of a volume: a store has the interpolant that it was built with, and takes SurfaceOptions.
+struct ExtractOptions {
+    Interpolant interpolant = Interpolant::trilinear;
+    double tunnel_height = 0;  ///< trilinear: tunnels of at most this height (difference of stored values) are left out
+    SurfaceOptions surface{};
 };
 
 /// Cost: O(volume) scan plus O(surface). Throws Error: not_found for an object or contour that does not exist at tau, resource

@@ -25,8 +25,11 @@ struct VerifyOptions {
     int levels = 8;  ///< isovalues to compare at
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;  ///< of AnalysisOptions
+};
 
-    // of stores only
+/// Of a store, which has the interpolant that it was built with.
+struct AtlasVerifyOptions {
+    int levels = 8;          ///< isovalues to compare at
     bool full = false;       ///< every object at every isovalue, and the tree made anew from the samples
     std::uint64_t seed = 1;  ///< chooses isovalues and objects
     int objects = 3;         ///< to compare at each isovalue, unless full
@@ -44,6 +47,7 @@ struct VerifyOptions {
 /// surface. full: all objects, zones, and every stored number against a new build from the samples; of a store that does not hold the
 /// present values (Atlas::has_present_values()) only what has always been the same. A check that finds the store unreadable fails with what
 /// and where. Throws Error: cancelled, resource. Cost: reads the store once; O(volume) time an isovalue.
-[[nodiscard]] std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options = {}, const Context& context = {});
+[[nodiscard]] std::vector<CheckResult> verify_atlas(const Atlas& atlas, const AtlasVerifyOptions& options = {},
+                                                    const Context& context = {});
 
 }  // namespace isoatlas

@@ -77,12 +77,13 @@ struct Atlas::Data {
     std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost) {
         LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
-        const std::optional<StoredWindow> window = window_of_object(*samples, options.objects[0], tau, height, context, spent);
+        std::vector<std::int64_t>& objects = options.surface.objects;
+        const std::optional<StoredWindow> window = window_of_object(*samples, objects[0], tau, height, context, spent);
         if (!window) {
             count(spent, 0, cost);
             return std::nullopt;
         }
-        options.objects = {local_voxel(*window, options.objects[0])};
+        objects = {local_voxel(*window, objects[0])};
         Surface surface;
         std::int64_t active = 0;
         extract_level(window->at(tau), options, context, surface, cost == nullptr ? nullptr : &active);
@@ -93,13 +94,13 @@ struct Atlas::Data {
         return surface;
     }
 
-    /// Runs query(level, active): sets the number of active cells; may be null. named: does it need representatives?
+    /// Runs query(level, active): sets the number of active cells; may be null.
     template <class Query>
-    auto at_level(double tau, bool named, const Context& context, QueryCost* cost, Query&& query) {
+    auto at_level(double tau, bool with_representatives, const Context& context, QueryCost* cost, Query&& query) {
         LevelQuery spent;
         std::int64_t active = 0;
         StoredLevel level = samples->classify(tau, context, spent);
-        if (named) samples->add_extremes(level.bricks, context);
+        if (with_representatives) samples->add_extremes(level.bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, spent); };
         auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample}, cost == nullptr ? nullptr : &active);
         count(spent, active, cost);
@@ -125,10 +126,9 @@ const VolumeInfo& Atlas::info() const { return data_->store.contents().volume; }
 Interpolant Atlas::interpolant() const { return data_->store.contents().parameters.interpolant; }
 double Atlas::tunnel_height() const { return data_->store.contents().parameters.tunnel_height; }
 
-Cut Atlas::cut(double tau, const CutOptions& options, const Context& context, QueryCost* cost) const {
+Cut Atlas::cut(double tau, const AtlasCutOptions& options, const Context& context, QueryCost* cost) const {
     const EnvironmentScope scope(context);
-    CutOptions own = options;
-    own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
+    const CutOptions own{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = options.label};
     return data_->at_level(tau, true, context, cost, [&](const TauLevel& level, std::int64_t* active) {
         Cut cut = cut_level(level, own, context);
         if (active != nullptr) *active = cut.active_cells;
@@ -136,15 +136,14 @@ Cut Atlas::cut(double tau, const CutOptions& options, const Context& context, Qu
     });
 }
 
-Surface Atlas::extract(double tau, const ExtractOptions& options, const Context& context, QueryCost* cost) const {
+Surface Atlas::extract(double tau, const SurfaceOptions& options, const Context& context, QueryCost* cost) const {
     const EnvironmentScope scope(context);
-    ExtractOptions own = options;
-    own.interpolant = interpolant(), own.tunnel_height = tunnel_height();
-    if (own.objects.size() == 1 && own.contours.empty() && std::isfinite(tau)) {
+    const ExtractOptions own{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options};
+    if (options.objects.size() == 1 && options.contours.empty() && std::isfinite(tau)) {
         std::optional<Surface> surface = data_->extract_object(tau, own, context, cost);
         if (surface) return std::move(*surface);
     }
-    return data_->at_level(tau, needs_names(own), context, cost, [&](const TauLevel& level, std::int64_t* active) {
+    return data_->at_level(tau, needs_representatives(options), context, cost, [&](const TauLevel& level, std::int64_t* active) {
         Surface surface;
         extract_level(level, own, context, surface, active);
         return surface;

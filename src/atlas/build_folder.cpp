@@ -18,19 +18,22 @@ namespace {
 
 constexpr const char* kLock = "lock";
 constexpr std::chrono::seconds kSayEvery{1};
+constexpr const char* kOtherFile = "rename or remove it, or build to another file";
 
 [[noreturn]] void cannot_make(const std::string& path, int error) {
-    const char* in_the_way = "choose another folder with -o, or remove it";
+    const bool is_taken = error == -ENOTDIR;
     throw Error(ErrorKind::resource, {.file = path,
                                       .what = std::string("cannot create the folder of the build: ") + std::strerror(-error),
-                                      .next = error == -ENOTDIR ? in_the_way : next_step_after(error)});
+                                      .next = is_taken ? kOtherFile : next_step_after(error),
+                                      .reason = is_taken ? Reason::build_folder_taken : reason_after(error)});
 }
 
 [[noreturn]] void not_ours(const std::string& path, const std::string& what) {
     throw Error(ErrorKind::resource, {.file = path,
                                       .what = what,
                                       .expected = "the folder that a build makes for itself",
-                                      .next = "rename or remove it, or build to another file with -o"});
+                                      .next = kOtherFile,
+                                      .reason = Reason::build_folder_taken});
 }
 
 bool is_phase(std::string_view name) { return name == "trees" || name == "zones"; }
@@ -87,7 +90,8 @@ void BuildFolder::lock(const std::string& store_path) {
         const std::string who = holder_in(text_of(file(kLock)));
         throw Error(ErrorKind::resource, {.file = store_path,
                                           .what = "is being built by another process" + (who.empty() ? "" : ", " + who),
-                                          .next = "wait until it is done, or build to another file with -o"});
+                                          .next = "wait until it is done, or build to another file",
+                                          .reason = Reason::store_being_built});
     }
     if (lock.error == -EPERM) not_ours(file(kLock), "is a link, not a regular file, or one with other hard links or of another user");
     if (!lock.file) cannot_make(path_, lock.error);

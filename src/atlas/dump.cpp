@@ -76,7 +76,8 @@ struct StoreDump::Data {
                                            .where = part,
                                            .what = what,
                                            .expected = expected,
-                                           .next = "isoatlas dump " + store.path() + " lists the parts with their sizes"});
+                                           .next = "choose one of the parts of the store",
+                                           .reason = Reason::no_such_part});
     }
 
     [[nodiscard]] const StoredArray* array(std::string_view name) const {

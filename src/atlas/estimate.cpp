@@ -104,13 +104,15 @@ void check_estimate(const BuildEstimate& estimate, const std::string& volume_pat
         throw Error(ErrorKind::resource, {.file = volume_path,
                                           .what = "a memory budget of " + std::to_string(estimate.budget >> 20) + " MiB is too small",
                                           .expected = std::to_string((estimate.min_memory + (1 << 20) - 1) >> 20) + " MiB or more",
-                                          .next = "give a larger --memory, or fewer --threads"});
+                                          .next = "allow more memory, or use fewer threads",
+                                          .reason = Reason::memory_budget_too_small});
     }
     if (estimate.disk > estimate.disk_free) {
         throw Error(ErrorKind::resource, {.file = path,
                                           .what = "the disk has " + std::to_string(estimate.disk_free >> 20) + " MiB left",
                                           .expected = "about " + std::to_string(estimate.disk >> 20) + " MiB for store and scratch file",
-                                          .next = "free some space, choose another folder with -o, or allow more --memory"});
+                                          .next = "free some space, build on another disk, or allow more memory",
+                                          .reason = Reason::no_scratch_space});
     }
 }
 

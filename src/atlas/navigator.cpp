@@ -20,19 +20,17 @@ struct Navigator::Data {
     std::int64_t changed_bricks = 0;
     QueryCost cost{};
 
-    Data(const Atlas& from, const ExtractOptions& how) : atlas(from), options(how) {
-        options.interpolant = from.interpolant();
-        options.tunnel_height = from.tunnel_height();
-    }
+    Data(const Atlas& from, const SurfaceOptions& how)
+        : atlas(from), options{.interpolant = from.interpolant(), .tunnel_height = from.tunnel_height(), .surface = how} {}
 
     /// A single object is extracted from the bricks around it, independent of the previous state.
-    [[nodiscard]] bool shows_one() const { return options.objects.size() == 1 && options.contours.empty(); }
+    [[nodiscard]] bool shows_one() const { return options.surface.objects.size() == 1 && options.surface.contours.empty(); }
 
     void move(double to, const Context& context) {
         before = std::exchange(tau, std::nullopt);
         cost = {};
         if (shows_one()) {
-            surface = atlas.extract(to, options, context, &cost);
+            surface = atlas.extract(to, options.surface, context, &cost);
             changed_bricks = 0;
         } else {
             extract_all(to, context);
@@ -46,7 +44,7 @@ struct Navigator::Data {
         StoredSamples& samples = AtlasAccess::samples(atlas);
         KeptLevel next = std::exchange(level, {});  // reset when anything throws
         changed_bricks = samples.reclassify(next, to, context, spent);
-        if (needs_names(options)) samples.add_extremes(next.level->bricks, context);
+        if (needs_representatives(options.surface)) samples.add_extremes(next.level->bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
         extract_level(TauLevel{samples.view(), to, next.level->high, &next.level->bricks, {}, sample}, options, context, surface, &active);
         level = std::move(next);
@@ -58,7 +56,7 @@ struct Navigator::Data {
         if (!shows_one()) return std::nullopt;
         const ActiveObjects active = atlas.active(*tau, false);
         const auto found = std::find_if(active.objects.begin(), active.objects.end(),
-                                        [this](const ActiveObject& object) { return object.id == options.objects[0]; });
+                                        [this](const ActiveObject& object) { return object.id == options.surface.objects[0]; });
         return found == active.objects.end() ? std::nullopt : std::optional(*found);
     }
 
@@ -74,7 +72,7 @@ struct Navigator::Data {
     }
 };
 
-Navigator::Navigator(const Atlas& atlas, const ExtractOptions& options) : data_(std::make_unique<Data>(atlas, options)) {}
+Navigator::Navigator(const Atlas& atlas, const SurfaceOptions& options) : data_(std::make_unique<Data>(atlas, options)) {}
 Navigator::Navigator(Navigator&&) noexcept = default;
 Navigator& Navigator::operator=(Navigator&&) noexcept = default;
 Navigator::~Navigator() = default;
@@ -96,7 +94,7 @@ const Surface& Navigator::step(double delta, const Context& context) {
 
 const Surface& Navigator::show(std::vector<std::int64_t> objects, double tau, const Context& context) {
     const EnvironmentScope scope(context);
-    data_->options.objects = std::move(objects);
+    data_->options.surface.objects = std::move(objects);
     return go_to(tau, context);
 }
 

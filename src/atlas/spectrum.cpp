@@ -96,12 +96,7 @@ Context quiet(const Context& context) {
     return part;
 }
 
-ExtractOptions bare(Interpolant interpolant, double tunnel_height) {
-    ExtractOptions options;
-    options.interpolant = interpolant, options.tunnel_height = tunnel_height;
-    options.normals = options.ids = false;
-    return options;
-}
+SurfaceOptions bare() { return {.objects = {}, .contours = {}, .normals = false, .ids = false}; }
 
 /// The counts come first.
 constexpr PhasePlan<2> kSpectrumPhases{{"counts", "surfaces"}};
@@ -129,7 +124,7 @@ Spectrum spectrum(const Volume& volume, const Analysis& analysis, const Spectrum
         return std::pair(static_cast<double>(min), static_cast<double>(max));
     });
     const std::vector<double> taus = isovalues(low, high, options.samples);
-    const ExtractOptions how = bare(analysis.interpolant(), analysis.tunnel_height());
+    const ExtractOptions how{.interpolant = analysis.interpolant(), .tunnel_height = analysis.tunnel_height(), .surface = bare()};
     Surface surface;
     spectrum.sizes = measure_all(taus, context, [&](double tau) {
         std::int64_t cells = 0;
@@ -151,7 +146,7 @@ Spectrum spectrum(const Atlas& atlas, const SpectrumOptions& options, const Cont
     Spectrum spectrum = count(AtlasAccess::analysis(atlas), table);
     spectrum.selected = options.selection.has_value();
     const auto [low, high] = atlas.range();
-    Navigator navigator(atlas, bare(atlas.interpolant(), atlas.tunnel_height()));
+    Navigator navigator(atlas, bare());
     spectrum.sizes = measure_all(isovalues(low, high, options.samples), context, [&](double tau) {
         const Surface& surface = navigator.go_to(tau, quiet(context));
         return size_at(surface, atlas.preview(tau).voxels, navigator.cost().cells_active, context);

@@ -158,9 +158,10 @@ void AtomicFile::require(int error, const char* action) const {
 }
 
 void AtomicFile::fail(const char* action, int error) const {
-    throw Error(
-        ErrorKind::resource,
-        {.file = name(), .what = std::string(action) + ": " + std::system_category().message(-error), .next = next_step_after(error)});
+    throw Error(ErrorKind::resource, {.file = name(),
+                                      .what = std::string(action) + ": " + std::system_category().message(-error),
+                                      .next = next_step_after(error),
+                                      .reason = reason_after(error)});
 }
 
 }  // namespace isoatlas

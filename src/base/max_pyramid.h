@@ -11,8 +11,8 @@
 
 namespace isoatlas {
 
-/// Further: std::greater (far is large) or std::less (far is small). The entries must live as long as this.
-template <class T, class Further>
+/// Compare: std::greater for maxima, std::less for minima. The entries must live as long as this.
+template <class T, class Compare>
 class MaxPyramid {
 public:
     /// Cost: O(entries).
@@ -21,19 +21,19 @@ public:
         while (below.size() > 1) {
             std::vector<T> level((below.size() + kGroup - 1) / kGroup);
             for (std::size_t i = 0; i < below.size(); ++i) {
-                T& furthest = level[i / kGroup];
-                if (i % kGroup == 0 || Further()(below[i], furthest)) furthest = below[i];
+                T& extreme = level[i / kGroup];
+                if (i % kGroup == 0 || Compare()(below[i], extreme)) extreme = below[i];
             }
             levels_.push_back(std::move(level));
             below = levels_.back();
         }
     }
 
-    /// Calls visit(i), i ascending, for the i in [begin, end) whose entry is at least as far as the limit.
+    /// Calls visit(i), i ascending, for the i in [begin, end) whose entry reaches the limit.
     /// Cost: O((1 + visits) log entries).
     template <class Visit>
     void for_each_at_least(std::size_t begin, std::size_t end, T limit, Visit&& visit) const {
-        const auto reaches = [limit](const T& entry) { return !Further()(limit, entry); };
+        const auto reaches = [limit](const T& entry) { return !Compare()(limit, entry); };
         for (std::size_t i = begin; i < end;) {
             const std::size_t step = empty_group(i, reaches);
             if (step == 0 && reaches(entries_[i])) visit(i);

@@ -13,11 +13,13 @@ namespace {
 
 using Kind = FileStatus::Kind;
 constexpr int kMaxLinks = 40;  // as many as the system follows
-constexpr const char* kOtherName = "choose another name with -o";
+constexpr const char* kOtherName = "choose another name";
 
 bool is_own_descriptor(const std::string& path) { return path == "/dev/stdout" || path.starts_with("/dev/fd/"); }
 
-Obstacle refused_by_system(int error) { return {"cannot be written: " + std::system_category().message(-error), next_step_after(error)}; }
+Obstacle refused_by_system(int error) {
+    return {"cannot be written: " + std::system_category().message(-error), next_step_after(error), reason_after(error)};
+}
 
 std::string octal(unsigned mode) {
     std::string digits;
@@ -31,12 +33,15 @@ Obstacle obstacle_at(const OutputTarget& target, bool behind_link) {
     const std::string place = behind_link ? "is a link to " + target.path + ", which " : "";
     if (status.kind == Kind::missing && status.error != -ENOENT) return refused_by_system(status.error);
     if (status.kind == Kind::missing && behind_link) return {place + "is not there", "remove the link, or name the file itself"};
-    if (status.kind == Kind::folder) return {place + "cannot be written: is a directory", next_step_after(-EISDIR)};
-    if (status.kind == Kind::other) return {place + "is not a regular file but a device, a pipe or a socket", kOtherName};
-    if (status.kind == Kind::regular && behind_link && !status.own) return {place + "belongs to another user", kOtherName};
+    if (status.kind == Kind::folder)
+        return {place + "cannot be written: is a directory", next_step_after(-EISDIR), Reason::output_is_folder};
+    if (status.kind == Kind::other)
+        return {place + "is not a regular file but a device, a pipe or a socket", kOtherName, Reason::output_refused};
+    if (status.kind == Kind::regular && behind_link && !status.own)
+        return {place + "belongs to another user", kOtherName, Reason::output_refused};
     if (status.kind == Kind::regular && !status.writable)
         return {place + "is there and may not be written to (permissions " + octal(status.mode) + ")",
-                "choose another name with -o, or allow it with chmod u+w"};
+                "choose another name, or allow writing to it", Reason::output_read_only};
     return {};
 }
 
@@ -44,7 +49,7 @@ Obstacle obstacle_of_folder(const std::string& path) {
     const FileStatus folder = file_system().status(folder_of(path));
     if (folder.kind == Kind::missing) return refused_by_system(folder.error);
     if (folder.kind != Kind::folder) return refused_by_system(-ENOTDIR);
-    if (!folder.writable) return {"lies in a folder that may not be written to", next_step_after(-EACCES)};
+    if (!folder.writable) return {"lies in a folder that may not be written to", next_step_after(-EACCES), Reason::not_permitted};
     return {};
 }
 
@@ -63,7 +68,21 @@ std::string next_step_after(int error) {
         case EWOULDBLOCK: return "wait until the other program has finished, or choose another name";
         case ENAMETOOLONG: return "choose a shorter name";
         case ELOOP: return "remove the links, which go in circles, or choose another name";
-        default: return "check the disk and the folder, then run the command again";
+        default: return "check the disk and the folder, then try again";
+    }
+}
+
+Reason reason_after(int error) {
+    switch (-error) {
+        case ENOSPC:
+        case EDQUOT: return Reason::disk_full;
+        case EFBIG: return Reason::file_too_large;
+        case ENOENT: return Reason::folder_missing;
+        case EACCES:
+        case EPERM: return Reason::not_permitted;
+        case EROFS: return Reason::disk_read_only;
+        case EISDIR: return Reason::output_is_folder;
+        default: return Reason::none;
     }
 }
 
@@ -76,7 +95,7 @@ OutputTarget find_target(const std::string& path, Obstacle& obstacle) {
             obstacle = obstacle_at(target, links > 0);
             break;
         }
-        if (!target.status.trusted) obstacle = {"is a link that another user made", kOtherName};
+        if (!target.status.trusted) obstacle = {"is a link that another user made", kOtherName, Reason::output_refused};
         if (links == kMaxLinks) obstacle = refused_by_system(-ELOOP);
         if (!obstacle.what.empty()) return target;
         const std::filesystem::path link = file_system().link(target.path);
@@ -89,7 +108,8 @@ OutputTarget find_target(const std::string& path, Obstacle& obstacle) {
 OutputTarget require_target(const std::string& path) {
     Obstacle obstacle;
     OutputTarget target = find_target(path, obstacle);
-    if (!obstacle.what.empty()) throw Error(ErrorKind::resource, {.file = path, .what = obstacle.what, .next = obstacle.next});
+    if (!obstacle.what.empty())
+        throw Error(ErrorKind::resource, {.file = path, .what = obstacle.what, .next = obstacle.next, .reason = obstacle.reason});
     return target;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/file_system.h"
+#include "isoatlas/error.h"
 
 namespace isoatlas {
 
@@ -15,7 +16,8 @@ struct OutputTarget {
 
 /// Why an output cannot be written, and the next step of a user. It can: `what` is empty.
 struct Obstacle {
-    std::string what, next;
+    std::string what{}, next{};
+    Reason reason = Reason::none;
 };
 
 /// Resolves `path`; `obstacle` says why nothing may be written there.
@@ -25,5 +27,6 @@ struct Obstacle {
 
 /// What a user can do when writing fails with -errno.
 [[nodiscard]] std::string next_step_after(int error);
+[[nodiscard]] Reason reason_after(int error);
 
 }  // namespace isoatlas

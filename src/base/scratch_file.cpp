@@ -24,7 +24,8 @@ std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kP
 [[noreturn]] void scratch_failed(const std::string& folder, int error) {
     throw Error(ErrorKind::resource, {.file = folder,
                                       .what = std::string("the scratch file cannot grow: ") + std::strerror(error),
-                                      .next = "free some disk space, build the store on another disk with -o, or allow more --memory"});
+                                      .next = "free some disk space, build the store on another disk, or allow more memory",
+                                      .reason = Reason::no_scratch_space});
 }
 
 /// An unnamed file in a folder.

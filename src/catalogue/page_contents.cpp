@@ -194,7 +194,7 @@ PageContents page_contents(const Atlas& atlas, const Overview& found, const Page
 }
 
 Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context) {
-    ExtractOptions chosen;
+    SurfaceOptions chosen;
     (is_cavity ? chosen.contours : chosen.objects) = {entry.id};
     return atlas.extract(entry.tau, chosen, context);
 }

@@ -126,7 +126,8 @@ void check(const VolumeInfo& info, double sigma) {
         throw Error(ErrorKind::usage, {.file = info.path,
                                        .what = "the samples are not equally spaced, so a Gaussian has no fixed weights",
                                        .expected = "a volume with a spacing, not with coordinates",
-                                       .next = "resample it to equal spacing first, or take the grid as it is with --voxel"});
+                                       .next = "resample it to equal spacing first, or take its samples as equally spaced",
+                                       .reason = Reason::unequal_spacing});
     }
     double finest = geometry.spacing[0];
     for (int axis = 1; axis < info.extent.rank; ++axis) finest = std::min(finest, geometry.spacing[static_cast<std::size_t>(axis)]);

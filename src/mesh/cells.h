@@ -23,10 +23,10 @@ public:
           origin_(grid.origin),
           domain_(domain),
           map_(map),
-          style_(options.style),
-          triangles_(cell_triangles(options.style)),
+          style_(options.surface.style),
+          triangles_(cell_triangles(options.surface.style)),
           flip_(flip),
-          plain_(options.style, tunnels_.finds_any(), flip) {}
+          plain_(options.surface.style, tunnels_.finds_any(), flip) {}
 
     /// Counts the hits of row (y, z), and the triangles and articulation points of its cells.
     void count_row(std::int64_t y, std::int64_t z, RowOffsets& place) const;

@@ -22,7 +22,7 @@ struct RowWords {
 };
 
 /// The patterns of its 64 cells.
-[[gnu::always_inline]] ISOATLAS_AVX512 inline __m512i wide_patterns(const RowWords& words) {
+[[gnu::always_inline]] ISOATLAS_AVX512 inline __m512i patterns_avx512(const RowWords& words) {
     alignas(64) static constexpr std::array<std::uint8_t, 64> kNext = [] {
         std::array<std::uint8_t, 64> next{};
         for (std::size_t i = 0; i < next.size(); ++i) next[i] = static_cast<std::uint8_t>(i + 1);
@@ -54,7 +54,7 @@ ISOATLAS_AVX512 void count_avx512(const CellRow<4>& rows, const CellWindow& wind
             if ((x | (r0 ^ r1) | (r0 ^ r2) | (r0 ^ r3)) == 0 && is_same_after) continue;
             const std::uint64_t inside = window.mask(w);
             count_hits(w, x & inside, r0 ^ r1, r0 ^ r2, own);
-            const __m512i patterns = wide_patterns(words);
+            const __m512i patterns = patterns_avx512(words);
             const std::uint64_t not_low = _mm512_mask_test_epi8_mask(inside, patterns, patterns);
             const std::uint64_t active = _mm512_mask_cmpneq_epi8_mask(not_low, patterns, _mm512_set1_epi8(-1));
             if (active == 0) continue;
@@ -95,7 +95,7 @@ ISOATLAS_AVX512 void write_avx512(const CellRow<4>& rows, const CellWindow& wind
             const std::int64_t w = 64 * i + std::countr_zero(candidates);
             std::uint64_t active = rows.active(w) & window.mask(w);
             if (active == 0) continue;
-            _mm512_store_si512(patterns.data(), wide_patterns(RowWords(rows, w)));
+            _mm512_store_si512(patterns.data(), patterns_avx512(RowWords(rows, w)));
             for (int line = 0; line < kLines; ++line) prefetch_to_write(reinterpret_cast<const char*>(triangle) + 64 * (kLines + 4 + line));
             for (; active != 0; active &= active - 1) {
                 const int bit = std::countr_zero(active);

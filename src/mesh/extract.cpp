@@ -34,18 +34,18 @@ void for_arrays(Surface& surface, Visit&& visit) {
 template <class T>
 class Extraction {
 public:
-    Extraction(const TauLevel& level, const SampleGrid<T>& grid, const ExtractOptions& options, const Context& context,
+    Extraction(const TauLevel& level, const SampleGrid<T>& grid, const ExtractOptions& how, const Context& context,
                const Components* components)
         : grid_{grid.samples, grid.extent, grid.layout, level.window ? level.window->origin : Index3{}},
           tau_(level.tau),
-          options_(options),
+          options_(how.surface),
           context_(context),
           components_(components),
-          domain_(level.high, options.boundary),
+          domain_(level.high, how.surface.boundary),
           groups_(domain_),
           map_(level.info().geometry, level.window ? level.window->whole : level.info().extent),
           flip_(is_mirrored(level.info())),
-          cells_(grid_, level.tau, domain_, map_, options, flip_) {}
+          cells_(grid_, level.tau, domain_, map_, how, flip_) {}
 
     void run(Surface& surface) {
         if (domain_.is_empty()) return for_arrays(surface, [](auto& array) { array.clear(); });
@@ -126,7 +126,8 @@ private:
         if (max == 0 || simplices <= max) return;
         throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(simplices) + " triangles",
                                           .expected = "at most " + std::to_string(max),
-                                          .next = "ask for one object or another isovalue; isoatlas extract writes surfaces of any size"});
+                                          .next = "ask for one object or another isovalue, or allow more triangles",
+                                          .reason = Reason::too_many_triangles});
     }
 
     /// Every entry will be written.
@@ -165,7 +166,7 @@ private:
 
     SampleGrid<T> grid_;
     double tau_;
-    const ExtractOptions& options_;
+    const SurfaceOptions& options_;
     const Context& context_;
     const Components* components_;
     MeshDomain domain_;
@@ -178,7 +179,7 @@ private:
 
 }  // namespace
 
-bool selects_components(const ExtractOptions& options) {
+bool selects_components(const SurfaceOptions& options) {
     return !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
 }
 
@@ -188,24 +189,25 @@ Surface extract_level(const TauLevel& level, const ExtractOptions& options, cons
     return surface;
 }
 
-void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface, std::int64_t* cells) {
+void extract_level(const TauLevel& level, const ExtractOptions& how, const Context& context, Surface& surface, std::int64_t* cells) {
+    const SurfaceOptions& options = how.surface;
     const VolumeInfo& info = level.info();
     surface.tau = level.tau;
     surface.reported_tau = info.calibration.reported(level.tau);
     surface.space = info.geometry.space;
     surface.unit = info.geometry.unit;
     surface.closed = options.boundary == Boundary::closed;
-    surface.interpolant = options.interpolant;
-    surface.tunnel_height = options.tunnel_height;
-    surface.reported_tunnel_height = info.calibration.reported_difference(options.tunnel_height);
+    surface.interpolant = how.interpolant;
+    surface.tunnel_height = how.tunnel_height;
+    surface.reported_tunnel_height = info.calibration.reported_difference(how.tunnel_height);
 
     const bool selects = selects_components(options);
     std::optional<Components> components;
-    if (needs_names(options)) components = find_components(level, tunnel_height_of(options.interpolant, options.tunnel_height), context);
+    if (needs_representatives(options)) components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
     IdArray<ContourNumber, std::uint8_t> chosen;
     if (selects) chosen = chosen_contours(level, *components, options);
     visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
-        Extraction<T>(level, grid, options, context, components ? &*components : nullptr).run(surface);
+        Extraction<T>(level, grid, how, context, components ? &*components : nullptr).run(surface);
     });
     if (cells != nullptr) {
         *cells =

@@ -8,8 +8,8 @@
 namespace isoatlas {
 
 /// Do these options select components?
-[[nodiscard]] bool selects_components(const ExtractOptions& options);
-[[nodiscard]] inline bool needs_names(const ExtractOptions& options) { return options.ids || selects_components(options); }
+[[nodiscard]] bool selects_components(const SurfaceOptions& options);
+[[nodiscard]] inline bool needs_representatives(const SurfaceOptions& options) { return options.ids || selects_components(options); }
 
 [[nodiscard]] Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context);
 /// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.

@@ -51,7 +51,7 @@ inline std::int64_t append_plain(const HitRun& run, std::uint64_t bits, HitBatch
 
 #if ISOATLAS_HAS_AVX512
 /// The same for 16 hits at a time, without unpredictable branches.
-ISOATLAS_AVX512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
+ISOATLAS_AVX512 inline std::int64_t append_avx512(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
     alignas(64) static constexpr std::array<std::uint8_t, 64> kPositions = [] {
         std::array<std::uint8_t, 64> positions{};
         for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = static_cast<std::uint8_t>(i);
@@ -83,7 +83,7 @@ ISOATLAS_AVX512 inline std::int64_t append_wide(const HitRun& run, std::uint64_t
 /// append_plain(), by AVX-512 where the processor has it.
 inline std::int64_t append(const HitRun& run, std::uint64_t bits, HitBatch& batch) {
 #if ISOATLAS_HAS_AVX512
-    if (kHasAvx512) return append_wide(run, bits, batch);
+    if (kHasAvx512) return append_avx512(run, bits, batch);
 #endif
     return append_plain(run, bits, batch);
 }

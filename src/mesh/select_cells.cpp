@@ -83,7 +83,7 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
     });
 }
 
-IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const ExtractOptions& options) {
+IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const SurfaceOptions& options) {
     if (options.objects.empty() && options.contours.empty() && options.shell == ShellChoice::all) return {};
     IdArray<ObjectNumber, std::uint8_t> object_chosen(static_cast<std::size_t>(components.objects()), options.objects.empty());
     for (const std::int64_t voxel : options.objects) object_chosen[object_at(level, components, voxel)] = 1;

@@ -14,7 +14,7 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
 /// The contours that the options select, as flags; empty: all of them.
 /// Throws Error: usage (not a voxel), not_found (a Low voxel, no such contour at tau).
 [[nodiscard]] IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components,
-                                                                   const ExtractOptions& options);
+                                                                   const SurfaceOptions& options);
 
 /// Keeps the points of the chosen contours and what is between them. Surface::contour holds contour numbers.
 void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface);

@@ -47,8 +47,9 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
     const EnvironmentScope scope(context);
     check(options);
     if (page_template().empty()) {
-        throw Error(ErrorKind::unsupported,
-                    {.what = "this isoatlas was built without pages", .next = "install npm and build it again without -DISOATLAS_WEB=OFF"});
+        throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages",
+                                             .next = "install npm and build it again with its pages",
+                                             .reason = Reason::built_without_web});
     }
     PageContents contents = page_contents(atlas, overview_of(atlas, context), options, context);
     add_tunnels(contents, atlas, context);

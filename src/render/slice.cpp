@@ -94,7 +94,8 @@ double pixel_of(const std::vector<double>& positions, double x) {
 
 void draw_contour(const Volume& flat, const SliceContour& contour, const std::vector<double>& columns, const std::vector<double>& rows,
                   Image& image, const Context& context) {
-    const Surface curves = extract(flat, contour.tau, {.objects = {}, .contours = {}, .normals = false, .ids = false}, context);
+    const Surface curves =
+        extract(flat, contour.tau, {.surface = {.objects = {}, .contours = {}, .normals = false, .ids = false}}, context);
     std::vector<Line> lines;
     for (const auto& [a, b] : curves.segments) {
         const Vec3 &p = curves.points[a], &q = curves.points[b];

@@ -31,15 +31,18 @@ std::string html_that_goes_on(const std::string& first) {
 std::string refused_page() {
     return last_answer(
         {.status = 403, .type = kHtml},
-        html("<p role=alert>This address needs the token of its viewer: each address that isoatlas view prints works once, within ten "
-             "minutes, in one browser. Press Enter where isoatlas view runs, and open the address that it prints.</p>"));
+        html("<p role=alert>This address needs the token of its viewer: each address that the viewer prints works once, within ten "
+             "minutes, in one browser. Press Enter where it was started, and open the address that it prints.</p>"));
 }
 
 ErrorKind kind_of(int status) { return status == 503 ? ErrorKind::resource : ErrorKind::usage; }
 
 ErrorText details_of(int status) {
     switch (status) {
-        case 403: return {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"};
+        case 403:
+            return {.what = "the token is missing or wrong",
+                    .next = "open the address that the server has given",
+                    .reason = Reason::token_wrong};
         case 405: return {.what = "method not allowed", .expected = "GET or HEAD"};
         case 413: return {.what = "a request must not have a body", .expected = "a request without one"};
         case 421: return {.what = "wrong Host header", .expected = "127.0.0.1 or localhost, with the port"};

@@ -26,7 +26,8 @@ void put_error(JsonStream& json, const Error& error) {
     const ErrorText& text = error.text();
     json.key("error").begin_object().key("code").value(static_cast<int>(error.kind())).key("message").value(error.what());
     json.key("where").value(text.where).key("what").value(text.what);
-    json.key("expected").value(text.expected).key("next").value(text.next).end_object();
+    json.key("expected").value(text.expected).key("next").value(text.next);
+    json.key("reason").value(name_of(text.reason)).key("value").value(text.value).end_object();
 }
 
 void put_build(JsonStream& json, const BuildState& build) {

@@ -61,14 +61,16 @@ std::string token_of(const Place& place) {
     if (!kept.empty()) return kept;
     throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(place.port),
                                    .what = "no viewer of this user is known on this port: no token found",
-                                   .next = "is `isoatlas view` still running? Start it again and use its new address; the token of another "
-                                           "user's viewer can be set as ISOATLAS_TOKEN"});
+                                   .next = "is the viewer still running? Start it again and use its new address; the token of another "
+                                           "user's viewer can be set as ISOATLAS_TOKEN",
+                                   .reason = Reason::no_token});
 }
 
 [[noreturn]] void refuse_silence(int port, const std::string& why) {
     throw Error(ErrorKind::input, {.where = "127.0.0.1:" + std::to_string(port),
                                    .what = "no response: " + why,
-                                   .next = "is `isoatlas view` still running? Start it again and use its new address"});
+                                   .next = "is the viewer still running? Start it again and use its new address",
+                                   .reason = Reason::no_server});
 }
 
 /// Connected to a port of this machine.
@@ -121,7 +123,9 @@ void get(const Place& place, const std::string& request, ResponseReader& answer)
     throw Error(static_cast<ErrorKind>(code), {.where = error.value("where", ""),
                                                .what = error.value("what", ""),
                                                .expected = error.value("expected", ""),
-                                               .next = error.value("next", "")});
+                                               .next = error.value("next", ""),
+                                               .reason = reason_of(error.value("reason", "")).value_or(Reason::none),
+                                               .value = error.value("value", "")});
 }
 
 }  // namespace
@@ -132,7 +136,8 @@ ServerResponse ask_server(const std::string& address, const std::string& request
         throw Error(ErrorKind::usage, {.where = address.substr(0, 100),
                                        .what = "not an address of a viewer",
                                        .expected = "http://127.0.0.1:PORT",
-                                       .next = "use the address that `isoatlas view` printed, up to its port"});
+                                       .next = "use the address that the viewer printed, up to its port",
+                                       .reason = Reason::not_an_address});
     }
     if (!request.starts_with('/') || request.starts_with("/api/events") || !is_plain(request)) {
         throw Error(ErrorKind::usage, {.where = request.substr(0, 100),

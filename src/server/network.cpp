@@ -61,7 +61,8 @@ public:
         } catch (const boost::system::system_error&) {
             throw Error(ErrorKind::resource, {.where = "port " + std::to_string(port),
                                               .what = "cannot listen on this port",
-                                              .next = "choose another one with --port, or omit --port"});
+                                              .next = "choose another one, or let the system choose",
+                                              .reason = Reason::port_in_use});
         }
     }
 

@@ -80,7 +80,9 @@ Response Service::answer(const Request& request) {
     } catch (const Error& error) {
         return refusal(status_of(error.kind()), error);
     } catch (const std::bad_alloc&) {
-        return refusal(503, Error(ErrorKind::resource, {.what = "not enough memory", .next = "request less, or retry later"}));
+        return refusal(503,
+                       Error(ErrorKind::resource,
+                             {.what = "not enough memory", .next = "request less, or retry later", .reason = Reason::not_enough_memory}));
     } catch (const std::exception& exception) {
         return refusal(500, Error(ErrorKind::internal, {.what = exception.what()}));
     }
@@ -89,12 +91,15 @@ Response Service::answer(const Request& request) {
 Response Service::answer_known(const Request& request) {
     if (request.path == "/") {
         if (viewer_template().empty())
-            throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages", .next = "request /api/atlas"});
+            throw Error(
+                ErrorKind::unsupported,
+                {.what = "this isoatlas was built without pages", .next = "request /api/atlas", .reason = Reason::built_without_web});
         return {200, "text/html; charset=utf-8", std::string(viewer_template())};
     }
     if (!is_secret(request.token, token_)) {
-        return refusal(
-            403, Error(ErrorKind::usage, {.what = "the token is missing or wrong", .next = "open the address that isoatlas view printed"}));
+        return refusal(403, Error(ErrorKind::usage, {.what = "the token is missing or wrong",
+                                                     .next = "open the address that the server has given",
+                                                     .reason = Reason::token_wrong}));
     }
     if (request.path == "/api/events") return events_answer(request);
     if (request.path == "/api/atlas") {
@@ -153,13 +158,13 @@ void Service::prepare(const Context& context) {
     own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
     const NamedEntry* first = first_of(known(own));
     if (first == nullptr || atlas().info().extent.rank != 3) return;
-    ExtractOptions options;
+    SurfaceOptions options;
     options.ids = false;
     options.objects = {first->id};
     (void)first_.get(own, [&](const Context& shared) { return wire(extract(first->tau, options, shared), kFirstTriangles, shared); });
 }
 
-bool Service::is_first(double tau, const ExtractOptions& options, std::int64_t max) const {
+bool Service::is_first(double tau, const SurfaceOptions& options, std::int64_t max) const {
     const StoreCatalogue* known = known_.there();
     const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
     if (first == nullptr || max != kFirstTriangles) return false;
@@ -209,7 +214,7 @@ Response Service::measures_answer(const Request& request) {
     if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
     (void)known(request);  // loads the trees
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
-    ExtractOptions options;
+    SurfaceOptions options;
     options.objects = objects;
     options.normals = false;
     const Surface surface = extract(stored_tau(atlas, tau), options, context_of(*job));
@@ -256,7 +261,7 @@ Response Service::surface_answer(const Request& request) {
     const Atlas& atlas = atlas_of_volume();
     QueryParameters words(request.words);
     const double tau = required_tau(words);
-    ExtractOptions options;
+    SurfaceOptions options;
     options.objects = voxels(words, "object");
     options.contours = voxels(words, "contour");
     const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
@@ -292,7 +297,8 @@ Response Service::label_answer(const Request& request) {
     words.reject_unknown();
     if (atlas.info().extent.voxels() > memory_ / kLabelBytes) {
         throw Error(ErrorKind::resource, {.what = "the label volume exceeds the memory budget of this server",
-                                          .next = "isoatlas label writes them; or start the viewer with more --memory"});
+                                          .next = "write them into a file without the server, or give it more memory",
+                                          .reason = Reason::labels_too_large});
     }
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     const Context context = context_of(*job);
@@ -309,7 +315,9 @@ Response Service::label_answer(const Request& request) {
 const Atlas& Service::atlas_of_volume() const {
     const Atlas& found = atlas();
     if (found.info().extent.rank == 3) return found;
-    throw Error(ErrorKind::unsupported, {.what = "the contours of a 2D image are not a surface", .next = "isoatlas extract writes them"});
+    throw Error(ErrorKind::unsupported, {.what = "the contours of a 2D image are not a surface",
+                                         .next = "write them into a file without the server",
+                                         .reason = Reason::not_in_space});
 }
 
 std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name) const {
@@ -325,7 +333,7 @@ Context Service::context_of(JobQueue::Job& job) const {
     return context;
 }
 
-Surface Service::extract(double tau, ExtractOptions options, const Context& context) const {
+Surface Service::extract(double tau, SurfaceOptions options, const Context& context) const {
     options.max_triangles = std::min(memory_ / kTriangleBytes, kMaxTriangles);
     return atlas().extract(tau, options, context);
 }

@@ -79,10 +79,10 @@ private:
     /// Context of a long call of a job.
     [[nodiscard]] Context context_of(JobQueue::Job& job) const;
     /// Throws where a response would exceed its memory budget.
-    [[nodiscard]] Surface extract(double tau, ExtractOptions options, const Context& context) const;
+    [[nodiscard]] Surface extract(double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
     /// Is it the first surface of every page?
-    [[nodiscard]] bool is_first(double tau, const ExtractOptions& options, std::int64_t max) const;
+    [[nodiscard]] bool is_first(double tau, const SurfaceOptions& options, std::int64_t max) const;
 
     const std::string token_;
     Context context_;

@@ -79,8 +79,9 @@ void Container::read_header() {
     if (!begins_like_a_store(std::span(beginning).first(got))) {
         throw Error(ErrorKind::input, {.file = path_,
                                        .what = "is not an isoatlas store",
-                                       .expected = "a file written by `isoatlas build`",
-                                       .next = "build one: isoatlas build VOLUME -o FILE.atlas"});
+                                       .expected = "a file that a build has written",
+                                       .next = "build one from the volume",
+                                       .reason = Reason::not_a_store});
     }
     RawHeader raw;
     std::memcpy(&raw, bytes.data(), sizeof raw);

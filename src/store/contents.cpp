@@ -206,7 +206,8 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .what = "is a store of version " + std::to_string(version),
                                              .expected = "version 1 to " + std::to_string(kStoreVersion),
-                                             .next = "use the version of isoatlas that built it, or build it again"});
+                                             .next = "use the version of isoatlas that built it, or build it again",
+                                             .reason = Reason::unknown_store_version});
     }
     contents.version = static_cast<int>(version);
     contents.volume = volume_of(json.at("volume"));

@@ -55,7 +55,7 @@ EventOfVoxel events_of_maxima(const Analysis& analysis) {
 /// The comparisons at every isovalue.
 class Comparison {
 public:
-    Comparison(const Atlas& atlas, const Volume& samples, const VerifyOptions& options)
+    Comparison(const Atlas& atlas, const Volume& samples, const AtlasVerifyOptions& options)
         : atlas_(atlas), samples_(samples), options_(options), random_(options.seed) {
         own_.interpolant = atlas.interpolant();
         own_.tunnel_height = atlas.tunnel_height();
@@ -64,14 +64,13 @@ public:
     void look_at(LevelChecks& checks, std::size_t i, const Context& context) {
         const double tau = checks.isovalues()[i];
         const Cut at = cut(samples_, tau, {.interpolant = own_.interpolant, .tunnel_height = own_.tunnel_height}, context);
-        const Surface expected = extract(samples_, tau, own_, context), stored = atlas_.extract(tau, own_, context);
+        const Surface expected = extract(samples_, tau, own_, context), stored = atlas_.extract(tau, {}, context);
         if (!are_same(stored, expected)) surfaces_.fail("at " + std::to_string(tau) + ": different surface");
         ++surfaces_seen_;
         triangles_ += static_cast<std::int64_t>(stored.triangles.size());
         const SurfaceParts parts(expected);
         for (const std::int64_t object : objects_of(at)) {
-            ExtractOptions alone = own_;
-            alone.objects = {object};
+            const SurfaceOptions alone{.objects = {object}, .contours = {}};
             if (!are_same(atlas_.extract(tau, alone, context), parts.of(object)))
                 objects_.fail("at " + std::to_string(tau) + ": object " + std::to_string(object) + " has a different surface");
             ++objects_seen_;
@@ -100,14 +99,14 @@ private:
 
     const Atlas& atlas_;
     const Volume& samples_;
-    const VerifyOptions& options_;
+    const AtlasVerifyOptions& options_;
     Random random_;
     ExtractOptions own_;
     Check surfaces_{"store_equals_volume"}, objects_{"objects_equal_volume"};
     std::int64_t surfaces_seen_ = 0, objects_seen_ = 0, triangles_ = 0;
 };
 
-void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analysis& stored, const VerifyOptions& options,
+void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analysis& stored, const AtlasVerifyOptions& options,
                           const Context& context, std::vector<CheckResult>& results) {
     LevelChecks checks(stored, random_isovalues(samples, options.levels, options.seed), events_of_maxima(stored));
     Comparison comparison(atlas, samples, options);
@@ -124,7 +123,7 @@ void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analy
 
 }  // namespace
 
-std::vector<CheckResult> verify_atlas(const Atlas& atlas, const VerifyOptions& options, const Context& context) {
+std::vector<CheckResult> verify_atlas(const Atlas& atlas, const AtlasVerifyOptions& options, const Context& context) {
     const EnvironmentScope scope(context);
     std::vector<CheckResult> results;
     const std::optional<Volume> samples = checksums_are_right(atlas, context, results);

@@ -15,8 +15,9 @@ std::vector<CheckResult> verify_volume(const Volume& volume, const VerifyOptions
                                      contour_tree_is_a_tree(analysis), levels_match_events(analysis)};
 
     LevelChecks checks(analysis, isovalues_to_check(volume, options.levels), [&](VoxelId voxel) { return analysis.zone(voxel); });
-    ExtractOptions own;
-    own.interpolant = options.interpolant, own.tunnel_height = options.tunnel_height, own.normals = false;
+    const ExtractOptions own{.interpolant = options.interpolant,
+                             .tunnel_height = options.tunnel_height,
+                             .surface = {.objects = {}, .contours = {}, .normals = false}};
     Context silent = context;  // nested progress would move the bar back and forth
     silent.progress = nullptr;
     for (std::size_t i = 0; i < checks.isovalues().size(); ++i) {

@@ -66,30 +66,30 @@ std::size_t bucket_count(std::int64_t voxels, std::size_t bytes) {
 
 /// All elements in the order of ranks: counts within tiles are taken over, voxels of open components go to the last element of theirs.
 template <class T, class Id>
-BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elements, std::size_t names, OpenVoxelBuckets<T, Id>& open,
-                    int threads) {
+BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elements, std::size_t representatives,
+                    OpenVoxelBuckets<T, Id>& open, int threads) {
     const std::size_t n = value.size();
     BigVector<Id> voxels(n);
     MarkedSets<Id, ArrayAllocator<Id>> components;  // marks: the last element
-    components.start(names, [](Id) { return Id{0}; });
+    components.start(representatives, [](Id) { return Id{0}; });
     PartReaders<CountedElement<Id>> counted(elements.counted, elements.first);
     BudgetPoll memory;
     const auto pass = [&](std::size_t r) {
         memory.step();
         const CountedElement<Id>& element = counted.next(elements.tile[r]);
         voxels[r] = element.voxels;
-        auto [a, b] = element.names;
-        if (a == kNoName<Id>) std::swap(a, b);
-        if (a == kNoName<Id>) return;
+        auto [a, b] = element.representatives;
+        if (a == kNoRepresentative<Id>) std::swap(a, b);
+        if (a == kNoRepresentative<Id>) return;
         a = components.find(a);
-        if (b != kNoName<Id>) a = components.join(a, components.find(b));
+        if (b != kNoRepresentative<Id>) a = components.join(a, components.find(b));
         components.mark(a) = static_cast<Id>(r);
     };
     std::size_t r = 0;
     for (std::size_t bucket = 0; bucket < open.count(); ++bucket) {
         open.take(bucket, threads, [&](const OpenVoxels<T, Id>& record) {
             for (; r < n && value[r] >= static_cast<double>(record.value); ++r) pass(r);
-            voxels[components.mark(components.find(record.name))] += record.count;
+            voxels[components.mark(components.find(record.representative))] += record.count;
         });
     }
     for (; r < n; ++r) pass(r);
@@ -103,7 +103,7 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
                               const Context& context) {
     const Tiling tiling = tiling_for(grid.extent, context);
     TiledBasins<Id> basins = tiled_basins<T, Id>(grid, tiling, context);
-    const std::size_t names = basins.open.count();
+    const std::size_t representatives = basins.open.count();
     TiledElements<Id> elements(value, code, tiling);
     OpenVoxelBuckets<T, Id> open(bounds_of_buckets(value, bucket_count(grid.extent.voxels(), sizeof(OpenVoxels<T, Id>))));
     for_each_slab_of(1, context, kAnalysisPhases["zones"], tiling.count(), [&](const Slab& tile) {
@@ -113,7 +113,7 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
     release(basins.maximum);
     release(elements.key);
     const PinInMemory keep;
-    return merge(value, elements, names, open, context.threads);
+    return merge(value, elements, representatives, open, context.threads);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type

@@ -68,29 +68,30 @@ std::vector<TileVoxel<T, Id>> voxels_of_tile(const GridView<T>& grid, const Tili
 template <class Id>
 class TileSweep {
 public:
-    TileSweep(const TiledBasins<Id>& basins, const LocalNumbers<Id>& numbers) : last_(numbers.size(), Id{0}), name_(numbers.size()) {
+    TileSweep(const TiledBasins<Id>& basins, const LocalNumbers<Id>& numbers)
+        : last_(numbers.size(), Id{0}), representative_(numbers.size()) {
         components_.start(numbers.size(), [](Id c) { return c; });
-        for (Id c = 0; c < name_.size(); ++c) {
+        for (Id c = 0; c < representative_.size(); ++c) {
             const Id maximum = numbers.global(c);
-            name_[c] = basins.open.has(maximum) ? static_cast<Id>(basins.open.rank(maximum)) : kNoName<Id>;
+            representative_[c] = basins.open.has(maximum) ? static_cast<Id>(basins.open.rank(maximum)) : kNoRepresentative<Id>;
         }
     }
     /// Returns the representatives of the open components that it meets.
     [[nodiscard]] std::array<Id, 2> pass(Id element, Id first, Id second) {
         const Id a = components_.find(first), b = components_.find(second);
-        const std::array<Id, 2> names{name_[a], a == b ? kNoName<Id> : name_[b]};
+        const std::array<Id, 2> representatives{representative_[a], a == b ? kNoRepresentative<Id> : representative_[b]};
         const Id both = components_.join(a, b);
-        name_[both] = names[0] != kNoName<Id> ? names[0] : names[1];
+        representative_[both] = representatives[0] != kNoRepresentative<Id> ? representatives[0] : representatives[1];
         last_[both] = element;
-        return names;
+        return representatives;
     }
     [[nodiscard]] Id find(Id maximum) { return components_.find(maximum); }
     [[nodiscard]] Id last(Id component) const { return last_[component]; }
-    [[nodiscard]] Id name(Id component) const { return name_[component]; }
+    [[nodiscard]] Id representative(Id component) const { return representative_[component]; }
 
 private:
     MarkedSets<Id> components_;
-    std::vector<Id> last_, name_;
+    std::vector<Id> last_, representative_;
 };
 
 }  // namespace
@@ -120,19 +121,20 @@ void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile
     std::size_t next = 0;
     const auto pass_down_to = [&](double value) {
         for (; next < above.size() && elements[next].value >= value; ++next) {
-            const std::array<Id, 2> names = sweep.pass(static_cast<Id>(next), numbers.local(above[next][0]), numbers.local(above[next][1]));
-            counted[next] = {0, names};
+            const std::array<Id, 2> representatives =
+                sweep.pass(static_cast<Id>(next), numbers.local(above[next][0]), numbers.local(above[next][1]));
+            counted[next] = {0, representatives};
         }
     };
     for (const TileVoxel<T, Id>& voxel : voxels) {
         pass_down_to(static_cast<double>(voxel.value));
-        const Id component = sweep.find(numbers.local(voxel.maximum)), name = sweep.name(component);
-        if (name == kNoName<Id>) {
+        const Id component = sweep.find(numbers.local(voxel.maximum)), representative = sweep.representative(component);
+        if (representative == kNoRepresentative<Id>) {
             ++counted[sweep.last(component)].voxels;
-        } else if (!records.empty() && records.back().value == voxel.value && records.back().name == name) {
+        } else if (!records.empty() && records.back().value == voxel.value && records.back().representative == representative) {
             ++records.back().count;
         } else {
-            records.push_back({voxel.value, name, 1});
+            records.push_back({voxel.value, representative, 1});
         }
     }
     pass_down_to(-std::numeric_limits<double>::infinity());

@@ -15,11 +15,11 @@ namespace isoatlas {
 /// Counts of an element of a tile.
 template <class Id>
 struct CountedElement {
-    Id voxels;                ///< of components that lie within the tile
-    std::array<Id, 2> names;  ///< representatives of components above that span tiles; kNoName: there is none
+    Id voxels;                          ///< of components that lie within the tile
+    std::array<Id, 2> representatives;  ///< of components above that span tiles; kNoRepresentative: there is none
 };
 template <class Id>
-constexpr Id kNoName = static_cast<Id>(-1);
+constexpr Id kNoRepresentative = static_cast<Id>(-1);
 
 /// elements: of the tile, descending. Representatives are ranks in basins.open. open: receives the voxels of components that span tiles.
 /// Cost: O(voxels log voxels) of the tile.

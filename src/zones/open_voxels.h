@@ -20,7 +20,7 @@ namespace isoatlas {
 template <class T, class Id>
 struct OpenVoxels {
     T value;
-    Id name, count;
+    Id representative, count;
 };
 
 template <class T, class Id>

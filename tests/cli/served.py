@@ -61,7 +61,7 @@ class Viewer:
             return error.code, dict(error.headers), error.read()
 
     def states(self, client="listener"):
-        """What it says of itself and of the questions of a client, for as long as one listens."""
+        """What it says of itself and of the requests of a client, for as long as one listens."""
         with urllib.request.urlopen(self.request("/api/events", **{"X-Client": client}), timeout=60) as answer:
             for line in answer:
                 if line.startswith(b"data: "):

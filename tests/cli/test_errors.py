@@ -63,6 +63,38 @@ class Errors(CliTest):
         self.run_error(2, "label", "v.nrrd", "--tau", "0.5", "-o", "link.nrrd", says="overwrite the input")
         self.assertEqual((self.folder / "v.nrrd").read_bytes(), before)
 
+    # the library gives a reason, the command line the option
+
+    def test_reasons_become_options(self):
+        (self.folder / "c.raw").write_bytes(bytes(1000))
+        def reason_of(code, *arguments, next_says):
+            error = self.run_error(code, *arguments, next_says=next_says)
+            return error["reason"], error["value"]
+        raw = ["info", "c.raw", "--dims"]
+        self.assertEqual(reason_of(2, "info", "c.raw", next_says="give --dims NXxNYxNZ --type TYPE, or write them into c.raw.json"),
+                         ("raw_layout_unknown", "c.raw.json"))
+        self.assertEqual(reason_of(3, *raw, "10x10x5", "--type", "uint8", next_says="the size fits these dims with --type uint16 or int16"),
+                         ("raw_type_differs", "uint16 or int16"))
+        self.assertEqual(reason_of(3, *raw, "11x11x11", "--type", "uint8", next_says="the size fits --dims 10x10x10 with this type"),
+                         ("raw_sizes_differ", "10x10x10"))
+        self.assertEqual(reason_of(3, *raw, "3x3x3", "--type", "uint8",
+                                   next_says="add --skip 973; if something follows the samples, pass --skip-rest"), ("raw_has_more", "973"))
+        self.assertEqual(reason_of(3, *raw, "7x7x77", "--type", "float32", next_says="check --dims, --type and --skip"), ("raw_size_differs", ""))
+        self.assertEqual(reason_of(2, "info", "v.nrrd", "--skip", "4", next_says="leave --skip out; it is for RAW files"),
+                         ("contradicts_header", "skip_bytes"))
+        error = self.run_error(2, "info", "v.nrrd", "--endian", "big", "--type", "int8", says="--type contradicts the header of the file")
+        self.assertEqual((error["reason"], error["value"]), ("contradicts_header", "type"))
+        self.assertEqual(reason_of(2, "info", "v.nrrd", "--time-step", "1", next_says="omit --time-step"), ("no_time_steps", "0"))
+        (self.folder / "v.nrdr").write_bytes(b"?")
+        self.assertEqual(reason_of(4, "info", "v.nrdr", next_says="convert the file, or give --dims and --type if it is RAW")[0], "unknown_format")
+        (self.folder / "v.nrd").write_bytes(b"?")
+        self.assertEqual(reason_of(4, "info", "v.nrd", next_says="did you mean .nrrd? convert"), ("unknown_format", ".nrrd"))
+        (self.folder / "v.img").write_bytes(b"?")
+        self.assertEqual(reason_of(4, "info", "v.img", next_says="give it as RAW with --dims and --type"), ("analyze_pair", ""))
+        self.run_ok("build", "v.nrrd", "-o", "v.atlas")
+        self.assertEqual(reason_of(6, "dump", "v.atlas", "nothing", next_says="isoatlas dump v.atlas lists the parts"), ("no_such_part", ""))
+        self.assertEqual(self.run_error(2, "objects", "v.nrrd", "--tau", "abc")["reason"], "none")
+
     # 3: input
 
     def test_missing_files(self):

@@ -121,13 +121,13 @@ class Leaving(harness.CliTest):
         self.assertEqual(self.viewer.stop()[0], 0)
 
     def begin_and_see(self, lane):
-        """A question whose answer is being made, and the states that go on to come."""
+        """A request whose answer is being made, and the states that go on to come."""
         states = self.viewer.states("me")
         connection = self.viewer.begin("/api/surface?tau=0.5", "me/" + lane)
         for state in states:
-            if any(question["client"] == "me/" + lane and question["place"] == 0 for question in state["requests"]):
+            if any(request["client"] == "me/" + lane and request["place"] == 0 for request in state["requests"]):
                 return connection, states
-        self.fail("the question was never seen")
+        self.fail("the request was never seen")
 
     def gone_before_done(self, states):
         """The furthest that the extraction has come when it was ended."""
@@ -138,12 +138,12 @@ class Leaving(harness.CliTest):
             furthest = max(furthest, state["requests"][0]["fraction"])
         self.fail("the stream ended")
 
-    def test_a_closed_connection_ends_its_question(self):
+    def test_a_closed_connection_ends_its_request(self):
         connection, states = self.begin_and_see("surface")
         connection.close()
         self.assertLess(self.gone_before_done(states), 0.9)
 
-    def test_the_end_of_the_events_ends_all_questions_of_a_client(self):
+    def test_the_end_of_the_events_ends_all_requests_of_a_client(self):
         connection, states = self.begin_and_see("surface")
         states.close()
         answer = connection.recv(65536)

@@ -19,7 +19,7 @@ WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]*\d*|[a-z]+")
 PLAIN = set("""
     Allocator Analysis Animation Array Atlas Background Bar Build Camera Check Clock Coarse Colour Context Contour Cut Detail
     Environment Error Estimate Extent Extract Geometry Image Index3 Info Kind Label Mat3 Material Mesh Missing Number Numbers Object Open
-    Options Origin Output Page Phantom Policy Preview Progress Projection Rank Reader Render Report Result Scale Scene Server Sink Slice
+    Options Origin Output Page Phantom Policy Preview Progress Projection Rank Reader Reason Render Report Result Scale Scene Server Sink Slice
     Spectrum State Store Surface Text Tree Type Value Vec3 Verify View Volume
 """.split())
 ROOM = re.compile(r"^\| ([\w ]+) \| `([\w/]+)` \|(?:[^|]*\|){4} ([\w, ]*?) ?\|$", re.M)

@@ -68,7 +68,7 @@ TEST(CompressedInputs, ExtraBytesAreRefusedUnlessSkipped) {
     for (const auto& [encoding, payload] : longer) {
         SCOPED_TRACE(encoding + " " + std::to_string(payload.size()));
         const std::string path = folder.write("v.nrrd", header + "encoding: " + encoding + "\n\n" + payload);
-        test::expect_helpful(test::failure_of_loading(path), ErrorKind::input, "--skip-rest");
+        test::expect_reason(test::failure_of_loading(path), ErrorKind::input, Reason::bytes_after_samples);
         const Volume volume = load_volume(path, skip);
         EXPECT_EQ(test::text_of_bytes(volume), samples);
         ASSERT_EQ(volume.info.notes.size(), 1U);
@@ -103,7 +103,7 @@ TEST(CompressedInputs, EachPartMustEndWithItsSamples) {
             parts[first ? 0 : 1] += "x";
             for (int i = 0; i < 2; ++i) folder.write("p" + std::to_string(i), encoding == "raw" ? parts[i] : test::gzip(parts[i]));
             const std::string path = folder.write("v.nhdr", header + "encoding: " + encoding + "\ndata file: LIST\np0\np1\n");
-            test::expect_helpful(test::failure_of_loading(path), ErrorKind::input, "--skip-rest");
+            test::expect_reason(test::failure_of_loading(path), ErrorKind::input, Reason::bytes_after_samples);
             OpenOptions skip;
             skip.skip_rest = true;
             EXPECT_EQ(test::text_of_bytes(load_volume(path, skip)), samples);
@@ -147,7 +147,8 @@ TEST(CompressedInputs, TextThatMayBeCutInItsLastNumberIsRefused) {
         for (const char* end : {"\n", " ", "\r\n", ",\n"})
             EXPECT_EQ(load_volume(folder.write(name, header + "1 2\n3 41" + end)).value(3), 41);
         test::expect_helpful(test::failure_of_loading(folder.write(name, header + "1 2\n3 4")), ErrorKind::input, "longer number");
-        test::expect_helpful(test::failure_of_loading(folder.write(name, header + "1 2\n3 41\n5\n")), ErrorKind::input, "--skip-rest");
+        test::expect_reason(test::failure_of_loading(folder.write(name, header + "1 2\n3 41\n5\n")), ErrorKind::input,
+                            Reason::bytes_after_samples);
     }
 }
 

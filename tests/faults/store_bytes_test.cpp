@@ -6,7 +6,7 @@
 
 #include "faults/forwarding_files.h"
 #include "faults/memory_files.h"
-#include "faults/store_questions.h"
+#include "faults/store_queries.h"
 #include "isoatlas/build.h"
 #include "isoatlas/error.h"
 #include "isoatlas/phantom.h"
@@ -14,7 +14,7 @@
 namespace isoatlas {
 namespace {
 
-using test::Question;
+using test::Query;
 
 constexpr const char* kPath = "small.atlas";
 
@@ -51,14 +51,14 @@ protected:
 
     void build(const Volume& volume, double tau, std::int64_t voxel) {
         build_atlas(kPath, volume);
-        for (Question& question : test::questions(tau, voxel)) {
+        for (Query& query : test::queries(tau, voxel)) {
             WatchedFiles watched(memory_);
             const ReplacedFileSystem in_use(watched);
-            answers_.push_back({question, question.ask(Atlas(kPath)), std::move(watched.was_read)});
+            answers_.push_back({query, query.ask(Atlas(kPath)), std::move(watched.was_read)});
         }
     }
 
-    /// Asks what may depend on a byte: what was made without reading it cannot change. Every question must be refused or answered right;
+    /// Asks what may depend on a byte: what was made without reading it cannot change. Every query must be refused or answered right;
     /// the file is still told to be a store. Returns whether check() has found it.
     bool is_found_after_change_of(std::size_t at) {
         EXPECT_TRUE(is_atlas(kPath)) << "byte " << at;
@@ -73,7 +73,7 @@ protected:
         return found;
     }
 
-    /// Asks everything. Returns whether every question was refused.
+    /// Asks everything. Returns whether every query was refused.
     bool is_refused(const std::string& when) {
         bool refused = true;
         for (const Answered& a : answers_) refused = is_refused_or_right(a, when) && refused;
@@ -120,14 +120,14 @@ protected:
 
 private:
     struct Answered {
-        Question question;
+        Query query;
         std::string right;
         std::vector<bool> was_read;
     };
 
     static bool is_refused_or_right(const Answered& a, const std::string& when) {
         try {
-            EXPECT_TRUE(a.question.ask(Atlas(kPath)) == a.right) << a.question.name << ": a wrong answer; " << when;
+            EXPECT_TRUE(a.query.ask(Atlas(kPath)) == a.right) << a.query.name << ": a wrong answer; " << when;
             return false;
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::input) << when << ": " << error.what();

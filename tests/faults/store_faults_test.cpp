@@ -5,7 +5,7 @@
 
 #include "faults/faulty_files.h"
 #include "faults/memory_files.h"
-#include "faults/store_questions.h"
+#include "faults/store_queries.h"
 #include "isoatlas/build.h"
 #include "isoatlas/error.h"
 #include "isoatlas/phantom.h"
@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-using test::Question;
+using test::Query;
 
 constexpr const char* kPath = "noise.atlas";
 constexpr double kTau = 24.5;
@@ -24,12 +24,12 @@ protected:
         const ReplacedFileSystem in_use(memory_);
         build_atlas(kPath, make_phantom("noise", {.size = 34, .quantise = 32}));
         const Atlas atlas(kPath);
-        questions_ = test::questions(kTau, atlas.cut(kTau).objects.at(3).id);
-        for (const Question& question : questions_) right_.push_back(question.ask(atlas));
+        queries_ = test::queries(kTau, atlas.cut(kTau).objects.at(3).id);
+        for (const Query& query : queries_) right_.push_back(query.ask(atlas));
     }
 
     test::MemoryFiles memory_;
-    std::vector<Question> questions_;
+    std::vector<Query> queries_;
     std::vector<std::string> right_;
 };
 
@@ -45,32 +45,32 @@ TEST_F(StoreFaults, ShortAndInterruptedReadsDoNotMatter) {
         test::FaultyFiles disk({.max = max}, memory_);
         const ReplacedFileSystem in_use(disk);
         const Atlas atlas(kPath);
-        for (std::size_t q = 0; q < questions_.size(); ++q) EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;
+        for (std::size_t q = 0; q < queries_.size(); ++q) EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name;
         EXPECT_GT(disk.operations(), 100);
     }
 }
 
 TEST_F(StoreFaults, EveryOperationThatFailsIsTold) {
-    for (std::size_t q = 0; q < questions_.size(); ++q) {
+    for (std::size_t q = 0; q < queries_.size(); ++q) {
         std::int64_t at = 0;
         for (bool failed = true; failed; ++at) {
             test::FaultyFiles disk({.at = at}, memory_);
             const ReplacedFileSystem in_use(disk);
             try {
                 const Atlas atlas(kPath);
-                EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;
-                EXPECT_FALSE(disk.has_failed()) << questions_[q].name << ": operation " << at << " failed and nobody said so";
+                EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name;
+                EXPECT_FALSE(disk.has_failed()) << queries_[q].name << ": operation " << at << " failed and nobody said so";
             } catch (const Error& error) {
                 expect_says_where(error, at);
             }
             failed = disk.has_failed();
         }
-        EXPECT_GT(at, 10) << questions_[q].name;
+        EXPECT_GT(at, 10) << queries_[q].name;
     }
 }
 
 TEST_F(StoreFaults, AfterAFailureTheSameStoreAnswersAgain) {
-    for (std::size_t q = 1; q < questions_.size(); ++q) {
+    for (std::size_t q = 1; q < queries_.size(); ++q) {
         bool failed = true;
         for (std::int64_t at = 0; failed; ++at) {
             test::FaultyFiles disk({}, memory_);
@@ -78,14 +78,14 @@ TEST_F(StoreFaults, AfterAFailureTheSameStoreAnswersAgain) {
             const Atlas atlas(kPath);
             disk.restart({.at = at});
             try {
-                (void)questions_[q].ask(atlas);
-                EXPECT_FALSE(disk.has_failed()) << questions_[q].name << " " << at;
+                (void)queries_[q].ask(atlas);
+                EXPECT_FALSE(disk.has_failed()) << queries_[q].name << " " << at;
             } catch (const Error& error) {
                 expect_says_where(error, at);
             }
             failed = disk.has_failed();
             disk.restart({});
-            EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name << " after operation " << at << " failed";
+            EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name << " after operation " << at << " failed";
         }
     }
 }
@@ -94,7 +94,7 @@ TEST_F(StoreFaults, AFileThatBecomesShorterIsTold) {
     const ReplacedFileSystem in_use(memory_);
     const Atlas atlas(kPath);
     memory_.content(kPath).resize(3000);
-    for (std::size_t q = 1; q < questions_.size(); ++q) EXPECT_THROW((void)questions_[q].ask(atlas), Error) << questions_[q].name;
+    for (std::size_t q = 1; q < queries_.size(); ++q) EXPECT_THROW((void)queries_[q].ask(atlas), Error) << queries_[q].name;
 }
 
 // Nothing may be written beside a store that is read, nor to it.
@@ -112,7 +112,7 @@ TEST_F(StoreFaults, QueriesWriteNothing) {
     const std::string before = memory_.content(kPath);
     EXPECT_TRUE(is_atlas(kPath));
     const Atlas atlas(kPath);
-    for (std::size_t q = 0; q < questions_.size(); ++q) EXPECT_TRUE(questions_[q].ask(atlas) == right_[q]) << questions_[q].name;
+    for (std::size_t q = 0; q < queries_.size(); ++q) EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name;
     EXPECT_TRUE(memory_.content(kPath) == before);
     EXPECT_EQ(memory_.count(), 1U);
     try {

@@ -78,9 +78,9 @@ Bytes mended(Bytes bytes) {
 }
 
 template <class Ask>
-void ask(const Ask& question) {
+void ask(const Ask& query) {
     try {
-        question();
+        query();
     } catch (const isoatlas::Error&) {
     }
 }
@@ -106,7 +106,7 @@ void query(std::span<const std::byte> content) {
         for (const double tau : {range[0], (range[0] + range[1]) / 2, range[1]}) {
             ask([&] { (void)atlas.cut(tau, {.label = true}, context); });
             ask([&] { (void)atlas.extract(tau, {}, context); });
-            isoatlas::ExtractOptions options;
+            isoatlas::SurfaceOptions options;
             options.objects = {0};
             ask([&] { (void)atlas.extract(tau, options, context); });
         }

@@ -50,7 +50,7 @@ class Attacked(harness.CliTest):
     # --- the owner, and the memory
 
     def owner_is_answered(self):
-        """The longest wait of some questions, each on a connection of its own, none repeated."""
+        """The longest wait of some requests, each on a connection of its own, none repeated."""
         longest = 0
         for i in range(OWNER_ASKS):
             begun = time.monotonic()

@@ -67,7 +67,7 @@ RC_GTEST_FIXTURE_PROP(Stores, CountWhatAQueryCosts, ()) {
     RC_ASSERT(again.cells_loaded == 0);
     RC_ASSERT(again.cells_visited == all.cells_visited);
     const int object = *rc::gen::inRange<int>(0, static_cast<int>(cut.objects.size()));
-    isoatlas::ExtractOptions options;
+    isoatlas::SurfaceOptions options;
     options.objects = {cut.objects[static_cast<std::size_t>(object)].id};
     (void)Atlas(path_).extract(tau, options, {}, &one);
     RC_ASSERT(one.cells_active == active_cells_of(cut, volume, object));
@@ -287,7 +287,7 @@ TEST_F(Stores, KeepToTheirBudget) {
                 const int which = (i * 5 + asker) % 6;
                 const auto& surface = expected[static_cast<std::size_t>(which)];
                 wrong += same(atlas.extract(10 * which + 3, {}, context), surface) ? 0 : 1;
-                isoatlas::ExtractOptions one;
+                isoatlas::SurfaceOptions one;
                 one.objects = {surface.object.at(surface.object.size() / 2)};
                 wrong += atlas.extract(10 * which + 3, one, context).points.empty() ? 1 : 0;
                 if (i % 3 == 0) atlas.clear_cache();

@@ -48,14 +48,14 @@ RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameCutsAndSurfaces, ()) {
         double tau = grid.value[*rc::gen::inRange<std::size_t>(0, grid.value.size())];
         if (*rc::gen::inRange(0, 2) == 0) tau += 0.25;
         const isoatlas::CutOptions cut{.interpolant = options.interpolant, .label = true};
-        RC_ASSERT(text(atlas.cut(tau, cut, arbitrary_context())) == text(isoatlas::cut(volume, tau, cut)));
-        isoatlas::ExtractOptions extract;
-        extract.interpolant = options.interpolant;
+        RC_ASSERT(text(atlas.cut(tau, {.label = true}, arbitrary_context())) == text(isoatlas::cut(volume, tau, cut)));
+        isoatlas::SurfaceOptions extract;
         extract.style = *rc::gen::element(isoatlas::SurfaceStyle::compact, isoatlas::SurfaceStyle::full);
         extract.boundary = *rc::gen::element(isoatlas::Boundary::closed, isoatlas::Boundary::open);
         extract.shell = *rc::gen::element(isoatlas::ShellChoice::all, isoatlas::ShellChoice::outer, isoatlas::ShellChoice::inner);
         extract.ids = *rc::gen::inRange(0, 2) == 0;
-        RC_ASSERT(same(atlas.extract(tau, extract, arbitrary_context()), isoatlas::extract(volume, tau, extract)));
+        RC_ASSERT(same(atlas.extract(tau, extract, arbitrary_context()),
+                       isoatlas::extract(volume, tau, {.interpolant = options.interpolant, .surface = extract})));
         if (*rc::gen::inRange(0, 4) == 0) atlas.clear_cache();
     }
     RC_ASSERT(atlas.volume().bytes == volume.bytes);
@@ -84,12 +84,13 @@ TEST_F(Stores, NeedNoTreesForCutsAndSurfaces) {
 }
 
 // One object from the bricks around it: every object of a cut, or some of many.
-void check_objects(const Atlas& atlas, const Volume& volume, double tau, isoatlas::ExtractOptions options) {
-    const isoatlas::Cut cut = isoatlas::cut(volume, tau, {.interpolant = options.interpolant});
+void check_objects(const Atlas& atlas, const Volume& volume, double tau, isoatlas::SurfaceOptions options) {
+    const isoatlas::Cut cut = isoatlas::cut(volume, tau);
     const std::size_t step = std::max<std::size_t>(1, cut.objects.size() / 40);
     for (std::size_t i = 0; i < cut.objects.size(); i += step) {
         options.objects = {cut.objects[i].id};
-        ASSERT_TRUE(same(atlas.extract(tau, options), isoatlas::extract(volume, tau, options))) << "object " << cut.objects[i].id;
+        ASSERT_TRUE(same(atlas.extract(tau, options), isoatlas::extract(volume, tau, {.surface = options})))
+            << "object " << cut.objects[i].id;
     }
 }
 
@@ -109,7 +110,7 @@ TEST_F(Stores, GiveTheSameObjects) {
         isoatlas::build_atlas(path_, volume);
         for (const double tau : example.isovalues) {
             for (const isoatlas::ShellChoice shell : {isoatlas::ShellChoice::all, isoatlas::ShellChoice::inner}) {
-                isoatlas::ExtractOptions options;
+                isoatlas::SurfaceOptions options;
                 options.shell = shell;
                 ASSERT_NO_FATAL_FAILURE(check_objects(Atlas(path_), volume, tau, options));
             }
@@ -123,7 +124,7 @@ TEST_F(Stores, ReadForASmallObjectOnlyWhatIsAroundIt) {
     const isoatlas::Cut cut = isoatlas::cut(volume, 200);
     ASSERT_GT(cut.objects.size(), 10U);
     const Atlas atlas(path_);
-    isoatlas::ExtractOptions options;
+    isoatlas::SurfaceOptions options;
     options.objects = {cut.objects.back().id};  // the smallest
     EXPECT_FALSE(atlas.extract(200, options).points.empty());
     EXPECT_LE(atlas.reads().bricks, 64);  // of 512

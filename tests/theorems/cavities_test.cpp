@@ -165,8 +165,7 @@ void cavities_are_what_their_best_isovalue_shows() {
             RC_ASSERT(wall != cut.contours.end());
             RC_ASSERT(wall->object == entry.object);
             RC_ASSERT(wall->genus == entry.tunnels);
-            isoatlas::ExtractOptions options;
-            options.interpolant = interpolant, options.contours = {entry.id};
+            const isoatlas::ExtractOptions options{.interpolant = interpolant, .surface = {.objects = {}, .contours = {entry.id}}};
             RC_ASSERT(!isoatlas::extract(volume, tau, options).points.empty());
         }
     }

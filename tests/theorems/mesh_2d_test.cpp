@@ -72,8 +72,7 @@ void mesh2d_curves_are_the_contours_of_the_cut() {
 void mesh2d_open_curves_end_at_the_border() {
     const Grid grid = arbitrary_image();
     const Elements elements(grid);
-    isoatlas::ExtractOptions options;
-    options.boundary = Boundary::open;
+    const isoatlas::ExtractOptions options{.surface = {.boundary = Boundary::open, .objects = {}, .contours = {}}};
     const Surface surface = isoatlas::extract(to_volume(grid), arbitrary_tau(elements), options, arbitrary_context());
     if (grid.size[0] == 1 || grid.size[1] == 1) {
         RC_ASSERT(surface.points.empty() && surface.segments.empty());

@@ -32,7 +32,7 @@ struct Case {
     isoatlas::ExtractOptions arbitrary_style() const {
         isoatlas::ExtractOptions options;
         options.interpolant = interpolant;
-        options.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
+        options.surface.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
         return options;
     }
     isoatlas::Cut cut(bool label = false) const { return isoatlas::cut(volume, tau, {.interpolant = interpolant, .label = label}); }
@@ -123,9 +123,10 @@ Index chi_on_the_border(const Case& c) {
 
 void mesh_open_surfaces_end_at_the_border_of_the_volume() {
     const Case c(arbitrary_grid_3d());
-    isoatlas::ExtractOptions options = c.arbitrary_style();
+    isoatlas::ExtractOptions how = c.arbitrary_style();
+    isoatlas::SurfaceOptions& options = how.surface;
     options.boundary = Boundary::open;
-    const Surface surface = isoatlas::extract(c.volume, c.tau, options, arbitrary_context());
+    const Surface surface = isoatlas::extract(c.volume, c.tau, how, arbitrary_context());
     RC_ASSERT(!surface.closed);
     if (*std::min_element(c.grid.size.begin(), c.grid.size.end()) == 1) {
         RC_ASSERT(surface.points.empty() && surface.triangles.empty());
@@ -166,9 +167,10 @@ std::vector<std::array<isoatlas::Vec3, 3>> triangles_of(const Surface& surface, 
 
 void mesh_selections_are_subsets() {
     const Case c(arbitrary_grid_3d());
-    isoatlas::ExtractOptions options = c.arbitrary_style();
+    isoatlas::ExtractOptions how = c.arbitrary_style();
+    isoatlas::SurfaceOptions& options = how.surface;
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
-    const Surface whole = isoatlas::extract(c.volume, c.tau, options);
+    const Surface whole = isoatlas::extract(c.volume, c.tau, how);
     const isoatlas::Cut cut = c.cut(true);
     RC_PRE(!cut.objects.empty());
     std::map<Index, Shell> shell_of;
@@ -183,22 +185,22 @@ void mesh_selections_are_subsets() {
         options.objects = {v};
         break;
     }
-    const Surface one = isoatlas::extract(c.volume, c.tau, options, arbitrary_context());
+    const Surface one = isoatlas::extract(c.volume, c.tau, how, arbitrary_context());
     RC_ASSERT(everywhere(one) == triangles_of(whole, [&](std::size_t i) { return whole.object[i] == object.id; }));
     RC_ASSERT(isoatlas::inspect(one.points, one.triangles).unused_points == 0);
     RC_ASSERT(one.normals.size() == one.points.size() && one.object.size() == one.points.size());
     options.shell = ShellChoice::inner;
-    RC_ASSERT(everywhere(isoatlas::extract(c.volume, c.tau, options)) == triangles_of(whole, [&](std::size_t i) {
+    RC_ASSERT(everywhere(isoatlas::extract(c.volume, c.tau, how)) == triangles_of(whole, [&](std::size_t i) {
                   return whole.object[i] == object.id && shell_of[whole.contour[i]] == Shell::inner;
               }));
     options.objects.clear();
     options.shell = ShellChoice::outer;
-    RC_ASSERT(everywhere(isoatlas::extract(c.volume, c.tau, options)) ==
+    RC_ASSERT(everywhere(isoatlas::extract(c.volume, c.tau, how)) ==
               triangles_of(whole, [&](std::size_t i) { return shell_of[whole.contour[i]] == Shell::outer; }));
     options.shell = ShellChoice::all;
     options.contours = {contour.id};
     options.ids = false;
-    const Surface wall = isoatlas::extract(c.volume, c.tau, options);
+    const Surface wall = isoatlas::extract(c.volume, c.tau, how);
     RC_ASSERT(everywhere(wall) == triangles_of(whole, [&](std::size_t i) { return whole.contour[i] == contour.id; }));
     RC_ASSERT(wall.object.empty() && wall.contour.empty());
 }
@@ -206,13 +208,14 @@ void mesh_selections_are_subsets() {
 void mesh_has_the_same_bytes_for_any_threads_and_slabs() {
     Case c(*arbitrary_grid(7, 200));
     c.volume.info.geometry = arbitrary_geometry(c.grid);
-    isoatlas::ExtractOptions options = c.arbitrary_style();
+    isoatlas::ExtractOptions how = c.arbitrary_style();
+    isoatlas::SurfaceOptions& options = how.surface;
     options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
     isoatlas::Context one_thread;
     one_thread.threads = 1;
-    const Surface expected = isoatlas::extract(c.volume, c.tau, options, one_thread);
+    const Surface expected = isoatlas::extract(c.volume, c.tau, how, one_thread);
     for (int i = 0; i < 3; ++i) {
-        const Surface actual = isoatlas::extract(c.volume, c.tau, options, arbitrary_context());
+        const Surface actual = isoatlas::extract(c.volume, c.tau, how, arbitrary_context());
         RC_ASSERT(actual.points == expected.points && actual.normals == expected.normals);
         RC_ASSERT(actual.triangles == expected.triangles && actual.segments == expected.segments);
         RC_ASSERT(actual.object == expected.object && actual.contour == expected.contour);
@@ -231,8 +234,8 @@ void mesh_no_two_triangles_cross() {
     }
     isoatlas::ExtractOptions options;
     options.interpolant = *arbitrary_interpolant();
-    options.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
-    options.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
+    options.surface.style = *rc::gen::element(SurfaceStyle::compact, SurfaceStyle::full);
+    options.surface.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
     RC_ASSERT(count_crossings(isoatlas::extract(to_volume(grid), 0, options)) == 0);
 }
 

@@ -16,8 +16,8 @@ using isoatlas::Volume;
 
 class Navigation : public Stores {};
 
-isoatlas::ExtractOptions arbitrary_options() {
-    isoatlas::ExtractOptions options;
+isoatlas::SurfaceOptions arbitrary_options() {
+    isoatlas::SurfaceOptions options;
     options.style = *rc::gen::element(isoatlas::SurfaceStyle::compact, isoatlas::SurfaceStyle::full);
     options.boundary = *rc::gen::element(isoatlas::Boundary::closed, isoatlas::Boundary::open);
     options.shell = *rc::gen::element(isoatlas::ShellChoice::all, isoatlas::ShellChoice::all, isoatlas::ShellChoice::inner);
@@ -29,11 +29,10 @@ isoatlas::ExtractOptions arbitrary_options() {
 RC_GTEST_FIXTURE_PROP(Navigation, ShowsWhatAFreshQueryShows, ()) {
     const Grid grid = arbitrary_volume();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
-    isoatlas::ExtractOptions options = arbitrary_options();
-    options.interpolant = *arbitrary_interpolant();
+    const isoatlas::ExtractOptions options{.interpolant = *arbitrary_interpolant(), .surface = arbitrary_options()};
     isoatlas::build_atlas(path_, volume, {.interpolant = options.interpolant});
     const Atlas atlas(path_, {.cache_bytes = *rc::gen::element<std::int64_t>(0, 1, 9000, 100000)});
-    Navigator navigator(atlas, options);
+    Navigator navigator(atlas, options.surface);
     const auto [low, high] = atlas.range();
     for (int move = 0; move < 8; ++move) {
         double to = grid.value[*rc::gen::inRange<std::size_t>(0, grid.value.size())];
@@ -87,13 +86,13 @@ TEST_F(Navigation, FollowsOneObject) {
     isoatlas::build_atlas(path_, volume);
     const Atlas atlas(path_);
     const isoatlas::ActiveObject start = atlas.active(50).objects.at(1);
-    isoatlas::ExtractOptions options;
+    isoatlas::SurfaceOptions options;
     options.objects = {start.id};
     Navigator navigator(atlas, options);
-    EXPECT_TRUE(same(navigator.show({start.id}, 50), isoatlas::extract(volume, 50, options)));
+    EXPECT_TRUE(same(navigator.show({start.id}, 50), isoatlas::extract(volume, 50, {.surface = options})));
     ASSERT_TRUE(navigator.to_event_below());
     EXPECT_EQ(*navigator.tau(), start.zone.tau_low);
-    EXPECT_TRUE(same(navigator.surface(), isoatlas::extract(volume, start.zone.tau_low, options)));
+    EXPECT_TRUE(same(navigator.surface(), isoatlas::extract(volume, start.zone.tau_low, {.surface = options})));
     EXPECT_THROW((void)navigator.go_to(64), isoatlas::Error);  // nothing is that high
     EXPECT_FALSE(navigator.tau());
     EXPECT_TRUE(same(navigator.show({}, 40), isoatlas::extract(volume, 40)));

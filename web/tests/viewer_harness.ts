@@ -94,7 +94,7 @@ export class Served {
     tab.setDefaultTimeout(120_000);
     const problems: string[] = [];
     tab.on("pageerror", (error) => problems.push(error.message));
-    const isSuperseded = (text: string): boolean => text.includes("409 (Conflict)"); // a newer question has ended it, as it should
+    const isSuperseded = (text: string): boolean => text.includes("409 (Conflict)"); // a newer request has ended it, as it should
     tab.on("console", (message) => message.type() === "error" && !isSuperseded(message.text()) && problems.push(message.text()));
     await tab.goto((await this.address()) + hash);
     await tab.waitForSelector(".objects [role=tab]");

@@ -230,7 +230,7 @@ Scene scene_of(const Arguments& arguments, Source& source) {
     Scene scene;
     scene.unit = length_unit(source.info());
     for (const Wanted& wanted : wanted_of(arguments, source)) {
-        ExtractOptions options;
+        SurfaceOptions options;
         options.objects = wanted.objects;
         options.contours = wanted.contours;
         options.shell = wanted.shell;

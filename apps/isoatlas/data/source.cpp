@@ -74,16 +74,14 @@ double Source::stored(double typed) {
 }
 
 Cut Source::cut(double tau, bool label) {
-    const CutOptions options{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = label};
-    if (atlas_ && !arguments_.voxel_units) return atlas_->cut(tau, options, context(), &cost_);
-    return isoatlas::cut(volume(), tau, options, context());
+    if (atlas_ && !arguments_.voxel_units) return atlas_->cut(tau, {.label = label}, context(), &cost_);
+    return isoatlas::cut(volume(), tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = label}, context());
 }
 
-Surface Source::extract(double tau, ExtractOptions options) {
-    options.interpolant = interpolant();
-    options.tunnel_height = tunnel_height();
+Surface Source::extract(double tau, const SurfaceOptions& options) {
     if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context(), &cost_);
-    return isoatlas::extract(volume(), tau, options, context());
+    return isoatlas::extract(volume(), tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options},
+                             context());
 }
 
 ObjectTable Source::objects(const RankOptions& options) {

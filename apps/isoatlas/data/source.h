@@ -37,7 +37,7 @@ public:
 
     [[nodiscard]] Cut cut(double tau, bool label);
     /// options: interpolant and tunnel height are those of the source.
-    [[nodiscard]] Surface extract(double tau, ExtractOptions options);
+    [[nodiscard]] Surface extract(double tau, const SurfaceOptions& options);
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
     [[nodiscard]] CavityTable cavities(const RankOptions& options);

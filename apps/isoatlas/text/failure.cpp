@@ -8,12 +8,16 @@
 
 #include <unistd.h>
 
+#include "text/advice.h"
+
 namespace isoatlas::cli {
 namespace {
 
 Error bug(const std::string& what) {
     return {ErrorKind::internal,
-            {.what = "a bug of isoatlas: " + what, .next = "please report it with the command line and, if you may share it, the file"}};
+            {.what = "a bug of isoatlas: " + what,
+             .next = "please report it with the command line and, if you may share it, the file",
+             .reason = Reason::bug}};
 }
 
 /// Has the system run out of a resource?
@@ -37,7 +41,7 @@ void say(const char* text) { [[maybe_unused]] const ssize_t said = ::write(STDER
         say("isoatlas: not enough memory. Next: use a machine with more memory, or allow this process more (ulimit -v)\n");
         ::_exit(static_cast<int>(ErrorKind::resource));
     } catch (...) {
-        const Error error = failure();
+        const Error error = with_options(failure());
         say("isoatlas: ");
         say(error.what());
         say("\n");
@@ -53,9 +57,10 @@ Error failure() noexcept {
     } catch (const Error& error) {
         return error;
     } catch (const std::bad_alloc&) {
-        return {
-            ErrorKind::resource,
-            {.what = "not enough memory", .next = "isoatlas info FILE prints the memory of an analysis; use a machine with more memory"}};
+        return {ErrorKind::resource,
+                {.what = "not enough memory",
+                 .next = "isoatlas info FILE prints the memory of an analysis; use a machine with more memory",
+                 .reason = Reason::not_enough_memory}};
     } catch (const std::system_error& error) {
         if (!is_refusal(error.code())) return bug(error.what());
         return {ErrorKind::resource,

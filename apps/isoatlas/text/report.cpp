@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "text/advice.h"
 #include "text/document.h"
 #include "text/terminal.h"
 
@@ -24,7 +25,8 @@ const char* kind_name(ErrorKind kind) {
 
 }  // namespace
 
-int report(const Error& error, bool json, Terminal& terminal) {
+int report(const Error& failed, bool json, Terminal& terminal) {
+    const Error error = with_options(failed);
     const int code = static_cast<int>(error.kind());
     Terminal::Style style = terminal.style();
     style.quiet = false;
@@ -40,7 +42,9 @@ int report(const Error& error, bool json, Terminal& terminal) {
                                   {"where", text.where},
                                   {"what", text.what},
                                   {"expected", text.expected},
-                                  {"next", text.next}};
+                                  {"next", text.next},
+                                  {"reason", name_of(text.reason)},
+                                  {"value", text.value}};
     try {
         print(terminal, document_of_error);
         terminal.finish();

@@ -7,7 +7,7 @@ namespace isoatlas::cli {
 
 class Terminal;
 
-/// Returns the exit code.
+/// Names the options that help (text/advice.h). Returns the exit code.
 int report(const Error& error, bool json, Terminal& terminal);
 
 }  // namespace isoatlas::cli

@@ -23,12 +23,12 @@ void refuse_secrets(const std::string& address) {
 
 int run_ask(const Arguments& arguments, Terminal& terminal) {
     refuse_secrets(arguments.file);
-    const std::string question = arguments.part.empty() ? "/api/atlas" : arguments.part.front();
+    const std::string request = arguments.part.empty() ? "/api/atlas" : arguments.part.front();
     if (arguments.output.empty()) {
-        const ServerResponse answer = ask_server(arguments.file, question);
+        const ServerResponse answer = ask_server(arguments.file, request);
         if (answer.type != "application/json") {
             throw Error(ErrorKind::usage,
-                        {.where = question,
+                        {.where = request,
                          .what = "the response is " + bytes_text(static_cast<double>(answer.bytes.size())) + " of " + answer.type,
                          .next = "give a file for it: -o FILE"});
         }
@@ -36,10 +36,10 @@ int run_ask(const Arguments& arguments, Terminal& terminal) {
         return 0;
     }
     check_output_file(arguments.output);
-    const std::size_t bytes = ask_server(arguments.file, question, arguments.output);
+    const std::size_t bytes = ask_server(arguments.file, request, arguments.output);
     if (arguments.json) {
         Json json = document("ask");
-        json["request"] = question;
+        json["request"] = request;
         json["output"] = arguments.output;
         json["bytes"] = bytes;
         print(terminal, json);

@@ -25,7 +25,7 @@ const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
 }
 
 /// The best isovalue of the selected objects. With --best and no --object: the object of the first line of the table.
-double best_tau(const Arguments& arguments, Source& source, ExtractOptions& options) {
+double best_tau(const Arguments& arguments, Source& source, SurfaceOptions& options) {
     ObjectTable table = source.objects({});
     if (options.objects.empty()) {
         if (table.entries.empty()) no_such_entry(arguments, "no object of this volume is above the noise level");
@@ -129,9 +129,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Source source(arguments, terminal);
     check_ids(arguments, source.info());
-    ExtractOptions options{.interpolant = source.interpolant(),
-                           .tunnel_height = source.tunnel_height(),
-                           .boundary = arguments.boundary,
+    SurfaceOptions options{.boundary = arguments.boundary,
                            .style = arguments.style,
                            .objects = arguments.objects,
                            .contours = arguments.contours,

@@ -56,7 +56,7 @@ std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
     return verify_mesh(mesh);
 }
 
-std::string sample_text(const VerifyOptions& options) {
+std::string sample_text(const AtlasVerifyOptions& options) {
     const std::string isovalues = fmt::format("{} isovalues drawn with seed {} and both ends of the range", options.levels, options.seed);
     return options.full
                ? "all objects at " + isovalues
@@ -74,15 +74,13 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
         checks = check_mesh(arguments, head);
     } else {
         Source source(arguments, terminal);
-        const VerifyOptions options{.levels = arguments.levels,
-                                    .interpolant = source.interpolant(),
-                                    .tunnel_height = source.tunnel_height(),
-                                    .full = arguments.full,
-                                    .seed = arguments.seed};
+        const AtlasVerifyOptions options{.levels = arguments.levels, .full = arguments.full, .seed = arguments.seed};
+        const VerifyOptions of_volume{
+            .levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
         checks = source.is_store() ? verify_atlas(source.atlas(), options, source.context())
-                                   : verify_volume(source.volume(), options, source.context());
-        of_what = ", " + interpolant_text(source.info(), options.interpolant, options.tunnel_height);
-        head = document("verify", source.info(), options.interpolant, options.tunnel_height);
+                                   : verify_volume(source.volume(), of_volume, source.context());
+        of_what = ", " + interpolant_text(source.info(), of_volume.interpolant, of_volume.tunnel_height);
+        head = document("verify", source.info(), of_volume.interpolant, of_volume.tunnel_height);
         head["what"] = source.is_store() ? "store" : "volume";
         head["levels"] = arguments.levels;
         if (source.is_store()) {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "data/store_awaited.h"
+#include "text/advice.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/report.h"
@@ -88,7 +89,7 @@ void keep_token(Server& server, Terminal& terminal) {
     try {
         server.keep_token();
     } catch (const Error& error) {
-        terminal.say(std::string("note: `isoatlas ask` cannot read the token of this viewer: ") + error.what());
+        terminal.say(std::string("note: `isoatlas ask` cannot read the token of this viewer: ") + with_options(error).what());
     }
 }
 
@@ -132,7 +133,7 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
             server.open(*atlas);
         } catch (const Error& error) {
             if (interrupted()) return 0;
-            server.fail(error);  // the page shows it too
+            server.fail(with_options(error));  // the page shows it too
             code = report(error, arguments.json, terminal);
             terminal.say("note: there is no store to show, see the page; Ctrl-C ends the viewer with exit code " + std::to_string(code));
         }

@@ -120,11 +120,13 @@ std::unique_ptr<ByteSource> open_file_source(std::unique_ptr<File> file, const s
 std::unique_ptr<ByteSource> open_parts_source(PartsPlan plan) { return std::make_unique<PartsSource>(std::move(plan)); }
 
 void refuse_rest(const std::string& file, std::int64_t rest) {
-    throw Error(ErrorKind::input, {.file = file,
-                                   .where = "after the samples",
-                                   .what = std::to_string(rest) + (rest == 1 ? " byte follows" : " bytes follow"),
-                                   .expected = "the end of the data",
-                                   .next = "the header or the file is damaged, or it holds more than a volume: then pass --skip-rest"});
+    throw Error(ErrorKind::input,
+                {.file = file,
+                 .where = "after the samples",
+                 .what = std::to_string(rest) + (rest == 1 ? " byte follows" : " bytes follow"),
+                 .expected = "the end of the data",
+                 .next = "the header or the file is damaged, or it holds more than a volume: then let the rest be skipped",
+                 .reason = Reason::bytes_after_samples});
 }
 
 std::int64_t require_end(ByteSource& source, std::int64_t wanted, bool skip_rest) {

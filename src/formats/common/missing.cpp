@@ -9,9 +9,6 @@
 namespace isoatlas {
 namespace {
 
-constexpr const char* kBothOptions =
-    "treat such samples as background with --missing below, or put a value in their place with --missing VALUE";
-
 template <class T>
 std::span<const T> as_samples(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
@@ -41,9 +38,10 @@ MissingScan::MissingScan(const VolumeInfo& info, const MissingPolicy& policy, bo
     const bool fits = std::isfinite(value_) && visit_type(type, [&](auto zero) { return storable<decltype(zero)>(value_); });
     if (fits) return;
     throw Error(ErrorKind::usage, {.file = info.path,
-                                   .what = "--missing " + text_of(policy.value) + " is not a value of " + name_of(type),
+                                   .what = "for missing samples: " + text_of(policy.value) + " is not a value of " + name_of(type),
                                    .expected = is_floating(type) ? "a finite number" : "a whole number in the range of the type",
-                                   .next = "give another value, or --missing below"});
+                                   .next = "give another value, or treat missing samples as background",
+                                   .reason = Reason::replacement_not_stored});
 }
 
 template <class T>
@@ -130,15 +128,18 @@ T MissingScan::replacement() const {
         throw Error(ErrorKind::input, {.file = info_.path,
                                        .what = "every sample is missing (NaN, infinite or the no-data value)",
                                        .expected = "at least one finite sample",
-                                       .next = "check the file and --no-data"});
+                                       .next = "check the file and the no-data value",
+                                       .reason = Reason::only_missing_samples});
     }
     const T smallest = static_cast<T>(smallest_);
     if (smallest == std::numeric_limits<T>::lowest()) {
         throw Error(ErrorKind::input,
                     {.file = info_.path,
                      .what = std::string("no ") + name_of(value_type_of<T>) + " lies below the smallest sample, " + text_of(smallest_),
-                     .expected = "room for --missing below",
-                     .next = "give a value instead: --missing " + text_of(smallest_)});
+                     .expected = "room for one below all others",
+                     .next = "give a value for missing samples instead: " + text_of(smallest_),
+                     .reason = Reason::no_value_below,
+                     .value = text_of(smallest_)});
     }
     if constexpr (std::is_floating_point_v<T>) return std::nextafter(smallest, -std::numeric_limits<T>::infinity());
     return static_cast<T>(smallest - 1);
@@ -170,7 +171,8 @@ void MissingScan::report(std::int64_t index, double value, bool is_no_data) cons
                                    .where = "voxel " + position,
                                    .what = "the sample is " + shown + (is_no_data ? ", the no-data value" : ""),
                                    .expected = "finite samples",
-                                   .next = kBothOptions});
+                                   .next = "treat such samples as background, or put a value in their place",
+                                   .reason = Reason::missing_samples});
 }
 
 }  // namespace isoatlas

@@ -25,7 +25,8 @@ bool is_below(const fs::path& folder, const fs::path& file) {
                 {.file = path,
                  .what = what + " outside its folder: " + file,
                  .expected = "files in the folder or below it",
-                 .next = "copy the file into the folder, or pass --follow-links if you trust where this volume comes from"});
+                 .next = "copy the file into the folder, or let links be followed if you trust where this volume comes from",
+                 .reason = Reason::file_outside_folder});
 }
 
 }  // namespace

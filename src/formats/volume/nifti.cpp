@@ -104,7 +104,7 @@ Shape read_shape(const std::string& path, const NiftiHeader& header) {
     const std::int64_t dimensions = header.dim[0];
     if (dimensions < 1 || dimensions > 7) bad_header(path, "dim[0]", std::to_string(dimensions) + " dimensions", "2 to 7");
     if (dimensions == 1)
-        unsupported(path, "the file has one dimension", "2 or 3 (4 with --time-step)", "reshape it to the size of the image");
+        unsupported(path, "the file has one dimension", "2 or 3 (4 with a time step)", "reshape it to the size of the image");
     for (std::int64_t i = 1; i <= dimensions; ++i) {
         const std::int64_t size = header.dim[static_cast<std::size_t>(i)];
         if (size < 1) bad_header(path, "dim[" + std::to_string(i) + "]", "an axis has " + std::to_string(size) + " samples", "at least 1");

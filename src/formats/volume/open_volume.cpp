@@ -39,7 +39,7 @@ constexpr std::array<Format, 6> kFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_
 constexpr std::array<std::pair<std::string_view, const char*>, 14> kForeign = {
     {{".dcm", "convert the DICOM series to NIfTI, for example with dcm2niix"},
      {".hdr", "give the .nii or .mhd file of the pair; Analyze 7.5 pairs must be converted to NIfTI"},
-     {".img", "give it as RAW with --dims and --type, or convert the pair to NIfTI"},
+     {".img", "open it as RAW with the sizes and the type of its samples, or convert the pair to NIfTI"},
      {".h5", "export the dataset to .npy (h5py and numpy.save)"},
      {".hdf5", "export the dataset to .npy (h5py and numpy.save)"},
      {".mat", "export the array to .npy (scipy.io.loadmat and numpy.save)"},
@@ -94,16 +94,21 @@ bool has_extension(const std::string& path, const Format& format) {
                                        .what = "the file is named like a store but does not begin like one",
                                        .next = "the file is damaged or misnamed: build it again from the volume"});
     }
-    std::string next = "convert the file, or give --dims and --type if it is RAW";
+    std::string next = "convert the file, or give the sizes and the type of its samples if it is RAW", nearest;
+    Reason reason = extension == ".img" ? Reason::analyze_pair : Reason::unknown_format;
     for (const auto& [foreign, hint] : kForeign) {
-        if (extension == foreign) next = hint;
+        if (extension != foreign) continue;
+        next = hint;
+        if (reason == Reason::unknown_format) reason = Reason::foreign_format;
     }
     for (const Format& format : kFormats) {
         for (const std::string_view known : split_words(format.extensions)) {
-            if (extension.size() > 1 && edit_distance(extension, known) == 1) next = "did you mean " + std::string(known) + "? " + next;
+            if (extension.size() > 1 && edit_distance(extension, known) == 1) nearest = known;
         }
     }
-    throw Error(ErrorKind::unsupported, {.file = path, .what = "unknown file format", .expected = kSupported, .next = next});
+    if (!nearest.empty()) next = "did you mean " + nearest + "? " + next;
+    throw Error(ErrorKind::unsupported,
+                {.file = path, .what = "unknown file format", .expected = kSupported, .next = next, .reason = reason, .value = nearest});
 }
 
 /// Whether the name exists, also when it cannot be read: then opening it gives the error.
@@ -157,11 +162,13 @@ std::unique_ptr<VolumeReader> open_file_volume(const std::string& path, const Op
     unknown_format(path);
 }
 
-[[noreturn]] void contradiction(const std::string& path, const std::string& option, const std::string& header) {
+[[noreturn]] void contradiction(const std::string& path, const std::string& member, const std::string& header) {
     throw Error(ErrorKind::usage, {.file = path,
-                                   .what = option + " contradicts the header of the file",
+                                   .what = "the option " + member + " contradicts the header of the file",
                                    .expected = header,
-                                   .next = "leave " + option + " out; it is for RAW files"});
+                                   .next = "leave " + member + " out; it is for RAW files",
+                                   .reason = Reason::contradicts_header,
+                                   .value = member});
 }
 
 std::string text_of(const Vec3& vector) {
@@ -176,15 +183,15 @@ void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
     if (options.dims && *options.dims != dims) {
         std::string text = std::to_string(dims[0]);
         for (int axis = 1; axis < extent.rank; ++axis) text += "x" + std::to_string(dims[static_cast<std::size_t>(axis)]);
-        contradiction(info.path, "--dims", text);
+        contradiction(info.path, "dims", text);
     }
-    if (options.type && *options.type != info.type) contradiction(info.path, "--type", name_of(info.type));
+    if (options.type && *options.type != info.type) contradiction(info.path, "type", name_of(info.type));
     if (options.big_endian && *options.big_endian != info.big_endian && size_of(info.type) > 1) {
-        contradiction(info.path, "--endian", info.big_endian ? "big" : "little");
+        contradiction(info.path, "big_endian", info.big_endian ? "big" : "little");
     }
-    if (options.skip_bytes && *options.skip_bytes != 0) contradiction(info.path, "--skip", "samples where the header says");
-    if (options.spacing && *options.spacing != info.geometry.spacing) contradiction(info.path, "--spacing", text_of(info.geometry.spacing));
-    if (options.origin && *options.origin != info.geometry.origin) contradiction(info.path, "--origin", text_of(info.geometry.origin));
+    if (options.skip_bytes && *options.skip_bytes != 0) contradiction(info.path, "skip_bytes", "samples where the header says");
+    if (options.spacing && *options.spacing != info.geometry.spacing) contradiction(info.path, "spacing", text_of(info.geometry.spacing));
+    if (options.origin && *options.origin != info.geometry.origin) contradiction(info.path, "origin", text_of(info.geometry.origin));
 }
 
 }  // namespace

@@ -17,11 +17,13 @@ namespace isoatlas {
 namespace {
 
 template <class T>
-void take(const std::string& path, const char* option, const std::optional<T>& given, std::optional<T>& known) {
+void take(const std::string& path, const char* member, const std::optional<T>& given, std::optional<T>& known) {
     if (given && known && *given != *known) {
         throw Error(ErrorKind::usage, {.file = path,
-                                       .what = std::string(option) + " contradicts the sidecar of the file",
-                                       .next = std::string("leave ") + option + " out or correct the sidecar"});
+                                       .what = std::string("the option ") + member + " contradicts the sidecar of the file",
+                                       .next = std::string("leave ") + member + " out or correct the sidecar",
+                                       .reason = Reason::contradicts_sidecar,
+                                       .value = member});
     }
     if (given) known = given;
 }
@@ -37,9 +39,10 @@ void guess(const std::optional<T>& from_name, std::optional<T>& known, const cha
 void check_spacing(const std::string& path, const Vec3& spacing) {
     if (std::all_of(spacing.begin(), spacing.end(), [](double length) { return std::isfinite(length) && length != 0; })) return;
     throw Error(ErrorKind::usage, {.file = path,
-                                   .what = "--spacing has an axis whose samples are no distance apart",
+                                   .what = "the spacing has an axis whose samples are no distance apart",
                                    .expected = "numbers other than 0",
-                                   .next = "correct --spacing, or omit it"});
+                                   .next = "correct the spacing, or omit it",
+                                   .reason = Reason::zero_spacing});
 }
 
 RawDescription collect(const std::string& path, const OpenOptions& options) {
@@ -49,12 +52,12 @@ RawDescription collect(const std::string& path, const OpenOptions& options) {
         known = read_sidecar(*sidecar);
     }
     if (options.spacing) check_spacing(path, *options.spacing);
-    take(path, "--dims", options.dims, known.dims);
-    take(path, "--type", options.type, known.type);
-    take(path, "--endian", options.big_endian, known.big_endian);
-    take(path, "--skip", options.skip_bytes, known.skip_bytes);
-    take(path, "--spacing", options.spacing, known.spacing);
-    take(path, "--origin", options.origin, known.origin);
+    take(path, "dims", options.dims, known.dims);
+    take(path, "type", options.type, known.type);
+    take(path, "big_endian", options.big_endian, known.big_endian);
+    take(path, "skip_bytes", options.skip_bytes, known.skip_bytes);
+    take(path, "spacing", options.spacing, known.spacing);
+    take(path, "origin", options.origin, known.origin);
     const RawDescription name = description_from_name(path);
     guess(name.dims, known.dims, "dims", known.notes);
     guess(name.type, known.type, "type", known.notes);
@@ -72,51 +75,61 @@ std::string header_beside(const std::string& path) {
 }
 
 [[noreturn]] void unknown_shape(const std::string& path, const RawDescription& known) {
-    const std::string header = header_beside(path);
+    const std::string header = header_beside(path), sidecar = std::filesystem::path(path).filename().string() + ".json";
     const char* missing = known.dims ? "its type is not known" : known.type ? "its dims are not known" : "its dims and type are not known";
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = std::string("a RAW file has no header: ") + missing,
-                                   .expected = "Raw files need --dims and --type",
-                                   .next = header.empty() ? "give --dims NXxNYxNZ --type TYPE, or write them into " +
-                                                                std::filesystem::path(path).filename().string() +
-                                                                ".json, or name the file like "
-                                                                "name_64x64x64_uint8.raw"
-                                                          : "open " + header + " instead, which describes it"});
+                                   .expected = "the sizes and the type of its samples",
+                                   .next = header.empty() ? "give the sizes and the type of the samples, or write them into " + sidecar +
+                                                                ", or name the file like name_64x64x64_uint8.raw"
+                                                          : "open " + header + " instead, which describes it",
+                                   .reason = header.empty() ? Reason::raw_layout_unknown : Reason::raw_has_header,
+                                   .value = header.empty() ? sidecar : header});
 }
 
-/// Suggestions that fit the size of the file: other types for the same dims, another last size for the same type, or a header to skip.
-std::string what_fits(const Extent& extent, ValueType type, std::int64_t skip, std::int64_t holds) {
+struct Suggestion {
+    Reason reason;
+    std::string next, value{};
+};
+
+/// What fits the size of the file: other types for the same dims, another last size for the same type, or a header to skip.
+Suggestion what_fits(const Extent& extent, ValueType type, std::int64_t skip, std::int64_t holds) {
     const std::int64_t voxels = extent.voxels(), sample = static_cast<std::int64_t>(size_of(type));
     if (holds >= voxels && holds % voxels == 0) {
         const std::int64_t bytes = holds / voxels;
         const std::array<const char*, 9> names = {"", "uint8 or int8", "uint16 or int16", "", "uint32, int32 or float32", "", "",
                                                   "", "float64"};
-        if (bytes <= 8 && names[bytes][0] != '\0') return std::string("the size fits these dims with --type ") + names[bytes];
+        if (bytes <= 8 && names[bytes][0] != '\0')
+            return {Reason::raw_type_differs, std::string("the size fits these dims with type ") + names[bytes], names[bytes]};
     }
     const int last = extent.rank - 1;
     const std::int64_t layer = voxels / extent.size[last] * sample;
     if (layer > 0 && holds > 0 && holds % layer == 0) {
-        return "the size fits a last dimension of " + std::to_string(holds / layer) + " with this type";
+        const std::string size = std::to_string(holds / layer);
+        return {Reason::raw_last_size_differs, "the size fits a last dimension of " + size + " with this type", size};
     }
     if (holds > voxels * sample) {
-        return "if the file begins with a header, add --skip " + std::to_string(skip + holds - voxels * sample) +
-               "; if something follows the samples, pass --skip-rest";
+        const std::string header = std::to_string(skip + holds - voxels * sample);
+        return {Reason::raw_has_more,
+                "if the file begins with a header, skip " + header + " bytes; if something follows the samples, let the rest be skipped",
+                header};
     }
     const std::int64_t samples = holds / sample;
     const auto edge = static_cast<std::int64_t>(std::llround(std::cbrt(static_cast<double>(samples))));
     if (edge > 0 && edge * edge * edge * sample == holds) {
-        const std::string text = std::to_string(edge);
-        return "the size fits --dims " + text + "x" + text + "x" + text + " with this type";
+        const std::string text = std::to_string(edge), sizes = text + "x" + text + "x" + text;
+        return {Reason::raw_sizes_differ, "the size fits dims " + sizes + " with this type", sizes};
     }
-    return "check --dims, --type and --skip";
+    return {Reason::raw_size_differs, "check dims, type and the bytes to skip"};
 }
 
 Extent extent_of(const std::string& path, const std::vector<std::int64_t>& dims) {
     if (dims.size() < 2 || dims.size() > 3) {
         throw Error(ErrorKind::usage, {.file = path,
-                                       .what = "--dims has " + std::to_string(dims.size()) + " sizes",
+                                       .what = std::to_string(dims.size()) + " sizes are given",
                                        .expected = "2 or 3",
-                                       .next = "give --dims NXxNY or NXxNYxNZ"});
+                                       .next = "give NXxNY or NXxNYxNZ",
+                                       .reason = Reason::wrong_dimension});
     }
     Extent extent;
     extent.rank = static_cast<int>(dims.size());
@@ -130,14 +143,18 @@ void check_size(const std::string& path, const Extent& extent, ValueType type, s
         throw Error(ErrorKind::input, {.file = path,
                                        .what = "cannot skip " + std::to_string(skip) + " bytes: the file has " + std::to_string(file_bytes),
                                        .expected = "0 to the size of the file",
-                                       .next = "correct --skip"});
+                                       .next = "correct the number of bytes to skip",
+                                       .reason = Reason::skip_exceeds_file});
     }
     const std::int64_t holds = file_bytes - skip;
     if (holds == wanted || (holds > wanted && skip_rest)) return;
+    const Suggestion fits = what_fits(extent, type, skip, holds);
     throw Error(ErrorKind::input, {.file = path,
                                    .what = "the file holds " + std::to_string(holds) + " bytes of samples",
                                    .expected = std::to_string(wanted) + " for these dims and " + name_of(type),
-                                   .next = what_fits(extent, type, skip, holds)});
+                                   .next = fits.next,
+                                   .reason = fits.reason,
+                                   .value = fits.value});
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ constexpr int kDeepest = 8;  // a sidecar is a flat object; deeper nesting is an
                                    .where = key.empty() ? "" : "key \"" + key + "\"",
                                    .what = key.empty() ? "the sidecar of a RAW file is not valid" : "the value is not valid",
                                    .expected = expected,
-                                   .next = "correct the sidecar, or delete it and give --dims and --type"});
+                                   .next = "correct the sidecar, or delete it and give the sizes and the type of the samples",
+                                   .reason = Reason::sidecar_invalid});
 }
 
 bool nested_too_deep(const std::string& text) {

@@ -93,13 +93,17 @@ TimeStep choose_time_step(const std::string& path, const OpenOptions& options, s
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "holds " + std::to_string(count) + " volumes (4 dimensions)",
                                        .expected = "one volume",
-                                       .next = "choose one with --time-step N, N from 0 to " + std::to_string(count - 1)});
+                                       .next = "choose a time step from 0 to " + std::to_string(count - 1),
+                                       .reason = Reason::time_step_needed,
+                                       .value = std::to_string(count - 1)});
     }
     if (index < 0 || index >= count) {
         throw Error(ErrorKind::usage, {.file = path,
                                        .what = "has no time step " + std::to_string(index),
                                        .expected = count == 1 ? "0: there is one volume" : "0 to " + std::to_string(count - 1),
-                                       .next = count == 1 ? "omit --time-step" : "choose another --time-step"});
+                                       .next = count == 1 ? "omit the time step" : "choose another time step",
+                                       .reason = count == 1 ? Reason::no_time_steps : Reason::no_such_time_step,
+                                       .value = std::to_string(count - 1)});
     }
     return {index, count};
 }

@@ -72,7 +72,7 @@ PageChoice choose_pages(const std::string& path, const TiffDescription& descript
     }
     if (is_series && slices == 1 && !options.time_step) {
         notes.push_back("the " + std::to_string(frames) +
-                        " time steps of one slice are read as the third axis (one of them: --time-step N)");
+                        " time steps of one slice are read as the third axis (a time step chooses one of them)");
         return {.count = pages};
     }
     const TimeStep step = choose_time_step(path, options, is_series ? frames : 1);

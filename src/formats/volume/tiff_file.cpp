@@ -19,6 +19,8 @@ namespace isoatlas {
 
 namespace {
 
+constexpr const char* kMoreThanPixels = "the file is damaged, or its program writes more than the pixels: then let the rest be skipped";
+
 /// Max expansion of one compressed byte: a strip that claims more is damaged. Source: the longest match or run of each code over its
 /// shortest symbol (LZW: a 12-bit code for 4096 bytes; ZSTD: a 4-byte run-length block for 128 KiB).
 std::int64_t largest_ratio(int compression) {
@@ -136,7 +138,8 @@ void TiffFile::Handle::check_entries(const std::vector<TiffEntry>& entries) cons
                                    .where = next_page(),
                                    .what = "its directory lists " + std::to_string(listed) + " strips or tiles",
                                    .expected = std::to_string(wanted) + " for its size",
-                                   .next = "the file is damaged, or its program writes more than the pixels: then pass --skip-rest"});
+                                   .next = kMoreThanPixels,
+                                   .reason = Reason::bytes_after_samples});
 }
 
 TiffPage TiffFile::Handle::describe_page() const {
@@ -260,8 +263,8 @@ void TiffFile::Handle::check_piece(std::uint32_t piece, std::int64_t wanted, con
                  .where = where,
                  .what = "it decodes to " + std::to_string(found) + (found > wanted + kMaxRest ? " bytes or more" : " bytes"),
                  .expected = std::to_string(wanted) + " bytes",
-                 .next = found > wanted ? "the file is damaged, or its program writes more than the pixels: then pass --skip-rest"
-                                        : "the file is damaged or incomplete: copy or export it again"});
+                 .next = found > wanted ? kMoreThanPixels : "the file is damaged or incomplete: copy or export it again",
+                 .reason = found > wanted ? Reason::bytes_after_samples : Reason::none});
 }
 
 void TiffFile::Handle::read_strips(std::span<std::byte> out, const std::string& where) {

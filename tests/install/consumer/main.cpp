@@ -15,7 +15,7 @@ int main(int argc, char** argv) try {
     if (table.entries.empty()) return 1;
 
     const isoatlas::ObjectEntry& best = table.entries.front();
-    const isoatlas::Surface surface = isoatlas::extract(volume, best.best_tau, {.objects = {best.id}});
+    const isoatlas::Surface surface = isoatlas::extract(volume, best.best_tau, {.surface = {.objects = {best.id}}});
     isoatlas::write_surface("surface.ply", surface);
     const isoatlas::SurfaceReport report = isoatlas::inspect(surface.points, surface.triangles);
     std::printf("surface.ply: %lld triangles\n", static_cast<long long>(report.triangles));

@@ -15,9 +15,9 @@
 namespace oracle {
 namespace {
 
-using isoatlas::ExtractOptions;
 using isoatlas::Mesh;
 using isoatlas::Surface;
+using isoatlas::SurfaceOptions;
 using isoatlas::SurfaceReport;
 using isoatlas::Volume;
 using Numbers = std::vector<std::int64_t>;
@@ -207,11 +207,11 @@ std::string embedding_fault(Volume volume, const std::vector<double>& isovalues,
             for (const auto style : {isoatlas::SurfaceStyle::compact, isoatlas::SurfaceStyle::full}) {
                 for (const auto boundary : {isoatlas::Boundary::closed, isoatlas::Boundary::open}) {
                     if (boundary == isoatlas::Boundary::open && placement != placements.front()) continue;  // a part of the closed one
-                    ExtractOptions options;
+                    SurfaceOptions options;
                     options.boundary = boundary;
                     options.style = style;
                     options.normals = options.ids = false;
-                    const Surface surface = isoatlas::extract(volume, tau, options, one_thread());
+                    const Surface surface = isoatlas::extract(volume, tau, {.surface = options}, one_thread());
                     if (placement == Placement::voxel) measure(surface, tally);
                     const std::string fault = Checker(surface, chi, is_oblique(volume.info.geometry), tally).fault();
                     if (fault.empty()) continue;

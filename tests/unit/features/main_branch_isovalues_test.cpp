@@ -19,7 +19,7 @@ std::vector<double> taus(const std::vector<BranchIsovalue>& isovalues, std::size
     return result;
 }
 
-TEST(TrunkRows, GoFromTheOutsideIn) {
+TEST(MainBranchIsovalues, GoFromTheOutsideIn) {
     std::vector<BranchIsovalue> own{{kMainBranch, 50, kInfinity, stable, -1, 5000},
                                     {kMainBranch, 90, 2, stable, -1, 100},
                                     {kMainBranch, 20, 1, stable, -1, 90000},
@@ -28,7 +28,7 @@ TEST(TrunkRows, GoFromTheOutsideIn) {
     EXPECT_EQ(taus(own, 4), (std::vector<double>{2, 20, 50, 90}));
 }
 
-TEST(TrunkRows, EndWithTheBoxOfTheVolume) {
+TEST(MainBranchIsovalues, EndWithTheBoxOfTheVolume) {
     std::vector<BranchIsovalue> own{
         {kMainBranch, 50, kInfinity, stable, -1, 5000}, {kMainBranch, 20, 1, stable, -1, 90000}, {kMainBranch, 2, 3, outline, -1, 900000}};
     ASSERT_EQ(arrange_main_branch(own, kVoxels), 3U);
@@ -36,7 +36,7 @@ TEST(TrunkRows, EndWithTheBoxOfTheVolume) {
 }
 
 // Inserts of an engine stand out at four isovalues, its block at one of little prominence.
-TEST(TrunkRows, AreNotSpentOnWhatLooksTheSame) {
+TEST(MainBranchIsovalues, AreNotSpentOnWhatLooksTheSame) {
     std::vector<BranchIsovalue> own{{kMainBranch, 180, 3.7, stable, -1, 38000},       {kMainBranch, 244, 1.9, stable, -1, 1700},
                                     {kMainBranch, 218, 1.5, stable, -1, 16000},       {kMainBranch, 158, 1.1, stable, -1, 58000},
                                     {kMainBranch, 203, 0.9, stable, -1, 27000},       {kMainBranch, 72, 0.6, stable, -1, 1100000},
@@ -63,7 +63,7 @@ BranchDecomposition with_other(double merges, std::int64_t voxels) {
     return branches;
 }
 
-TEST(TrunkRows, ShowItWithoutWhatJoinsIt) {
+TEST(MainBranchIsovalues, ShowItWithoutWhatJoinsIt) {
     const BranchHistogram histogram = main_branch();
     const std::vector<BranchIsovalue> own{{kMainBranch, 85.5, kInfinity, stable, -1, 1000}};
     const auto found = [&](double merges, std::int64_t voxels, double noise) {
@@ -75,7 +75,7 @@ TEST(TrunkRows, ShowItWithoutWhatJoinsIt) {
     EXPECT_EQ(joined[0].tau, 19.5);
     EXPECT_EQ(joined[0].volume, 1000 + 61 * 10);
     EXPECT_TRUE(found(19.3, 50, 1).empty()) << "what joins is small";
-    EXPECT_TRUE(found(60, 500, 1).empty()) << "the trunk looks as it does at 85.5";
+    EXPECT_TRUE(found(60, 500, 1).empty()) << "the main branch looks as it does at 85.5";
     EXPECT_TRUE(found(19.3, 500, 30).empty()) << "noise decides how large it is";
     EXPECT_TRUE(before_merges(with_other(19.3, 500), {kMainBranch}, histogram, own, {.sigma = 1}).empty()) << "the other one is not chosen";
 }

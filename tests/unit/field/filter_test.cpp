@@ -123,21 +123,21 @@ TEST(GaussianFilter, ConstantsAndExtremesOfIntegersStay) {
 
 TEST(GaussianFilter, RefusesWhatItCannotDo) {
     Volume volume = isoatlas::make_volume({3, {4, 4, 4}}, ValueType::u8);
-    const auto kind_and_next = [&](double sigma) {
+    const auto kind_and_text = [&](double sigma) {
         try {
             (void)isoatlas::gaussian_filter(volume, sigma);
-            return std::pair(ErrorKind::internal, std::string());
+            return std::pair(ErrorKind::internal, isoatlas::ErrorText{});
         } catch (const Error& error) {
-            return std::pair(error.kind(), error.text().next);
+            return std::pair(error.kind(), error.text());
         }
     };
     for (const double sigma : {0.0, -1.0, 1001.0, std::nan("")}) {
-        EXPECT_EQ(kind_and_next(sigma).first, ErrorKind::usage) << sigma;
-        EXPECT_NE(kind_and_next(sigma).second, "") << sigma;
+        EXPECT_EQ(kind_and_text(sigma).first, ErrorKind::usage) << sigma;
+        EXPECT_NE(kind_and_text(sigma).second.next, "") << sigma;
     }
     volume.info.geometry.coordinates = {{{0, 1, 2, 4}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
-    EXPECT_EQ(kind_and_next(1).first, ErrorKind::usage);
-    EXPECT_NE(kind_and_next(1).second.find("--voxel"), std::string::npos);
+    EXPECT_EQ(kind_and_text(1).first, ErrorKind::usage);
+    EXPECT_EQ(kind_and_text(1).second.reason, isoatlas::Reason::unequal_spacing);
 }
 
 TEST(Crop, RefusesBoxesThatStickOut) {

@@ -64,11 +64,11 @@ TEST(Extract, PointsAndNormalsOfALinearField) {
                     value_at(to_physical(geometry, {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])}));
             }
             const double tau = volume.value(extent.index(3, 2, 1)) + 0.01;
-            ExtractOptions options;
+            SurfaceOptions options;
             options.boundary = Boundary::open;
             for (const SurfaceStyle style : {SurfaceStyle::compact, SurfaceStyle::full}) {
                 options.style = style;
-                const Surface surface = extract(volume, tau, options);
+                const Surface surface = extract(volume, tau, {.surface = options});
                 ASSERT_GT(surface.points.size(), 10U);
                 const double length = std::hypot(slope[0], slope[1], slope[2]);
                 for (std::size_t i = 0; i < surface.points.size(); ++i) {
@@ -125,11 +125,11 @@ TEST(Extract, ObjectsContoursShells) {
     const Cut cut = isoatlas::cut(volume, 30);
     ASSERT_EQ(cut.objects.size(), 2U);
     ASSERT_EQ(cut.contours.size(), 3U);
-    const auto shells = [&](ExtractOptions options) {
-        const Surface surface = extract(volume, 30, options);
+    const auto shells = [&](SurfaceOptions options) {
+        const Surface surface = extract(volume, 30, {.surface = options});
         return inspect(surface.points, surface.triangles).component_chi.size();
     };
-    ExtractOptions options;
+    SurfaceOptions options;
     EXPECT_EQ(shells(options), 3U);
     options.objects = {extent.index(5, 5, 8)};
     EXPECT_EQ(shells(options), 2U);
@@ -149,10 +149,10 @@ TEST(Extract, ObjectsContoursShells) {
 }
 
 TEST(Extract, WhatIsNotAskedForIsNotThere) {
-    ExtractOptions options;
+    SurfaceOptions options;
     options.normals = false;
     options.ids = false;
-    const Surface surface = extract(hollow_ball(), 30, options);
+    const Surface surface = extract(hollow_ball(), 30, {.surface = options});
     EXPECT_FALSE(surface.points.empty());
     EXPECT_TRUE(surface.normals.empty() && surface.object.empty() && surface.contour.empty() && surface.segments.empty());
 }
@@ -162,9 +162,9 @@ TEST(Extract, CarriesWhatTheSurfaceMeans) {
     volume.info.geometry.space = "LPS";
     volume.info.geometry.unit = "mm";
     volume.info.calibration = {2, -10};
-    ExtractOptions options;
+    SurfaceOptions options;
     options.boundary = Boundary::open;
-    const Surface surface = extract(volume, 30, options);
+    const Surface surface = extract(volume, 30, {.surface = options});
     EXPECT_EQ(surface.tau, 30);
     EXPECT_EQ(surface.reported_tau, 50);
     EXPECT_EQ(surface.space, "LPS");
@@ -175,21 +175,21 @@ TEST(Extract, CarriesWhatTheSurfaceMeans) {
 
 TEST(Extract, SaysWhyThereIsNoSuchObject) {
     Volume volume = hollow_ball();
-    ExtractOptions options;
+    SurfaceOptions options;
     options.objects = {volume.info.extent.index(5, 5, 5)};
-    Error error = error_of([&] { static_cast<void>(extract(volume, 30, options)); });
+    Error error = error_of([&] { static_cast<void>(extract(volume, 30, {.surface = options})); });
     EXPECT_EQ(error.kind(), ErrorKind::not_found);
     EXPECT_EQ(error.text().where, "voxel 785 (5, 5, 5)");
     EXPECT_EQ(error.text().what, "its value 0 is below the isovalue 30, so no object contains it");
     for (const std::int64_t voxel : {std::int64_t{-1}, volume.info.extent.voxels()}) {
         options.objects = {voxel};
-        error = error_of([&] { static_cast<void>(extract(volume, 30, options)); });
+        error = error_of([&] { static_cast<void>(extract(volume, 30, {.surface = options})); });
         EXPECT_EQ(error.kind(), ErrorKind::not_found);
         EXPECT_EQ(error.text().expected, "a voxel index from 0 to 1727");
     }
     options.objects.clear();
     options.contours = {785, 786};
-    error = error_of([&] { static_cast<void>(extract(volume, 30, options)); });
+    error = error_of([&] { static_cast<void>(extract(volume, 30, {.surface = options})); });
     EXPECT_EQ(error.kind(), ErrorKind::not_found);
     for (const double tau : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         EXPECT_EQ(error_of([&] { static_cast<void>(extract(volume, tau)); }).kind(), ErrorKind::usage);

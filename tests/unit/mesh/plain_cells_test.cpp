@@ -113,7 +113,7 @@ RC_GTEST_PROP(HitBatch, IsTheSameWithWideVectors, ()) {
         if (plain.is_full()) break;
         const HitRun run{*rc::gen::inRange(-1, 5000), *rc::gen::inRange(0, 8), *rc::gen::inRange(0, 32), point};
         const std::int64_t count = append_plain(run, bits, plain);
-        RC_ASSERT(append_wide(run, bits, wide) == count);
+        RC_ASSERT(append_avx512(run, bits, wide) == count);
         RC_ASSERT(count == std::popcount(bits));
         point += count;
     }

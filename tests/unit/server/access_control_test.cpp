@@ -79,7 +79,7 @@ TEST_F(DoorTest, AnAddressOpensOnceAndNotForLong) {
     EXPECT_EQ(good, static_cast<int>(AccessControl::kMaxCodes));
 }
 
-TEST_F(DoorTest, APageNeedsItsCookieAndItsQuestionsTheKeyToo) {
+TEST_F(DoorTest, APageNeedsItsCookieAndItsRequestsTheKeyToo) {
     const std::string opened = access_.answer(head(target_for_one_use())).value();
     EXPECT_EQ(opened.find("0123456789abcdef"), std::string::npos) << "a browser never learns the token";
     RequestHead page = head("/?x=1"), asked = head("/api/atlas");

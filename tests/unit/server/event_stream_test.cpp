@@ -44,7 +44,7 @@ TEST_F(EventStreamTest, TellsOfTheBuild) {
     EXPECT_EQ(failed["error"]["next"], "make room");
 }
 
-TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
+TEST_F(EventStreamTest, TellsAClientOfItsOwnRequests) {
     const auto stream = streams_.listen("me", {});
     EXPECT_TRUE(next(*stream)["requests"].empty());
     JobQueue& cards = queues_.of(QueueClass::cards);
@@ -65,7 +65,7 @@ TEST_F(EventStreamTest, TellsAClientOfItsOwnQuestions) {
     asker.join();
 }
 
-TEST_F(EventStreamTest, TheLastStreamOfAClientTakesItsQuestionsAlong) {
+TEST_F(EventStreamTest, TheLastStreamOfAClientTakesItsRequestsAlong) {
     auto first = streams_.listen("me", {}), second = streams_.listen("me", {});
     const auto job = queues_.of(QueueClass::trees).acquire("me/objects");
     first.reset();

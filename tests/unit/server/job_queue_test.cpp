@@ -21,7 +21,7 @@ ErrorKind kind_of_refusal(JobQueue& queue, const std::string& client, const IsDi
     return ErrorKind::internal;
 }
 
-TEST(JobQueue, ANewerQuestionEndsAnOlderOne) {
+TEST(JobQueue, ANewerRequestEndsAnOlderOne) {
     JobQueue queue(2, 10);
     const auto first = queue.acquire("a");
     EXPECT_FALSE(first->is_cancelled());
@@ -80,7 +80,7 @@ TEST(JobQueue, NeverMoreAtOnceThanAllowed) {
     EXPECT_EQ(served, 24);
 }
 
-TEST(JobQueue, ComeInTheOrderOfTheQuestions) {
+TEST(JobQueue, ComeInTheOrderOfTheRequests) {
     JobQueue queue(1, 100);
     auto holder = queue.acquire("first");
     std::vector<int> served;
@@ -128,7 +128,7 @@ TEST(JobQueue, ALeavingClientEndsItsLanesAlone) {
     EXPECT_FALSE(other->is_cancelled());
 }
 
-TEST(JobQueue, ANewerQuestionKeepsThePlace) {
+TEST(JobQueue, ANewerRequestKeepsThePlace) {
     JobQueue queue(1, 10);
     auto holder = queue.acquire("holder");
     std::vector<std::string> served;

@@ -47,7 +47,7 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
     EXPECT_EQ(surface.headers.at("X-Triangles"), std::to_string(atlas_->extract(tau).triangles.size()));
     std::size_t parts = 0;
     for (const auto& [shell, choice] : {std::pair{"inner", ShellChoice::inner}, std::pair{"outer", ShellChoice::outer}}) {
-        ExtractOptions options;
+        SurfaceOptions options;
         options.shell = choice;
         const std::size_t triangles = atlas_->extract(tau, options).triangles.size();
         const Response part = ask("/api/surface", {{"tau", std::to_string(tau)}, {"shell", shell}});
@@ -201,7 +201,7 @@ TEST_F(ServiceTest, WhatHoldsAVoxelIsWhatACutSays) {
     EXPECT_EQ(nlohmann::json::parse(ask("/api/at", {{"voxel", "0,0,0"}, {"object", id + "@" + tau}}).bytes)["objects"][0], false);
 }
 
-TEST_F(ServiceTest, RandomQuestionsAreAnswered) {
+TEST_F(ServiceTest, RandomRequestsAreAnswered) {
     std::mt19937 random(7);
     const std::vector<std::string> paths{"/",
                                          "/api/atlas",
@@ -256,7 +256,7 @@ TEST_F(ServiceTest, MeasuresAreThoseOfTheSurface) {
     EXPECT_EQ(object["id"], id);
     EXPECT_EQ(object["tunnels"], cut.objects[0].b1);
     EXPECT_EQ(object["cavities"], cut.objects[0].b2);
-    ExtractOptions options;
+    SurfaceOptions options;
     options.objects = {id};
     const Surface surface = atlas_->extract(0.5, options);
     EXPECT_EQ(object["triangles"], surface.triangles.size());

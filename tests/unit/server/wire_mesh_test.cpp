@@ -60,9 +60,7 @@ Decoded decoded(const WireMesh& mesh) {
 }
 
 Surface surface_of(const char* phantom, double tau, std::int64_t size = 48) {
-    ExtractOptions options;
-    options.ids = false;
-    return extract(make_phantom(phantom, {.size = size}), tau, options);
+    return extract(make_phantom(phantom, {.size = size}), tau, {.surface = {.objects = {}, .contours = {}, .ids = false}});
 }
 
 /// The triangle whose corners lie nearest, as a corner cycle from the smallest number on.

@@ -179,9 +179,7 @@ TEST_F(Compared, CutAndMeshAgreeUntilOneIsWrong) {
     wrong = right;
     wrong.contours[0].id += 1;
     EXPECT_FALSE(mesh_agrees(wrong, surface));
-    ExtractOptions one;
-    one.objects = {right.objects[0].id};
-    EXPECT_FALSE(mesh_agrees(right, extract(volume_, tau_, one)));
+    EXPECT_FALSE(mesh_agrees(right, extract(volume_, tau_, {.surface = {.objects = {right.objects[0].id}, .contours = {}}})));
 }
 
 TEST_F(Compared, CurvesAreClosedAndCounted) {

@@ -85,8 +85,7 @@ TEST(LoadVolume, FirstMissingVoxelIsNamed) {
                 const std::string voxel =
                     "voxel (" + std::to_string(at % 2) + ", " + std::to_string(at / 2 % 3) + ", " + std::to_string(at / 6) + ")";
                 expect_helpful(failure, ErrorKind::input, voxel + ": the sample is " + name + " (");
-                expect_helpful(failure, ErrorKind::input, "--missing VALUE");
-                expect_helpful(failure, ErrorKind::input, "--missing below");
+                expect_reason(failure, ErrorKind::input, Reason::missing_samples);
             }
         }
     }

@@ -144,7 +144,7 @@ TEST(MetaImage, TwoAndFourDimensions) {
     EXPECT_EQ(reader->info().calibration, (Calibration{2, 0}));
     const std::string series =
         folder.write("series.mha", "NDims = 4\nDimSize = 1 2 3 4\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + samples);
-    expect_helpful(failure_of_loading(series), ErrorKind::usage, "--time-step N");
+    expect_reason(failure_of_loading(series), ErrorKind::usage, Reason::time_step_needed, "3");
     for (std::int64_t step = 0; step < 4; ++step) {
         OpenOptions options;
         options.time_step = step;

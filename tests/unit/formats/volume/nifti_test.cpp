@@ -148,7 +148,7 @@ TEST(Nifti, TimeSteps) {
     const std::string samples = telling_bytes(2 * 24 * 3);
     const std::string content = NiftiFile().dims({4, 4, 3, 2, 3}).with(samples);
     for (const std::string& path : {folder.write("v.nii", content), folder.write("v.nii.gz", gzip(content))}) {
-        expect_helpful(failure_of_loading(path), ErrorKind::usage, "--time-step");
+        expect_reason(failure_of_loading(path), ErrorKind::usage, Reason::time_step_needed, "2");
         for (std::int64_t step = 0; step < 3; ++step) {
             OpenOptions options;
             options.time_step = step;
@@ -302,7 +302,7 @@ TEST(NiftiSharedData, ChecksumsAndOriginals) {
 TEST(NiftiSharedData, FourDimensionsAndCalibration) {
     const std::string path = kData + "functional4d/original/functional.nii";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
-    expect_helpful(failure_of_loading(path), ErrorKind::usage, "--time-step N, N from 0 to 19");
+    expect_reason(failure_of_loading(path), ErrorKind::usage, Reason::time_step_needed, "19");
     for (const std::int64_t step : {0, 7, 19}) {
         OpenOptions options;
         options.time_step = step;

@@ -67,7 +67,7 @@ TEST(Npy, BooleansAndSeries) {
     for (const bool fortran : {false, true}) {
         const std::string series =
             folder.write("t.npy", npy(dictionary("|u1", fortran ? "(1, 2, 3, 4)" : "(4, 3, 2, 1)", fortran), samples));
-        expect_helpful(failure_of_loading(series), ErrorKind::usage, "--time-step");
+        expect_reason(failure_of_loading(series), ErrorKind::usage, Reason::time_step_needed, "3");
         OpenOptions options;
         options.time_step = 2;
         EXPECT_EQ(test::text_of_bytes(load_volume(series, options)), samples.substr(12, 6));

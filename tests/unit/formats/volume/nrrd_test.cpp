@@ -175,7 +175,7 @@ TEST(Nrrd, FourDimensionsNeedATimeStep) {
         const std::string path = folder.write(
             "v.nrrd", "NRRD0004\ntype: short\ndimension: 4\nsizes: 2 3 4 5\nkinds: space space space time\nendian: little\nencoding: " +
                           encoding + "\n\n" + (encoding == "raw" ? samples : test::gzip(samples)));
-        expect_helpful(failure_of_loading(path), ErrorKind::usage, "--time-step N");
+        expect_reason(failure_of_loading(path), ErrorKind::usage, Reason::time_step_needed, "4");
         for (std::int64_t step = 0; step < 5; ++step) {
             OpenOptions options;
             options.time_step = step;

@@ -64,18 +64,19 @@ TEST(OpenVolume, OptionsMayRepeatAHeaderButNotContradictIt) {
     same.time_step = 0;
     EXPECT_EQ(open_volume(path, same)->info().format, "NRRD");
     const std::pair<std::string, std::function<void(OpenOptions&)>> changes[] = {
-        {"--dims", [](OpenOptions& o) { o.dims = std::vector<std::int64_t>{2, 4}; }},
-        {"--type", [](OpenOptions& o) { o.type = ValueType::u16; }},
-        {"--endian", [](OpenOptions& o) { o.big_endian = true; }},
-        {"--spacing", [](OpenOptions& o) { o.spacing = Vec3{1, 1, 1}; }},
-        {"--origin", [](OpenOptions& o) { o.origin = Vec3{1, 1, 1}; }},
-        {"--skip", [](OpenOptions& o) { o.skip_bytes = 4; }},
-        {"--time-step", [](OpenOptions& o) { o.time_step = 1; }}};
-    for (const auto& [option, change] : changes) {
+        {"dims", [](OpenOptions& o) { o.dims = std::vector<std::int64_t>{2, 4}; }},
+        {"type", [](OpenOptions& o) { o.type = ValueType::u16; }},
+        {"big_endian", [](OpenOptions& o) { o.big_endian = true; }},
+        {"spacing", [](OpenOptions& o) { o.spacing = Vec3{1, 1, 1}; }},
+        {"origin", [](OpenOptions& o) { o.origin = Vec3{1, 1, 1}; }},
+        {"skip_bytes", [](OpenOptions& o) { o.skip_bytes = 4; }}};
+    for (const auto& [member, change] : changes) {
         OpenOptions other = same;
         change(other);
-        expect_helpful(failure_of_loading(path, other), ErrorKind::usage, option);
+        expect_reason(failure_of_loading(path, other), ErrorKind::usage, Reason::contradicts_header, member);
     }
+    same.time_step = 1;
+    expect_reason(failure_of_loading(path, same), ErrorKind::usage, Reason::no_time_steps, "0");
 }
 
 }  // namespace

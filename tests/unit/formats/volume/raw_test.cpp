@@ -79,7 +79,8 @@ TEST(Raw, Sidecar) {
         EXPECT_EQ(volume.info.geometry.space, "RAS");
         EXPECT_EQ(volume.info.notes.size(), 2U);  // the sidecar, its unknown key
         EXPECT_EQ(test::text_of_bytes(load_volume(path, options_of({2, 3, 4}, ValueType::i16))), samples);
-        expect_helpful(failure_of_loading(path, options_of({4, 3, 2}, ValueType::i16)), ErrorKind::usage, "--dims contradicts the sidecar");
+        expect_reason(failure_of_loading(path, options_of({4, 3, 2}, ValueType::i16)), ErrorKind::usage, Reason::contradicts_sidecar,
+                      "dims");
         std::filesystem::remove(sidecar);
     }
     for (const char* bad : {"{",
@@ -112,25 +113,25 @@ TEST(Raw, Sidecar) {
 TEST(Raw, SizesThatDoNotFit) {
     const test::TestFolder folder;
     const std::string path = folder.write("v.raw", std::string(1000, 'x'));
-    const auto next = [&](std::vector<std::int64_t> dims, ValueType type) {
+    const auto reason = [&](std::vector<std::int64_t> dims, ValueType type) {
         const test::Failure failure = failure_of_loading(path, options_of(std::move(dims), type));
         EXPECT_EQ(static_cast<int>(failure.kind), static_cast<int>(ErrorKind::input));
         EXPECT_NE(failure.text.what.find("1000 bytes"), std::string::npos);
-        return failure.text.next;
+        EXPECT_NE(failure.text.next.find(failure.text.value), std::string::npos);
+        return std::pair(failure.text.reason, failure.text.value);
     };
-    EXPECT_EQ(next({10, 10, 5}, ValueType::u8), "the size fits these dims with --type uint16 or int16");
-    EXPECT_EQ(next({10, 10, 9}, ValueType::u8), "the size fits a last dimension of 10 with this type");
-    EXPECT_EQ(next({3, 3, 3}, ValueType::u8),
-              "if the file begins with a header, add --skip 973; if something follows the samples, pass --skip-rest");
-    EXPECT_EQ(next({11, 11, 11}, ValueType::u8), "the size fits --dims 10x10x10 with this type");
-    EXPECT_EQ(next({7, 7, 77}, ValueType::f64), "the size fits --dims 5x5x5 with this type");
-    EXPECT_EQ(next({7, 7, 77}, ValueType::f32), "check --dims, --type and --skip");
+    EXPECT_EQ(reason({10, 10, 5}, ValueType::u8), std::pair(Reason::raw_type_differs, std::string("uint16 or int16")));
+    EXPECT_EQ(reason({10, 10, 9}, ValueType::u8), std::pair(Reason::raw_last_size_differs, std::string("10")));
+    EXPECT_EQ(reason({3, 3, 3}, ValueType::u8), std::pair(Reason::raw_has_more, std::string("973")));
+    EXPECT_EQ(reason({11, 11, 11}, ValueType::u8), std::pair(Reason::raw_sizes_differ, std::string("10x10x10")));
+    EXPECT_EQ(reason({7, 7, 77}, ValueType::f64), std::pair(Reason::raw_sizes_differ, std::string("5x5x5")));
+    EXPECT_EQ(reason({7, 7, 77}, ValueType::f32), std::pair(Reason::raw_size_differs, std::string()));
 }
 
 TEST(Raw, Refusals) {
     const test::TestFolder folder;
     const std::string path = folder.write("v.raw", std::string(64, 'x'));
-    expect_helpful(failure_of_loading(path), ErrorKind::usage, "Raw files need --dims and --type");
+    expect_reason(failure_of_loading(path), ErrorKind::usage, Reason::raw_layout_unknown, "v.raw.json");
     OpenOptions only_dims;
     only_dims.dims = std::vector<std::int64_t>{4, 4, 4};
     expect_helpful(failure_of_loading(path, only_dims), ErrorKind::usage, "its type is not known");

@@ -107,7 +107,7 @@ TEST(Tiff, SeriesAndChannels) {
     const TestFolder folder;
     const std::string series = make(folder, {.pages = 6, .description = "ImageJ=1.53f\nimages=6\nslices=2\nframes=3\n"});
     const std::string samples = samples_of({.pages = 6, .description = {}});
-    expect_helpful(failure_of_loading(series), ErrorKind::usage, "--time-step");
+    expect_reason(failure_of_loading(series), ErrorKind::usage, Reason::time_step_needed, "2");
     OpenOptions options;
     options.time_step = 1;
     EXPECT_EQ(read_all(*open_volume(series, options), 2), samples.substr(80, 80));

@@ -160,6 +160,12 @@ inline void expect_helpful(const Failure& failure, ErrorKind kind, const std::st
     EXPECT_FALSE(failure.text.next.empty()) << failure.message;
 }
 
+inline void expect_reason(const Failure& failure, ErrorKind kind, Reason reason, const std::string& value = {}) {
+    expect_helpful(failure, kind, "");
+    EXPECT_EQ(failure.text.reason, reason) << name_of(failure.text.reason) << ": " << failure.message;
+    EXPECT_EQ(failure.text.value, value) << failure.message;
+}
+
 inline std::string base64(const std::string& bytes) {
     static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;

@@ -12,7 +12,7 @@
 
 namespace isoatlas::test {
 
-struct Question {
+struct Query {
     const char* name;
     std::function<std::string(const Atlas&)> ask;
 };
@@ -78,11 +78,11 @@ inline std::string bytes_of_analysis(const Analysis& analysis) {
     return answer.text();
 }
 
-/// The questions, for isovalue tau and the object that contains a voxel.
-inline std::vector<Question> questions(double tau, std::int64_t voxel) {
+/// The queries, for isovalue tau and the object that contains a voxel.
+inline std::vector<Query> queries(double tau, std::int64_t voxel) {
     Context context;
     context.threads = 1;
-    ExtractOptions one;
+    SurfaceOptions one;
     one.objects = {voxel};
     return {{"what is in it",
              [](const Atlas& atlas) {
