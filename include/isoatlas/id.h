@@ -11,10 +11,13 @@
 
 namespace isoatlas {
 
-/// Tag: what is numbered, from 0. Not initialised by default, as an integer.
-template <class Tag, std::integral Number>
+/// Kind: what is numbered, from 0. Not initialised by default, as an integer.
+template <class Kind, std::integral Width>
 class StrongId {
 public:
+    using Tag = Kind;
+    using Number = Width;
+
     StrongId() = default;
     template <std::integral N>
     constexpr explicit StrongId(N number) noexcept : number_(static_cast<Number>(number)) {}

@@ -37,16 +37,19 @@ void require_finite(double tau) {
     throw Error(ErrorKind::input, {.where = "trees", .what = "they are inconsistent", .next = "build the store again from the volume"});
 }
 
-template <class Id>
+template <class Number>
 class Answers final : public ActiveIndex::Data {
 public:
-    Answers(const AnalysisArrays<Id>& arrays, const Extent& extent) : zones_(arrays), extent_(extent) {}
+    using Element = ElementIdOf<Number>;
+    using Event = EventIdOf<Number>;
+
+    Answers(const AnalysisArrays<Number>& arrays, const Extent& extent) : zones_(arrays), extent_(extent) {}
 
     [[nodiscard]] ActiveObjects at(double tau, const ActiveOptions& options, const Context& context) const override {
-        const std::vector<Id> active = zones_.zones(zones_.rank(tau));
+        const std::vector<Event> active = zones_.zones(zones_.rank(tau));
         ActiveObjects all;
         all.tau = tau;
-        for (const Id event : active) {
+        for (const Event event : active) {
             if (all.objects.size() % kBetweenLooks == 0) stop_if_cancelled(context);
             all.objects.push_back(object(event, tau, options));
         }
@@ -64,13 +67,13 @@ public:
 
     [[nodiscard]] ObjectChanges changes(double high, double low, bool all) const override {
         const std::size_t upper_rank = zones_.rank(high), lower_rank = zones_.rank(low);
-        const std::vector<Id> upper = zones_.zones(upper_rank), lower = zones_.zones(lower_rank);
+        const std::vector<Event> upper = zones_.zones(upper_rank), lower = zones_.zones(lower_rank);
         ObjectChanges changes;
         changes.events = static_cast<std::int64_t>(lower_rank - upper_rank);
         std::vector<ObjectChanges::Group> groups;
-        for (const Id event : lower) groups.push_back({id_of(event), {}, true});
-        for (const Id event : upper) {
-            const Id below = zones_.zone_at(event, lower_rank);
+        for (const Event event : lower) groups.push_back({id_of(event), {}, true});
+        for (const Event event : upper) {
+            const Event below = zones_.zone_at(event, lower_rank);
             ObjectChanges::Group& group = groups[position(lower, below)];
             group.upper.push_back(id_of(event));
             if (event == below) group.changes = false;
@@ -86,53 +89,53 @@ public:
     }
 
     [[nodiscard]] std::int64_t object_of(const VoxelValue& maximum, double tau) const override {
-        const Id element = element_of(maximum, 0);
-        if (element >= zones_.element_rank(tau)) contradiction();
+        const Element element = element_of(maximum, 0);
+        if (element.index() >= zones_.element_rank(tau)) contradiction();
         return id_of(zones_.zone_at(zones_.arrays().tree.event_of_element[element], zones_.rank(tau)));
     }
 
     [[nodiscard]] std::optional<std::int64_t> cavity_of(const VoxelValue& minimum, double tau) const override {
-        const Id element = element_of(minimum, 1);
+        const Element element = element_of(minimum, 1);
         const std::size_t rank = zones_.element_rank(tau);
-        if (element < rank) contradiction();
-        const Id lowest = zones_.lowest_with(element, rank);
-        if (lowest == zones_.arrays().code.size()) return std::nullopt;
+        if (element.index() < rank) contradiction();
+        const Element lowest = zones_.lowest_with(element, rank);
+        if (lowest.index() == zones_.arrays().code.size()) return std::nullopt;
         return voxel(lowest);
     }
 
     [[nodiscard]] std::optional<double> event_below(double tau) const override {
         const std::size_t rank = zones_.rank(tau);
         if (rank == zones_.events()) return std::nullopt;
-        return zones_.value(rank);
+        return zones_.value(Event(rank));
     }
 
     [[nodiscard]] std::optional<double> event_above(double tau) const override {
         const std::size_t rank = zones_.rank(tau);
-        const std::size_t before = rank == 0 ? 0 : zones_.rank(zones_.value(rank - 1), true);
+        const std::size_t before = rank == 0 ? 0 : zones_.rank(zones_.value(Event(rank - 1)), true);
         if (before == 0) return std::nullopt;
-        return zones_.value(before - 1);
+        return zones_.value(Event(before - 1));
     }
 
 private:
-    [[nodiscard]] std::int64_t voxel(std::size_t element) const { return ElementCode{zones_.arrays().code[element]}.index(); }
+    [[nodiscard]] std::int64_t voxel(Element element) const { return ElementCode{zones_.arrays().code[element]}.index(); }
     /// The critical voxel with so many objects just above it.
-    [[nodiscard]] Id element_of(const VoxelValue& sample, int h0) const {
+    [[nodiscard]] Element element_of(const VoxelValue& sample, int h0) const {
         const std::size_t first = zones_.element_rank(sample.value, true), end = zones_.element_rank(sample.value);
-        for (std::size_t e = first; e < end; ++e) {
+        for (const Element e : IdRange<Element>(Element(first), Element(end))) {
             const ElementCode code{zones_.arrays().code[e]};
-            if (code.kind() == CodeKind::vertex && code.index() == sample.voxel && code.h0() == h0) return static_cast<Id>(e);
+            if (code.kind() == CodeKind::vertex && code.index() == sample.voxel && code.h0() == h0) return e;
         }
         contradiction();
     }
-    [[nodiscard]] std::int64_t id_of(std::size_t event) const { return voxel(zones_.arrays().tree.top[zones_.highest(event)]); }
-    static std::size_t position(const std::vector<Id>& sorted, Id event) {
+    [[nodiscard]] std::int64_t id_of(Event event) const { return voxel(zones_.arrays().tree.top[zones_.highest(event)]); }
+    static std::size_t position(const std::vector<Event>& sorted, Event event) {
         const auto found = std::lower_bound(sorted.begin(), sorted.end(), event);
         if (found == sorted.end() || *found != event) contradiction();
         return static_cast<std::size_t>(found - sorted.begin());
     }
 
-    [[nodiscard]] ActiveObject object(std::size_t event, double tau, const ActiveOptions& options) const {
-        const AnalysisArrays<Id>& arrays = zones_.arrays();
+    [[nodiscard]] ActiveObject object(Event event, double tau, const ActiveOptions& options) const {
+        const AnalysisArrays<Number>& arrays = zones_.arrays();
         const bool root = arrays.tree.is_root(event);
         ActiveObject object{};
         object.id = id_of(event);
@@ -157,12 +160,12 @@ private:
     /// A contour and the position of its object's event in the list of active ones.
     using Found = std::pair<std::size_t, ActiveContour>;
 
-    [[nodiscard]] std::vector<Found> find_contours(const std::vector<Id>& active, double tau) const {
+    [[nodiscard]] std::vector<Found> find_contours(const std::vector<Event>& active, double tau) const {
         const std::size_t rank = zones_.element_rank(tau), event_rank = zones_.rank(tau);
-        const AnalysisArrays<Id>& arrays = zones_.arrays();
+        const AnalysisArrays<Number>& arrays = zones_.arrays();
         std::vector<Found> found;
-        zones_.for_contours(rank, [&](std::size_t arc) {
-            const Id event = zones_.zone_at(arrays.tree.event_of_element[arrays.contours.upper(arc)], event_rank);
+        zones_.for_contours(rank, [&](Element arc) {
+            const Event event = zones_.zone_at(arrays.tree.event_of_element[arrays.contours.upper(arc)], event_rank);
             const std::int64_t object = id_of(event), genus = 1 - static_cast<std::int64_t>(arrays.contours.half_chi[arc]);
             const bool outer = zones_.is_outer(arc);
             const std::int64_t id = outer ? object : voxel(zones_.lowest(arc, rank));
@@ -172,7 +175,7 @@ private:
     }
 
     /// order: objects[i] is of the event active[order[i]].
-    void list_contours(const std::vector<Id>& active, const std::vector<std::size_t>& order, ActiveObjects& all) const {
+    void list_contours(const std::vector<Event>& active, const std::vector<std::size_t>& order, ActiveObjects& all) const {
         std::vector<Found> found = find_contours(active, all.tau);
         if (static_cast<std::int64_t>(found.size()) != all.contour_count) contradiction();
         std::vector<std::size_t> place(order.size());
@@ -188,7 +191,7 @@ private:
         }
     }
 
-    ActiveZones<Id> zones_;
+    ActiveZones<Number> zones_;
     Extent extent_;
 };
 
@@ -199,8 +202,8 @@ template class Answers<std::uint64_t>;
 }  // namespace
 
 ActiveIndex::ActiveIndex(const Analysis& analysis)
-    : data_(analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) -> std::unique_ptr<Data> {
-          return std::make_unique<Answers<Id>>(held.arrays, analysis.extent());
+    : data_(analysis.data().visit([&]<class Number>(const IndexedArrays<Number>& held) -> std::unique_ptr<Data> {
+          return std::make_unique<Answers<Number>>(held.arrays, analysis.extent());
       })) {}
 ActiveIndex::ActiveIndex(ActiveIndex&&) noexcept = default;
 ActiveIndex& ActiveIndex::operator=(ActiveIndex&&) noexcept = default;

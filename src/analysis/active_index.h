@@ -19,40 +19,44 @@
 namespace isoatlas {
 
 /// Data for queries of contours: 13 bytes an element (ids of 32 bits).
-template <class Id>
+template <class Number>
 struct ActiveContours {
-    MaxPyramid<Id, std::greater<>> highest_other;
-    MaxPyramid<Id, std::less<>> lowest_other;
-    SplitTree<Id> low;
-    LevelAncestor<Id> climber;  ///< of low.parent
+    using Element = ElementIdOf<Number>;
+    MaxPyramid<Element, std::greater<>> highest_other;
+    MaxPyramid<Element, std::less<>> lowest_other;
+    SplitTree<Number> low;
+    LevelAncestor<Element> climber;  ///< of low.parent
 
-    explicit ActiveContours(const ContourTree<Id>& contours)
-        : highest_other(contours.other), lowest_other(contours.other), low(split_tree_of(contours)), climber(low.parent) {}
+    explicit ActiveContours(const ContourTree<Number>& contours)
+        : highest_other(contours.other.items()), lowest_other(contours.other.items()), low(split_tree_of(contours)), climber(low.parent) {}
 };
 
-template <class Id>
+template <class Number>
 class ActiveZones {
 public:
+    using Element = ElementIdOf<Number>;
+    using Event = EventIdOf<Number>;
+
     /// The arrays must live as long as this.
-    explicit ActiveZones(const AnalysisArrays<Id>& arrays);
+    explicit ActiveZones(const AnalysisArrays<Number>& arrays);
 
     [[nodiscard]] std::size_t events() const { return arrays_.tree.size(); }
-    [[nodiscard]] double value(std::size_t event) const { return arrays_.value[arrays_.tree.top[event]]; }
+    [[nodiscard]] double value(Event event) const { return arrays_.value[arrays_.tree.top[event]]; }
     [[nodiscard]] bool counts_voxels() const { return !arrays_.voxels.empty(); }
     /// Of the object at the low end of the zone of an event.
-    [[nodiscard]] std::int64_t object_voxels(std::size_t event) const { return static_cast<std::int64_t>(object_voxels_[event]); }
+    [[nodiscard]] std::int64_t object_voxels(Event event) const { return static_cast<std::int64_t>(object_voxels_[event]); }
     /// The child with most voxels; the event itself when there is none.
-    [[nodiscard]] std::size_t largest_child(std::size_t event) const { return largest_child_[event]; }
+    [[nodiscard]] Event largest_child(Event event) const { return largest_child_[event]; }
     /// Event of the highest element of the object.
-    [[nodiscard]] std::size_t highest(std::size_t event) const { return highest_[event]; }
+    [[nodiscard]] Event highest(Event event) const { return highest_[event]; }
 
     /// Number of events with a value of at least (above: of more than) tau.
     [[nodiscard]] std::size_t rank(double tau, bool above = false) const;
     /// The events whose zones contain the rank, ascending.
-    [[nodiscard]] std::vector<Id> zones(std::size_t rank) const;
+    [[nodiscard]] std::vector<Event> zones(std::size_t rank) const;
     /// The zone of a lower rank that contains the object of an event.
-    [[nodiscard]] Id zone_at(Id event, std::size_t rank) const {
-        return climber_.climb(event, [rank](Id e) { return e < rank; });
+    [[nodiscard]] Event zone_at(Event event, std::size_t rank) const {
+        return climber_.climb(event, [rank](Event e) { return e.index() < rank; });
     }
     /// Number of elements with a value of at least (above: of more than) tau.
     [[nodiscard]] std::size_t element_rank(double tau, bool above = false) const;
@@ -60,29 +64,30 @@ public:
     template <class Visit>
     void for_contours(std::size_t rank, Visit&& visit) const {
         if (rank == 0) return;
-        const auto limit = static_cast<Id>(rank);
-        contours().highest_other.for_each_at_least(0, rank, limit, visit);
-        contours().lowest_other.for_each_at_least(rank, arrays_.contours.nodes(), limit - 1, visit);
+        const auto visit_arc = [&](std::size_t arc) { visit(Element(arc)); };
+        contours().highest_other.for_each_at_least(0, rank, Element(rank), visit_arc);
+        contours().lowest_other.for_each_at_least(rank, arrays_.contours.nodes(), Element(rank - 1), visit_arc);
     }
     /// Of an arc that contains the rank: is its contour an outer one, and the lowest element of its low component.
-    [[nodiscard]] bool is_outer(std::size_t arc) const { return arrays_.contours.other[arc] > static_cast<Id>(arc); }
-    [[nodiscard]] Id lowest(std::size_t arc, std::size_t rank) const { return lowest_with(arrays_.contours.lower(arc), rank); }
+    [[nodiscard]] bool is_outer(Element arc) const { return arrays_.contours.other[arc] > arc; }
+    [[nodiscard]] Element lowest(Element arc, std::size_t rank) const { return lowest_with(arrays_.contours.lower(arc), rank); }
     /// The lowest element of the low component that holds a Low element.
-    [[nodiscard]] Id lowest_with(Id element, std::size_t rank) const {
-        return contours().low.lowest[contours().climber.climb(element, [rank](Id x) { return x >= rank; })];
+    [[nodiscard]] Element lowest_with(Element element, std::size_t rank) const {
+        return contours().low.lowest[contours().climber.climb(element, [rank](Element x) { return x.index() >= rank; })];
     }
-    [[nodiscard]] const AnalysisArrays<Id>& arrays() const { return arrays_; }
+    [[nodiscard]] const AnalysisArrays<Number>& arrays() const { return arrays_; }
 
 private:
-    [[nodiscard]] const ActiveContours<Id>& contours() const {
-        return *contours_.get([this] { return std::make_unique<ActiveContours<Id>>(arrays_.contours); });
+    [[nodiscard]] const ActiveContours<Number>& contours() const {
+        return *contours_.get([this] { return std::make_unique<ActiveContours<Number>>(arrays_.contours); });
     }
 
-    const AnalysisArrays<Id>& arrays_;
-    MaxPyramid<Id, std::greater<>> parents_;
-    LevelAncestor<Id> climber_;
-    BigVector<Id> highest_, largest_child_, object_voxels_;
-    Lazy<std::unique_ptr<ActiveContours<Id>>> contours_;
+    const AnalysisArrays<Number>& arrays_;
+    MaxPyramid<Event, std::greater<>> parents_;
+    LevelAncestor<Event> climber_;
+    ByEvent<Number, Event> highest_, largest_child_;
+    ByEvent<Number, Number> object_voxels_;
+    Lazy<std::unique_ptr<ActiveContours<Number>>> contours_;
 };
 
 }  // namespace isoatlas

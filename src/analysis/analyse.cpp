@@ -18,9 +18,9 @@ Analysis analyse(const Volume& volume, const AnalysisOptions& options, const Con
     data->extent = volume.info.extent;
     data->interpolant = options.interpolant;
     data->tunnel_height = options.tunnel_height;
-    with_scan(volume, options, context, [&]<class T, class Id>(const GridView<T>& grid, GridScan scan, Id) {
-        auto held = std::make_unique<IndexedArrays<Id>>();
-        GridDomain<T, Id> domain(grid, std::move(scan));
+    with_scan(volume, options, context, [&]<class T, class Number>(const GridView<T>& grid, GridScan scan, Number) {
+        auto held = std::make_unique<IndexedArrays<Number>>();
+        GridDomain<T, Number> domain(grid, std::move(scan));
         analyse_domain(domain, options.zones, held->arrays, context);
         data->arrays = std::move(held);
     });

@@ -16,26 +16,28 @@ namespace isoatlas {
 /// Finds the zone of every vertex and counts them, by the trees. basin: of critical(); its memory becomes that of arrays.zone.
 /// Cost: O(1) expected a vertex; random access to what is proportional to the critical elements.
 template <Domain D>
-void make_zones(const D& domain, BigVector<typename D::Id> basin, AnalysisArrays<typename D::Id>& arrays, const Context& context) {
-    using Id = typename D::Id;
+void make_zones(const D& domain, ByVoxel<typename D::Number, typename D::Number> basin, AnalysisArrays<typename D::Number>& arrays,
+                const Context& context) {
+    using Number = typename D::Number;
     using Sample = typename D::Sample;
-    const CriticalityTree<Id>& tree = arrays.tree;
-    BigVector<Id> maxima = domain.elements_of_maxima(arrays.code);
-    const HeavyPathDecomposition<Id, ComparisonValue<Sample>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element}, maxima,
-                                                                    context.threads);
-    release(maxima);
-    fill_fresh(arrays.voxels, tree.size(), Id{0});
-    const std::span<Id> basin_to_zone = basin;
+    const CriticalityTree<Number>& tree = arrays.tree;
+    ElementsOfMaxima<Number> maxima = domain.elements_of_maxima(arrays.code);
+    const HeavyPathDecomposition<Number, ComparisonValue<Sample>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element},
+                                                                        maxima, context.threads);
+    release(maxima.items());
+    fill_fresh(arrays.voxels.items(), tree.size(), Number{0});
+    const std::span<Number> basin_to_zone = basin.items();
     domain.for_parts(context, kAnalysisPhases["zones"], [&](std::size_t first, std::size_t count) {
-        label_zones<Sample, Id>(domain.samples().subspan(first, count), paths, basin_to_zone.subspan(first, count), arrays.voxels);
+        label_zones<Sample, Number>(domain.samples().subspan(first, count), paths, basin_to_zone.subspan(first, count),
+                                    arrays.voxels.items());
     });
     arrays.zone = std::move(basin);
 }
 
 /// Critical elements, trees and, if asked for, zones. Cost: that of domain.critical(), O(n alpha), and of make_zones().
 template <Domain D>
-void analyse_domain(D& domain, bool zones, AnalysisArrays<typename D::Id>& arrays, const Context& context) {
-    Criticals<typename D::Id> criticals = domain.critical(zones, context);
+void analyse_domain(D& domain, bool zones, AnalysisArrays<typename D::Number>& arrays, const Context& context) {
+    Criticals<typename D::Number> criticals = domain.critical(zones, context);
     report(context, kAnalysisPhases["trees"], 0);
     make_trees(std::move(criticals.set), arrays, context);
     if (!zones) return;

@@ -7,6 +7,7 @@
 
 #include "analysis/analysis_data.h"
 #include "field/order.h"
+#include "isoatlas/id.h"
 
 namespace isoatlas {
 namespace {
@@ -51,8 +52,8 @@ std::int64_t Analysis::element_count() const {
 Element Analysis::element(ElementId id) const {
     require(id >= ElementId(0) && id < ElementId(element_count()), "element");
     return data_->visit([&](const auto& held) {
-        const ElementCode code{held.arrays.code[id.index()]};
-        return Element{held.arrays.value[id.index()], element_position(code, data_->extent), code.h0(), code.l0(),
+        const ElementCode code{held.arrays.code[id]};
+        return Element{held.arrays.value[id], element_position(code, data_->extent), code.h0(), code.l0(),
                        code.kind() == CodeKind::vertex ? ElementKind::vertex
                        : code.is_body()                ? ElementKind::body
                                                        : ElementKind::face};
@@ -67,11 +68,11 @@ ContourArc Analysis::contour_arc(std::int64_t id) const {
     require(id >= 0 && id < contour_arc_count(), "contour");
     return data_->visit([&](const auto& held) {
         const auto& tree = held.arrays.contours;
-        const std::size_t x = held.levels().arcs[id];
+        const auto x = held.levels().arcs[id];
         const ElementId upper(tree.upper(x)), lower(tree.lower(x));
         const bool outside = lower.index() == held.arrays.value.size();
-        return ContourArc{upper, lower, held.arrays.value[upper.index()],
-                          outside ? -std::numeric_limits<double>::infinity() : held.arrays.value[lower.index()],
+        return ContourArc{upper, lower, held.arrays.value[upper],
+                          outside ? -std::numeric_limits<double>::infinity() : held.arrays.value[lower],
                           1 - static_cast<std::int64_t>(tree.half_chi[x])};
     });
 }
@@ -84,7 +85,7 @@ Level Analysis::level(std::int64_t id) const {
     require(id >= 0 && id < level_count(), "level");
     return data_->visit([&](const auto& held) {
         const auto& index = held.levels();
-        const std::size_t root = index.levels[id];
+        const auto root = index.levels[id];
         return Level{held.arrays.value[root], EventId(held.arrays.tree.event_of_element[root]), list_at(index.level_in, id),
                      list_at(index.level_out, id)};
     });
@@ -94,9 +95,8 @@ std::int64_t Analysis::event_count() const {
     return data_->visit([](const auto& held) { return static_cast<std::int64_t>(held.arrays.tree.size()); });
 }
 
-Event Analysis::event(EventId event_id) const {
-    require(event_id >= EventId(0) && event_id < EventId(event_count()), "event");
-    const std::size_t id = event_id.index();
+Event Analysis::event(EventId id) const {
+    require(id >= EventId(0) && id < EventId(event_count()), "event");
     return data_->visit([&](const auto& held) {
         const auto& arrays = held.arrays;
         const auto& tree = arrays.tree;
@@ -104,12 +104,13 @@ Event Analysis::event(EventId event_id) const {
         const auto& index = held.events();
         const bool is_3d = data_->extent.rank == 3, root = tree.is_root(id), has_zones = !arrays.voxels.empty();
         Event event{};
-        event.id = event_id;
+        event.id = id;
         event.value = arrays.value[tree.top[id]];
         event.position = element_position(ElementCode{arrays.code[tree.top[id]]}, data_->extent);
         event.kind = measures.kind[id];
         event.parent = root ? EventId::none() : EventId(tree.parent[id]);
-        event.children = std::span(index.children).subspan(index.first_child[id], index.first_child[id + 1] - index.first_child[id]);
+        const auto first = static_cast<std::size_t>(index.first_child[id.index()]);
+        event.children = std::span(index.children).subspan(first, index.first_child[id.index() + 1] - first);
         event.objects_in = static_cast<std::int64_t>(event.children.size());
         event.lows_out = static_cast<std::int64_t>(measures.lows_out[id]);
         event.delta_chi = measures.delta_chi[id];
@@ -119,7 +120,7 @@ Event Analysis::event(EventId event_id) const {
         event.contours = static_cast<std::int64_t>(measures.contours[id]);
         event.b2 = is_3d ? event.contours - 1 : 0;
         event.b1 = 1 + event.b2 - event.chi;
-        event.object_voxels = has_zones ? static_cast<std::int64_t>(index.object_voxels[id]) : 0;
+        event.object_voxels = has_zones ? static_cast<std::int64_t>(index.object_voxels[id.index()]) : 0;
         return event;
     });
 }
@@ -141,8 +142,8 @@ void Analysis::visit_object_contours(const std::function<void(EventId, std::span
             flat.clear();
             for (const auto& [genus, count] : own) flat.push_back({genus, count});
             visit(EventId(e), flat);
-            if (arrays.tree.is_root(e)) continue;
-            Histogram& parent = waiting[arrays.tree.parent[e]];
+            if (arrays.tree.is_root(EventId(e))) continue;
+            Histogram& parent = waiting[arrays.tree.parent[EventId(e)].index()];
             if (parent.size() < own.size()) parent.swap(own);
             for (const auto& [genus, count] : own) add(parent, genus, count);
         }
@@ -153,7 +154,7 @@ EventId Analysis::zone(VoxelId voxel) const {
     require(voxel >= VoxelId(0) && voxel < VoxelId(data_->extent.voxels()), "voxel");
     return data_->visit([&](const auto& held) {
         if (held.arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "this analysis was made without zones"});
-        return EventId(held.arrays.zone[voxel.index()]);
+        return EventId(held.arrays.zone[voxel]);
     });
 }
 

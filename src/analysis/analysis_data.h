@@ -13,57 +13,59 @@
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct AnalysisArrays {
-    // per critical element, descending
-    BigVector<double> value;
-    BigVector<std::uint64_t> code;
-    BigVector<Id> level;       ///< highest element of its level
-    ContourTree<Id> contours;  ///< n + 1 nodes, the last is the outside
-    CriticalityTree<Id> tree;
-    EventMeasures<Id> measures;
-    BigVector<Id> voxels;  ///< per event, of its zone; empty without zones
-    BigVector<Id> zone;    ///< per voxel; empty without zones
+    // of critical elements, descending
+    ByElement<Number, double> value;
+    ByElement<Number, std::uint64_t> code;
+    ByElement<Number, ElementIdOf<Number>> level;  ///< highest element of its level
+    ContourTree<Number> contours;                  ///< n + 1 nodes, the last is the outside
+    CriticalityTree<Number> tree;
+    EventMeasures<Number> measures;
+    ByEvent<Number, Number> voxels;  ///< of its zone; empty without zones
+    ByVoxel<Number, Number> zone;    ///< number of an event, in the memory that basins had; empty without zones
+
+    [[nodiscard]] EventIdOf<Number> zone_of(SameKind<VoxelIdOf<Number>> auto voxel) const { return EventIdOf<Number>(zone[voxel]); }
 };
 
 /// Compressed lists: the items of i are item[first[i]] .. item[first[i + 1]].
-template <class Id>
+template <class Number>
 struct Lists {
-    std::vector<Id> first, item;
+    std::vector<Number> first, item;
 };
 
 /// Built on first use from the arrays.
-template <class Id>
+template <class Number>
 struct LevelIndex {
-    std::vector<Id> arcs;           ///< nodes whose arc has a length, by (upper, lower)
-    std::vector<Id> levels;         ///< roots of the non-trivial levels, descending
-    Lists<Id> level_in, level_out;  ///< genera, sorted, by position in `levels`
-    Lists<Id> event_levels;         ///< positions in `levels`, by event
+    std::vector<ElementIdOf<Number>> arcs;    ///< nodes whose arc has a length, by (upper, lower)
+    std::vector<ElementIdOf<Number>> levels;  ///< roots of the non-trivial levels, descending
+    Lists<Number> level_in, level_out;        ///< genera, sorted, by position in `levels`
+    Lists<Number> event_levels;               ///< positions in `levels`, by event
 };
 
 /// Built on first use from the arrays; most callers need no levels, which cost more.
-template <class Id>
+template <class Number>
 struct EventIndex {
     std::vector<std::int64_t> first_child;  ///< by event
     std::vector<EventId> children;
-    std::vector<Id> object_voxels;  ///< by event: of its object at the low end of the zone; empty without zones
+    std::vector<Number> object_voxels;  ///< by event: of its object at the low end of the zone; empty without zones
 };
 
-template <class Id>
-LevelIndex<Id> index_levels(const AnalysisArrays<Id>& arrays);
-template <class Id>
-EventIndex<Id> index_events(const AnalysisArrays<Id>& arrays);
+template <class Number>
+LevelIndex<Number> index_levels(const AnalysisArrays<Number>& arrays);
+template <class Number>
+EventIndex<Number> index_events(const AnalysisArrays<Number>& arrays);
 
-template <class Id>
+template <class Number>
 struct IndexedArrays {
-    AnalysisArrays<Id> arrays;
-    Lazy<LevelIndex<Id>> lazy_levels;
-    Lazy<EventIndex<Id>> lazy_events;
+    AnalysisArrays<Number> arrays;
+    Lazy<LevelIndex<Number>> lazy_levels;
+    Lazy<EventIndex<Number>> lazy_events;
 
-    [[nodiscard]] const LevelIndex<Id>& levels() const {
+    [[nodiscard]] const LevelIndex<Number>& levels() const {
         return lazy_levels.get([this] { return index_levels(arrays); });
     }
-    [[nodiscard]] const EventIndex<Id>& events() const {
+    [[nodiscard]] const EventIndex<Number>& events() const {
         return lazy_events.get([this] { return index_events(arrays); });
     }
 };

@@ -12,12 +12,12 @@
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct ArcArrays {
-    BigVector<double> value;        ///< per critical element, descending
-    BigVector<std::uint64_t> code;  ///< per critical element (field/order.h)
-    ContourTree<Id> contours;       ///< `other` alone: n + 1 nodes, the last is the outside
-    BigVector<Id> basin;            ///< per voxel: of its maximum (critical/basins.h); empty when it is not known
+    ByElement<Number, double> value;        ///< of critical elements, descending
+    ByElement<Number, std::uint64_t> code;  ///< of critical elements (field/order.h)
+    ContourTree<Number> contours;           ///< `other` alone: n + 1 nodes, the last is the outside
+    ByVoxel<Number, Number> basin;          ///< of its maximum (critical/basins.h); empty when it is not known
 };
 
 struct ContourArcs {
@@ -32,7 +32,7 @@ struct ContourArcs {
 };
 
 /// Voxels per critical element (zones/count_voxels.h), as wide as the ids of the arcs.
-using ElementVoxels = std::variant<BigVector<std::uint32_t>, BigVector<std::uint64_t>>;
+using ElementVoxels = std::variant<ByElement<std::uint32_t, std::uint32_t>, ByElement<std::uint64_t, std::uint64_t>>;
 
 /// Works while memory is limited (base/memory_limit.h). Throws Error: cancelled, resource. Cost: O(voxels + c log c) for c elements.
 [[nodiscard]] ContourArcs compute_arcs(const VolumeView& volume, const AnalysisOptions& options, const Context& context);

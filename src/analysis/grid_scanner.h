@@ -15,7 +15,7 @@ inline bool fits_32_bits(const Extent& extent, const GridScan& scan) {
     return extent.voxels() < std::int64_t{1} << 31 && scan.elements < std::int64_t{1} << 30;
 }
 
-/// Calls use(grid, scan, Id{}) with the width of ids that fits. Cost: that of scan_grid().
+/// Calls use(grid, scan, Number{}) with the width of ids that fits. Cost: that of scan_grid().
 template <class Use>
 void with_scan(const VolumeView& volume, const AnalysisOptions& options, const Context& context, const Use& use) {
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {

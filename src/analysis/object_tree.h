@@ -14,12 +14,12 @@
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct ObjectTree {
-    IdSpan<EventId, const Id> parents;  ///< the root is its own
+    IdSpan<EventId, const Number> parents;  ///< the root is its own
     IdSpan<EventId, const double> height;
-    IdSpan<EventId, const Id> voxels;  ///< of its zone
-    IdSpan<VoxelId, const Id> zones;
+    IdSpan<EventId, const Number> voxels;  ///< of its zone
+    IdSpan<VoxelId, const Number> zones;
     double sign = 1;                      ///< height = sign * value
     EventId main_leaf = EventId::none();  ///< the branch of this event continues at every merge; none: the one of largest hypervolume does
 
@@ -32,25 +32,25 @@ struct ObjectTree {
     template <class Visit>
     void for_heights(const VolumeView& volume, StepBytes also, Visit&& visit) const {
         visit_samples(volume, [&]<class T>(std::span<const T> samples) {
-            for (const VoxelId v : streamed<VoxelId>(samples.size(), {sizeof(T) + sizeof(Id) + also.bytes}))
+            for (const VoxelId v : streamed<VoxelId>(samples.size(), {sizeof(T) + sizeof(Number) + also.bytes}))
                 visit(v, sign * static_cast<double>(samples[v.index()]));
         });
     }
 };
 
 /// Per event: its value.
-template <class Id>
-[[nodiscard]] BigVector<double> event_values(const AnalysisArrays<Id>& arrays) {
+template <class Number>
+[[nodiscard]] BigVector<double> event_values(const AnalysisArrays<Number>& arrays) {
     BigVector<double> values(arrays.tree.size());
-    for (const std::size_t e : streamed(values.size(), at_random())) values[e] = arrays.value[arrays.tree.top[e]];
+    for (const auto e : streamed<EventIdOf<Number>>(values.size(), at_random())) values[e.index()] = arrays.value[arrays.tree.top[e]];
     return values;
 }
 
 /// values: of event_values(); both must live as long as the result.
-template <class Id>
-[[nodiscard]] ObjectTree<Id> superlevel_tree(const AnalysisArrays<Id>& arrays, std::span<const double> values) {
-    return {IdSpan<EventId, const Id>(arrays.tree.parent), IdSpan<EventId, const double>(values), IdSpan<EventId, const Id>(arrays.voxels),
-            IdSpan<VoxelId, const Id>(arrays.zone)};
+template <class Number>
+[[nodiscard]] ObjectTree<Number> superlevel_tree(const AnalysisArrays<Number>& arrays, std::span<const double> values) {
+    return {IdSpan<EventId, const Number>(numbers_of<EventIdOf<Number>>(arrays.tree.parent.items())), IdSpan<EventId, const double>(values),
+            IdSpan<EventId, const Number>(arrays.voxels.items()), IdSpan<VoxelId, const Number>(arrays.zone.items())};
 }
 
 }  // namespace isoatlas

@@ -23,45 +23,51 @@
 namespace isoatlas {
 
 /// An event is what happens to one low component at one value; its zone is the isovalues (its value, value of its parent].
-template <class Id>
+template <class Number>
 struct SublevelTree {
-    CriticalityTree<Id> tree;
-    // per event
-    BigVector<double> height;  ///< value negated; of the outside just above that of the lowest sample
-    BigVector<Id> contours;    ///< around the low component in the zone: to the object around it, and to the objects inside it
-    BigVector<Id> voxels;      ///< of its zone
-    BigVector<Id> zone;        ///< per voxel
+    using Element = ElementIdOf<Number>;
+    using Event = EventIdOf<Number>;
+    CriticalityTree<Number> tree;      ///< elements numbered backwards
+    ByEvent<Number, double> height;    ///< value negated; of the outside just above that of the lowest sample
+    ByEvent<Number, Number> contours;  ///< around the low component in the zone: to the object around it, and to the objects inside it
+    ByEvent<Number, Number> voxels;    ///< of its zone
+    ByVoxel<Number, Number> zone;      ///< number of an event, in the memory that basins had
 
     /// Must live as long as the result. The branch of the outside is the main branch.
-    [[nodiscard]] ObjectTree<Id> side() const {
-        return {IdSpan<EventId, const Id>(tree.parent),
-                IdSpan<EventId, const double>(height),
-                IdSpan<EventId, const Id>(voxels),
-                IdSpan<VoxelId, const Id>(zone),
+    [[nodiscard]] ObjectTree<Number> side() const {
+        return {IdSpan<EventId, const Number>(numbers_of<Event>(tree.parent.items())),
+                IdSpan<EventId, const double>(height.items()),
+                IdSpan<EventId, const Number>(voxels.items()),
+                IdSpan<VoxelId, const Number>(zone.items()),
                 -1,
-                EventId(tree.event_of_element[0])};
+                EventId(tree.event_of_element[Element(0)])};
     }
     /// The element of the contour tree behind an event: the lowest of its own.
-    [[nodiscard]] std::size_t element(std::size_t event) const { return tree.event_of_element.size() - 1 - tree.top[event]; }
+    [[nodiscard]] Element element(SameKind<Event> auto event) const {
+        return Element(tree.event_of_element.size() - 1 - tree.top[event].index());
+    }
 };
 
 /// arrays: with trees. Cost: O(n alpha) for n elements, and basins and zones of all voxels.
-template <class T, class Id>
-[[nodiscard]] SublevelTree<Id> make_sublevel_tree(const GridView<T>& grid, const AnalysisArrays<Id>& arrays, const Context& context);
+template <class T, class Number>
+[[nodiscard]] SublevelTree<Number> make_sublevel_tree(const GridView<T>& grid, const AnalysisArrays<Number>& arrays,
+                                                      const Context& context);
 
 /// The same whatever the type of the samples.
-template <class Id>
-[[nodiscard]] SublevelTree<Id> make_sublevel_tree(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const Context& context) {
+template <class Number>
+[[nodiscard]] SublevelTree<Number> make_sublevel_tree(const VolumeView& volume, const AnalysisArrays<Number>& arrays,
+                                                      const Context& context) {
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         return make_sublevel_tree(GridView<T>{samples.data(), volume.info->extent}, arrays, context);
     });
 }
 
 /// Voxel of the lowest element of an event; -1: the outside.
-template <class Id>
-[[nodiscard]] std::int64_t lowest_voxel(const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& sublevel, std::size_t event) {
-    const std::size_t element = sublevel.element(event);
-    return element == arrays.code.size() ? -1 : ElementCode{arrays.code[element]}.index();
+template <class Number>
+[[nodiscard]] std::int64_t lowest_voxel(const AnalysisArrays<Number>& arrays, const SublevelTree<Number>& sublevel,
+                                        SameKind<EventId> auto event) {
+    const ElementIdOf<Number> element = sublevel.element(event);
+    return element.index() == arrays.code.size() ? -1 : ElementCode{arrays.code[element]}.index();
 }
 
 }  // namespace isoatlas

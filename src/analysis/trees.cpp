@@ -5,8 +5,8 @@
 
 #include "base/cancel.h"
 #include "base/check.h"
-#include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/streamed.h"
 #include "critical/scan.h"
 #include "tree/contour_tree.h"
 #include "tree/criticality_tree.h"
@@ -18,93 +18,94 @@ namespace isoatlas {
 namespace {
 
 /// Levels, events and their measures. join: parents of the join tree.
-template <class Id>
-void make_events(std::span<const Id> join, AnalysisArrays<Id>& arrays, int rank, const Context& context) {
+template <class Number>
+void make_events(MergeTreeView<Number> join, AnalysisArrays<Number>& arrays, int rank, const Context& context) {
     stop_if_cancelled(context);
-    BigVector<std::int8_t> delta = rank == 3 ? delta_chis(arrays.code, 3) : BigVector<std::int8_t>();
-    BigVector<Id> group;
+    ByElement<Number, std::int8_t> delta = rank == 3 ? delta_chis(arrays.code, 3) : ByElement<Number, std::int8_t>();
+    ByElement<Number, ElementIdOf<Number>> group;
     run_both(
-        context.threads, [&] { arrays.level = level_roots<Id>(arrays.contours, arrays.value); },
-        [&] { group = join_groups<Id>(join, arrays.value); });
-    ISOATLAS_DCHECK(every_level_has_one_value<Id>(arrays.contours, arrays.level, arrays.value));
-    const BigVector<LevelKind> kind = level_kinds<Id>(arrays.contours, arrays.level, arrays.value, delta);
+        context.threads, [&] { arrays.level = level_roots<Number>(arrays.contours, arrays.value); },
+        [&] { group = join_groups<Number>(join, arrays.value); });
+    ISOATLAS_DCHECK(every_level_has_one_value<Number>(arrays.contours, arrays.level, arrays.value));
+    const ByElement<Number, LevelKind> kind = level_kinds<Number>(arrays.contours, arrays.level, arrays.value, delta);
     stop_if_cancelled(context);
-    arrays.tree = criticality_tree<Id>(std::move(group), join, arrays.level, kind);
-    ISOATLAS_DCHECK(every_event_has_its_zone<Id>(arrays.tree, arrays.value));
+    arrays.tree = criticality_tree<Number>(std::move(group), join, arrays.level, kind);
+    ISOATLAS_DCHECK(every_event_has_its_zone<Number>(arrays.tree, arrays.value));
     stop_if_cancelled(context);
     if (rank != 3) delta = delta_chis(arrays.code, rank);
-    arrays.measures = measure_events<Id>(arrays.tree, arrays.contours, arrays.level, kind, delta, context.threads);
+    arrays.measures = measure_events<Number>(arrays.tree, arrays.contours, arrays.level, kind, delta, context.threads);
 }
 
 /// Of the High set when all elements are in it.
-std::int64_t euler_number(std::span<const std::uint64_t> code, int rank) {
+template <class Number>
+std::int64_t euler_number(const ByElement<Number, std::uint64_t>& code, int rank) {
     std::int64_t sum = 0;
-    BudgetPoll memory;
-    for (const std::uint64_t bits : code) sum += delta_chi(ElementCode{bits}, rank), memory.step(sizeof bits);
+    for (const auto x : streamed<ElementIdOf<Number>>(code.size(), in_order(1))) sum += delta_chi(ElementCode{code[x]}, rank);
     return sum;
 }
 
 }  // namespace
 
-BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank) {
-    BigVector<std::int8_t> delta(code.size());
-    BudgetPoll memory;
-    for (std::size_t i = 0; i < delta.size(); ++i) {
-        memory.step(sizeof(std::uint64_t) + 1);
-        delta[i] = static_cast<std::int8_t>(delta_chi(ElementCode{code[i]}, rank));
+template <class Number>
+ByElement<Number, std::int8_t> delta_chis(const ByElement<Number, std::uint64_t>& code, int rank) {
+    ByElement<Number, std::int8_t> delta(code.size());
+    for (const auto x : streamed<ElementIdOf<Number>>(code.size(), in_order(2))) {
+        delta[x] = static_cast<std::int8_t>(delta_chi(ElementCode{code[x]}, rank));
     }
     return delta;
 }
 
-template <class Id>
-BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads) {
-    BigVector<Id> join, split;
+template <class Number>
+MergeTree<Number> make_arcs(CriticalSet<Number> set, AnalysisArrays<Number>& arrays, int threads) {
+    MergeTree<Number> join, split;
     run_both(threads, [&] { join = join_tree(set); }, [&] { split = split_tree(set); });
-    for (BigVector<Id>* field : {&set.up_a, &set.up_b, &set.low_a, &set.low_b}) release(*field);
-    ISOATLAS_DCHECK(is_join_tree<Id>(join));
-    ISOATLAS_DCHECK(is_split_tree<Id>(split));
+    for (auto* field : {&set.up_a, &set.up_b}) release(field->items());
+    for (auto* field : {&set.low_a, &set.low_b}) release(field->items());
+    ISOATLAS_DCHECK(is_join_tree<Number>(join));
+    ISOATLAS_DCHECK(is_split_tree<Number>(split));
     const bool is_3d = set.rank == 3;
-    arrays.contours = contour_tree<Id>(join, std::move(split), is_3d ? delta_chis(set.code, 3) : BigVector<std::int8_t>(), threads);
+    const ByElement<Number, std::int8_t> delta = is_3d ? delta_chis(set.code, 3) : ByElement<Number, std::int8_t>();
+    arrays.contours = contour_tree<Number>(join, std::move(split), delta, threads);
     ISOATLAS_DCHECK(is_contour_tree(arrays.contours));
-    if (!is_3d) std::fill(arrays.contours.half_chi.begin(), arrays.contours.half_chi.end(), 1);
+    if (!is_3d) std::ranges::fill(arrays.contours.half_chi.items(), 1);
     arrays.value = std::move(set.value);
     arrays.code = std::move(set.code);
     return join;
 }
 
-template <class Id>
-void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, const Context& context) {
+template <class Number>
+void make_trees(CriticalSet<Number> set, AnalysisArrays<Number>& arrays, const Context& context) {
     const int rank = set.rank;
-    const BigVector<Id> join = make_arcs(std::move(set), arrays, context.threads);
-    make_events<Id>(join, arrays, rank, context);
+    const MergeTree<Number> join = make_arcs(std::move(set), arrays, context.threads);
+    make_events<Number>(join, arrays, rank, context);
 }
 
-template <class Id>
-bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context) {
+template <class Number>
+bool restore_trees(AnalysisArrays<Number>& arrays, int rank, const Context& context) {
     const bool is_3d = rank == 3;
     if (arrays.contours.other.size() != arrays.value.size() + 1 || arrays.code.size() != arrays.value.size()) return false;
     if (euler_number(arrays.code, rank) != 1) return false;  // the volume is a box
-    if (!complete_contour_tree<Id>(arrays.contours, is_3d ? delta_chis(arrays.code, 3) : BigVector<std::int8_t>())) return false;
-    if (!is_3d) std::fill(arrays.contours.half_chi.begin(), arrays.contours.half_chi.end(), 1);
+    if (!complete_contour_tree<Number>(arrays.contours, is_3d ? delta_chis(arrays.code, 3) : ByElement<Number, std::int8_t>()))
+        return false;
+    if (!is_3d) std::ranges::fill(arrays.contours.half_chi.items(), 1);
     stop_if_cancelled(context);
-    const BigVector<Id> join = join_tree_of(arrays.contours);
-    make_events<Id>(join, arrays, rank, context);
+    const MergeTree<Number> join = join_tree_of(arrays.contours);
+    make_events<Number>(join, arrays, rank, context);
     return true;
 }
 
-template <class Id>
-void add_up_voxels(std::span<const Id> element_voxels, AnalysisArrays<Id>& arrays) {
-    arrays.voxels.assign(arrays.tree.size(), Id{0});
-    for (std::size_t i = 0; i < element_voxels.size(); ++i) {
-        arrays.voxels[arrays.tree.event_of_element[i]] += element_voxels[i];
-    }
+template <class Number>
+void add_up_voxels(ByElementView<Number, Number> element_voxels, AnalysisArrays<Number>& arrays) {
+    arrays.voxels.items().assign(arrays.tree.size(), Number{0});
+    for (const auto i : element_voxels.ids()) arrays.voxels[arrays.tree.event_of_element[i]] += element_voxels[i];
 }
 
-#define ISOATLAS_TREES(Id)                                                          \
-    template BigVector<Id> make_arcs(CriticalSet<Id>, AnalysisArrays<Id>&, int);    \
-    template void make_trees(CriticalSet<Id>, AnalysisArrays<Id>&, const Context&); \
-    template bool restore_trees(AnalysisArrays<Id>&, int, const Context&);          \
-    template void add_up_voxels(std::span<const Id>, AnalysisArrays<Id>&);
+#define ISOATLAS_TREES(Number)                                                                        \
+    template ByElement<Number, std::int8_t> delta_chis(const ByElement<Number, std::uint64_t>&, int); \
+    template MergeTree<Number> make_arcs(CriticalSet<Number>, AnalysisArrays<Number>&, int);          \
+    template void make_trees(CriticalSet<Number>, AnalysisArrays<Number>&, const Context&);           \
+    template bool restore_trees(AnalysisArrays<Number>&, int, const Context&);                        \
+    template void add_up_voxels(ByElementView<Number, Number>, AnalysisArrays<Number>&);
 ISOATLAS_TREES(std::uint32_t)
 ISOATLAS_TREES(std::uint64_t)
 #undef ISOATLAS_TREES

@@ -7,23 +7,24 @@
 namespace isoatlas {
 
 /// Fills in value, code and the contour tree. Returns the join tree. Cost: O(n alpha).
-template <class Id>
-BigVector<Id> make_arcs(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, int threads);
+template <class Number>
+MergeTree<Number> make_arcs(CriticalSet<Number> set, AnalysisArrays<Number>& arrays, int threads);
 
 /// Fills in everything but the zones. Throws Error{cancelled}. Cost: O(n alpha).
-template <class Id>
-void make_trees(CriticalSet<Id> set, AnalysisArrays<Id>& arrays, const Context& context);
+template <class Number>
+void make_trees(CriticalSet<Number> set, AnalysisArrays<Number>& arrays, const Context& context);
 
 /// The same from value, code and contours.other, all else follows from them. Returns false when these are not the contour tree of a box: a
 /// damaged store. Throws Error{cancelled}. Cost: O(n alpha).
-template <class Id>
-[[nodiscard]] bool restore_trees(AnalysisArrays<Id>& arrays, int rank, const Context& context);
+template <class Number>
+[[nodiscard]] bool restore_trees(AnalysisArrays<Number>& arrays, int rank, const Context& context);
 
 /// Per element: change of the Euler characteristic.
-[[nodiscard]] BigVector<std::int8_t> delta_chis(std::span<const std::uint64_t> code, int rank);
+template <class Number>
+[[nodiscard]] ByElement<Number, std::int8_t> delta_chis(const ByElement<Number, std::uint64_t>& code, int rank);
 
 /// Voxels of the zones of events, from those of the elements (zones/count_voxels.h).
-template <class Id>
-void add_up_voxels(std::span<const Id> element_voxels, AnalysisArrays<Id>& arrays);
+template <class Number>
+void add_up_voxels(ByElementView<Number, Number> element_voxels, AnalysisArrays<Number>& arrays);
 
 }  // namespace isoatlas

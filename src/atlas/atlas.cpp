@@ -267,7 +267,7 @@ const LevelCensus& AtlasAccess::census(const Atlas& atlas) {
 }
 void AtlasAccess::keep(const Atlas& atlas, Analysis analysis) {
     (void)atlas.data_->trees.get([&] {
-        analysis.data().visit([](auto& held) { release(held.arrays.zone); });
+        analysis.data().visit([](auto& held) { release(held.arrays.zone.items()); });
         return std::make_unique<Trees>(std::move(analysis));
     });
 }

@@ -17,16 +17,16 @@ constexpr std::int64_t kVoxelsAnElement = 3;
 template <class Id, class Visit>
 void for_arrays(const AnalysisArrays<Id>& arrays, Visit&& visit) {
     using Signed = std::make_signed_t<Id>;
-    visit("events/element", std::span<const Id>(arrays.tree.top));
-    visit("events/parent", std::span<const Id>(arrays.tree.parent));
+    visit("events/element", numbers_of<ElementIdOf<Id>>(arrays.tree.top.items()));
+    visit("events/parent", numbers_of<EventIdOf<Id>>(arrays.tree.parent.items()));
     static_assert(sizeof(Criticality) == 1);
-    const BigVector<Criticality>& kind = arrays.measures.kind;
+    const BigVector<Criticality>& kind = arrays.measures.kind.items();
     visit("events/kind", std::span(reinterpret_cast<const std::uint8_t*>(kind.data()), kind.size()));
-    visit("events/lows_out", std::span<const Id>(arrays.measures.lows_out));
-    visit("events/delta_chi", std::span<const Signed>(arrays.measures.delta_chi));
-    visit("events/chi", std::span<const Signed>(arrays.measures.chi));
-    visit("events/contours", std::span<const Id>(arrays.measures.contours));
-    visit("events/voxels", std::span<const Id>(arrays.voxels));
+    visit("events/lows_out", std::span<const Id>(arrays.measures.lows_out.items()));
+    visit("events/delta_chi", std::span<const Signed>(arrays.measures.delta_chi.items()));
+    visit("events/chi", std::span<const Signed>(arrays.measures.chi.items()));
+    visit("events/contours", std::span<const Id>(arrays.measures.contours.items()));
+    visit("events/voxels", std::span<const Id>(arrays.voxels.items()));
 }
 
 /// First difference between stored and expected numbers; "": none.

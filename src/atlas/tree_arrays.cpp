@@ -21,16 +21,17 @@ void check(const ArcArrays<Id>& a, const Container& store) {
     const std::size_t n = a.value.size();
     if (n == 0) contradiction(store, "there are no critical elements");
     if (a.code.size() != n) contradiction(store, "arrays of the same things have different lengths");
+    const BigVector<double>& value = a.value.items();
     for (std::size_t i = 0; i < n; ++i) {
-        if (!(i == 0 || a.value[i] <= a.value[i - 1]) || std::isnan(a.value[i])) contradiction(store, "values do not descend");
+        if (!(i == 0 || value[i] <= value[i - 1]) || std::isnan(value[i])) contradiction(store, "values do not descend");
     }
 }
 
 template <class Id>
 ArcArrays<Id> read_arcs(const Container& store, const std::byte* samples, const Context& context) {
     ArcArrays<Id> arrays;
-    read_elements<Id>(store, samples, context, arrays.code, arrays.value);
-    read_array(store, kTowardsOutside, type_name<Id>(), arrays.contours.other);
+    read_elements<Id>(store, samples, context, arrays.code.items(), arrays.value.items());
+    read_array(store, kTowardsOutside, type_name<Id>(), arrays.contours.other.items());
     check(arrays, store);
     return arrays;
 }
@@ -41,8 +42,8 @@ Analysis with_trees(const Container& store, const std::byte* samples, const Cont
     std::optional<Analysis> analysis = restored_trees(arcs, context);
     if (!analysis) contradiction(store, "the contour tree is not a tree");
     analysis->data().visit([&]<class Id>(IndexedArrays<Id>& held) {
-        BigVector<Id> voxels;
-        read_array(store, kVoxels, type_name<Id>(), voxels);
+        ByElement<Id, Id> voxels;
+        read_array(store, kVoxels, type_name<Id>(), voxels.items());
         if (voxels.size() != held.arrays.value.size()) contradiction(store, "not every element has its number of voxels");
         add_up_voxels<Id>(voxels, held.arrays);
     });
@@ -54,8 +55,9 @@ Analysis with_trees(const Container& store, const std::byte* samples, const Cont
 std::vector<PackedArray> tree_arrays(const ContourArcs& arcs, const VolumeInfo& volume, int threads) {
     return std::visit(
         [&]<class Id>(const ArcArrays<Id>& arrays) {
-            std::vector<PackedArray> packs = element_arrays<Id>(arrays.value, arrays.code, volume, threads);
-            packs.push_back(packed_chunks<Id>(kTowardsOutside, type_name<Id>(), std::span<const Id>(arrays.contours.other)));
+            std::vector<PackedArray> packs = element_arrays<Id>(arrays.value.items(), arrays.code.items(), volume, threads);
+            packs.push_back(
+                packed_chunks<Id>(kTowardsOutside, type_name<Id>(), numbers_of<ElementIdOf<Id>>(arrays.contours.other.items())));
             return packs;
         },
         arcs.arrays);
@@ -63,7 +65,10 @@ std::vector<PackedArray> tree_arrays(const ContourArcs& arcs, const VolumeInfo& 
 
 PackedArray voxel_array(const ElementVoxels& voxels) {
     return std::visit(
-        []<class Id>(const BigVector<Id>& held) { return packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held)); }, voxels);
+        []<class Id>(const ByElement<Id, Id>& held) {
+            return packed_chunks<Id>(kVoxels, type_name<Id>(), std::span<const Id>(held.items()));
+        },
+        voxels);
 }
 
 std::vector<PackedArray> copied_arrays(const Container& store) {

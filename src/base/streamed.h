@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "base/budget_poll.h"
 
@@ -16,6 +17,9 @@ struct StepBytes {
 constexpr StepBytes in_order(std::size_t arrays) { return {8 * arrays}; }
 /// The step accesses so many arrays at random: the system maps 16 pages at a touch.
 constexpr StepBytes at_random(std::size_t arrays = 1) { return {arrays * BudgetPoll::kTouch}; }
+
+/// The same where only one access in so many is far from those before.
+constexpr StepBytes at_random_one_in(std::size_t accesses) { return {BudgetPoll::kTouch / accesses}; }
 
 /// for (const ElementId e : streamed<ElementId>(n, at_random(2))): the ids 0 .. n - 1. The budget is that in force (base/memory_limit.h).
 /// down: n - 1 .. 0. Cost: a subtraction a step where no limit is in force.
@@ -116,5 +120,41 @@ template <class I = std::size_t>
 [[nodiscard]] Streamed<I> streamed_down(std::size_t count, StepBytes step) {
     return {count, step, true};
 }
+
+/// From every id 0 .. count - 1 in order along a chain: x, x = visit(x), ... as long as goes_on(x). step: of a visit.
+template <class I, class GoesOn, class Visit>
+void for_chains(std::size_t count, StepBytes step, const GoesOn& goes_on, const Visit& visit) {
+    BudgetPoll poll;
+    for (std::size_t seed = 0; seed < count; ++seed) {
+        poll.step(in_order(1).bytes);
+        for (I x(seed); goes_on(x); x = visit(x)) poll.step(step.bytes);
+    }
+}
+
+/// Calls visit(first, end) for the runs of equal items. step: of a run.
+template <class T, class Visit>
+void for_runs(std::span<const T> items, StepBytes step, const Visit& visit) {
+    BudgetPoll poll;
+    for (std::size_t first = 0, end = 1; first < items.size(); first = end++) {
+        poll.step(step.bytes);
+        while (end < items.size() && items[end] == items[first]) ++end;
+        visit(first, end);
+    }
+}
+
+/// Loops that share an allowance: for short ones, each of which would begin with a look at the budget.
+class StreamedLoops {
+public:
+    template <class I, class Visit>
+    void over(I first, I end, StepBytes step, const Visit& visit) {
+        for (I i = first; i != end; ++i) {
+            visit(i);
+            poll_.step(step.bytes);
+        }
+    }
+
+private:
+    BudgetPoll poll_;
+};
 
 }  // namespace isoatlas

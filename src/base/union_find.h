@@ -4,50 +4,51 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/big_vector.h"
-#include "base/memory_limit.h"
+#include "base/id_array.h"
+#include "base/streamed.h"
 
 namespace isoatlas {
 
-template <class Id>
+/// I: an integer, or an id.
+template <class I>
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count = 0) : parent_(count) {
-        BudgetPoll memory;
-        for (std::size_t x = 0; x < count; ++x) parent_[x] = static_cast<Id>(x), memory.step(sizeof(Id));
+        for (const std::size_t x : streamed(count, {sizeof(I)})) parent_[x] = static_cast<I>(x);
     }
 
-    [[nodiscard]] Id find(Id x) {
-        while (parent_[x] != x) {
-            parent_[x] = parent_[parent_[x]];
-            x = parent_[x];
+    [[nodiscard]] I find(I x) {
+        while (parent(x) != x) {
+            parent(x) = parent(parent(x));
+            x = parent(x);
         }
         return x;
     }
     /// root and other must be roots; afterwards root stands for both.
-    void attach(Id root, Id other) { parent_[other] = root; }
+    void attach(I root, I other) { parent(other) = root; }
     /// Joins the sets of a and b; the smaller root wins (deterministic for any order of calls). Returns the root.
-    Id join(Id a, Id b) {
+    I join(I a, I b) {
         a = find(a);
         b = find(b);
         if (b < a) std::swap(a, b);
-        parent_[b] = a;
+        parent(b) = a;
         return a;
     }
-    [[nodiscard]] Id add() {
-        parent_.push_back(static_cast<Id>(parent_.size()));
+    [[nodiscard]] I add() {
+        parent_.push_back(static_cast<I>(parent_.size()));
         return parent_.back();
     }
     /// The root of every element.
-    [[nodiscard]] BigVector<Id> roots() && {
-        BudgetPoll memory;
-        for (Id x = 0; x < parent_.size(); ++x) parent_[x] = find(x), memory.step(BudgetPoll::kTouch);
+    [[nodiscard]] BigVector<I> roots() && {
+        for (const std::size_t x : streamed(parent_.size(), at_random())) parent_[x] = find(static_cast<I>(x));
         return std::move(parent_);
     }
     [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
 private:
-    BigVector<Id> parent_;
+    [[nodiscard]] I& parent(I x) { return parent_[index_of(x)]; }
+
+    BigVector<I> parent_;
 };
 
 }  // namespace isoatlas

@@ -11,12 +11,12 @@ namespace isoatlas {
 namespace {
 
 template <class Id>
-double value_of(const AnalysisArrays<Id>& arrays, std::size_t event) {
+double value_of(const AnalysisArrays<Id>& arrays, EventIdOf<Id> event) {
     return arrays.value[arrays.tree.top[event]];
 }
 
 template <class Id>
-LevelCounts counts_of(const AnalysisArrays<Id>& arrays, std::size_t event, int rank) {
+LevelCounts counts_of(const AnalysisArrays<Id>& arrays, EventIdOf<Id> event, int rank) {
     LevelCounts counts{1, static_cast<std::int64_t>(arrays.measures.contours[event]), 0, 0};
     counts.cavities = rank == 3 ? counts.contours - 1 : 0;
     counts.tunnels = 1 + counts.cavities - static_cast<std::int64_t>(arrays.measures.chi[event]);
@@ -42,9 +42,9 @@ std::vector<bool> events_of_entries(const AnalysisArrays<Id>& arrays, const std:
     std::vector<bool> significant(tree.size(), false);
     for (const ObjectEntry& entry : entries) {
         if (entry.branch_top < EventId(0) || entry.branch_top >= EventId(tree.size())) contradiction();
-        for (std::size_t e = entry.branch_top.index(); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
-            if (significant[e]) break;  // another entry of the branch: branches share no event
-            significant[e] = true;
+        for (EventIdOf<Id> e(entry.branch_top.number()); value_of(arrays, e) > entry.merges; e = tree.parent[e]) {
+            if (significant[e.index()]) break;  // another entry of the branch: branches share no event
+            significant[e.index()] = true;
             if (tree.is_root(e)) break;
         }
     }
@@ -56,18 +56,18 @@ template <class Id>
 std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& significant) {
     const CriticalityTree<Id>& tree = arrays.tree;
     std::vector<SpectrumInterval> intervals;
-    std::vector<Id> place(tree.size());
-    for (std::size_t e = 0; e < tree.size(); ++e) {
+    ByEvent<Id, Id> place(tree.size());
+    for (const EventIdOf<Id> e : place.ids()) {
         const double value = value_of(arrays, e);
         if (intervals.empty() || intervals.back().high != value)
             intervals.push_back({-std::numeric_limits<double>::infinity(), value, {}, {}});
         place[e] = static_cast<Id>(intervals.size() - 1);
     }
-    for (std::size_t e = 0; e < tree.size(); ++e) {
+    for (const EventIdOf<Id> e : place.ids()) {
         const LevelCounts counts = counts_of(arrays, e, rank);
         const auto change = [&](SpectrumInterval& interval, std::int64_t times) {
             add(interval.all, counts, times);
-            if (significant[e]) add(interval.significant, counts, times);
+            if (significant[e.index()]) add(interval.significant, counts, times);
         };
         change(intervals[place[e]], 1);
         if (!tree.is_root(e)) change(intervals[place[tree.parent[e]]], -1);

@@ -25,17 +25,17 @@ constexpr std::array<std::uint8_t, 64> kChoice = [] {
 
 }  // namespace
 
-template <class Id>
-Basins<Id>::Basins(const Extent& extent, std::int64_t slab_height, Direction direction, std::span<const std::uint8_t> links,
-                   std::span<Id> basin)
+template <class Number>
+Basins<Number>::Basins(const Extent& extent, std::int64_t slab_height, Direction direction, std::span<const std::uint8_t> links,
+                       std::span<Number> basin)
     : extent_(extent), height_(slab_height), direction_(direction), links_(links), basin_(basin) {
     ISOATLAS_CHECK(static_cast<std::uint64_t>(extent.voxels()) < std::uint64_t{kNumber});
 }
 
-template <class Id>
-void Basins<Id>::forward(std::int64_t slab, std::int64_t first_number) {
+template <class Number>
+void Basins<Number>::forward(std::int64_t slab, std::int64_t first_number) {
     const Slab range = this->range(slab);
-    Id next = static_cast<Id>(first_number) + (direction_ == Direction::down ? Id{1} : Id{0});
+    Number next = static_cast<Number>(first_number) + (direction_ == Direction::down ? Number{1} : Number{0});
     point(range, next);
     // Backwards: pointers to later voxels of the slab find them resolved as far as the slab goes.
     const std::int64_t first = range.z_begin * extent_.slice(), last = range.z_end * extent_.slice();
@@ -45,8 +45,8 @@ void Basins<Id>::forward(std::int64_t slab, std::int64_t first_number) {
     }
 }
 
-template <class Id>
-void Basins<Id>::point(Slab slab, Id& next) {
+template <class Number>
+void Basins<Number>::point(Slab slab, Number& next) {
     const std::int64_t nx = extent_.size[0], ny = extent_.size[1], nz = extent_.size[2], slice = extent_.slice();
     const std::array<std::int64_t, 6> step{-1, 1, -nx, nx, -slice, slice};
     const bool down = direction_ == Direction::down, is_3d = extent_.rank == 3;
@@ -68,17 +68,17 @@ void Basins<Id>::point(Slab slab, Id& next) {
                     basin_[v] = next++ | kNumber;
                 } else {
                     const std::int64_t target = v + step[choice];
-                    basin_[v] = known >> choice & 1 ? basin_[target] : static_cast<Id>(target);
+                    basin_[v] = known >> choice & 1 ? basin_[target] : static_cast<Number>(target);
                 }
             }
         }
     }
 }
 
-template <class Id>
-void Basins<Id>::compress(std::int64_t voxel, std::int64_t first, std::int64_t last, std::vector<std::int64_t>& path) {
+template <class Number>
+void Basins<Number>::compress(std::int64_t voxel, std::int64_t first, std::int64_t last, std::vector<std::int64_t>& path) {
     path.clear();
-    Id entry = basin_[voxel];
+    Number entry = basin_[voxel];
     while (!(entry & kNumber)) {
         const auto target = static_cast<std::int64_t>(entry);
         if (target < first || target >= last) break;
@@ -89,8 +89,8 @@ void Basins<Id>::compress(std::int64_t voxel, std::int64_t first, std::int64_t l
     for (const std::int64_t v : path) basin_[v] = entry;
 }
 
-template <class Id>
-void Basins<Id>::exits() {
+template <class Number>
+void Basins<Number>::exits() {
     std::vector<std::int64_t> path;
     const std::int64_t slice = extent_.slice();
     for (std::int64_t begin = 0; begin < extent_.size[2]; begin += height_) {
@@ -102,13 +102,13 @@ void Basins<Id>::exits() {
     }
 }
 
-template <class Id>
-void Basins<Id>::finish(std::int64_t slab) {
+template <class Number>
+void Basins<Number>::finish(std::int64_t slab) {
     // What is not resolved by now points to a border slice of another slab, which exits() resolved: no thread writes there any more.
     const Slab range = this->range(slab);
     const std::int64_t first = range.z_begin * extent_.slice(), last = range.z_end * extent_.slice();
     for (std::int64_t v = first; v < last; ++v) {
-        const Id entry = basin_[v];
+        const Number entry = basin_[v];
         if (!(entry & kNumber)) basin_[v] = basin_[static_cast<std::int64_t>(entry)];
     }
 }

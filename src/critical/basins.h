@@ -25,11 +25,12 @@ enum class Direction : std::uint8_t { up, down };
 ///   1. forward(slab): needs the links of the slab only; afterwards every basin entry is a number or points to a voxel.
 ///   2. exits(): pointers that leave their slab, on the first and last slice of every slab.
 ///   3. finish(slab).
-/// Id: 32 bits when the grid has less than 2^31 voxels, else 64. Memory: one Id per voxel, owned by the caller.
-template <class Id>
+/// Number: 32 bits when the grid has less than 2^31 voxels, else 64. Memory: one number per voxel, owned by the caller.
+template <class Number>
 class Basins {
 public:
-    Basins(const Extent& extent, std::int64_t slab_height, Direction direction, std::span<const std::uint8_t> links, std::span<Id> basin);
+    Basins(const Extent& extent, std::int64_t slab_height, Direction direction, std::span<const std::uint8_t> links,
+           std::span<Number> basin);
 
     /// first_number: how many extrema of this direction lie in the slabs before.
     void forward(std::int64_t slab, std::int64_t first_number);
@@ -37,20 +38,20 @@ public:
     void finish(std::int64_t slab);
 
     /// The basin number in a finished entry.
-    [[nodiscard]] static constexpr Id number(Id entry) { return entry & ~kNumber; }
+    [[nodiscard]] static constexpr Number number(Number entry) { return entry & ~kNumber; }
 
 private:
-    static constexpr Id kNumber = Id{1} << (8 * sizeof(Id) - 1);  ///< set: a basin number; clear: a voxel to follow
+    static constexpr Number kNumber = Number{1} << (8 * sizeof(Number) - 1);  ///< set: a basin number; clear: a voxel to follow
 
     [[nodiscard]] Slab range(std::int64_t slab) const { return slab_at(slab, height_, extent_.size[2]); }
-    void point(Slab slab, Id& next);
+    void point(Slab slab, Number& next);
     void compress(std::int64_t voxel, std::int64_t first, std::int64_t last, std::vector<std::int64_t>& path);
 
     Extent extent_;
     std::int64_t height_;
     Direction direction_;
     std::span<const std::uint8_t> links_;
-    std::span<Id> basin_;
+    std::span<Number> basin_;
 };
 
 }  // namespace isoatlas

@@ -11,18 +11,18 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/big_vector.h"
+#include "critical/ids.h"
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct CriticalSet {
-    BigVector<double> value;
-    BigVector<std::uint64_t> code;  ///< ElementCode bits; the tree reads h0, l0 only
-    BigVector<Id> up_a, up_b;       ///< maxima numbers; equal when h0 < 2; a maximum is its own representative
-    BigVector<Id> low_a, low_b;     ///< minima numbers, 0 = outside; a minimum is its own representative
-    std::int64_t maxima = 0;        ///< maxima are numbered 0 .. maxima-1
-    std::int64_t minima = 0;        ///< minima are numbered 1 .. minima; 0 is the outside
+    ByElement<Number, double> value;
+    ByElement<Number, std::uint64_t> code;                ///< ElementCode bits; the tree reads h0, l0 only
+    ByElement<Number, MaximumIdOf<Number>> up_a, up_b;    ///< equal when h0 < 2; a maximum is its own representative
+    ByElement<Number, MinimumIdOf<Number>> low_a, low_b;  ///< 0 = outside; a minimum is its own representative
+    std::int64_t maxima = 0;                              ///< maxima are numbered 0 .. maxima-1
+    std::int64_t minima = 0;                              ///< minima are numbered 1 .. minima; 0 is the outside
     int rank = 3;
 
     [[nodiscard]] std::size_t size() const { return value.size(); }

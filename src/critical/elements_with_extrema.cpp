@@ -7,6 +7,7 @@
 #include "base/paced_fill.h"
 #include "base/parallel.h"
 #include "base/part_streams.h"
+#include "base/streamed.h"
 
 namespace isoatlas {
 namespace {
@@ -23,25 +24,24 @@ std::vector<std::int64_t> first_of_slabs(const Extent& extent, std::int64_t heig
     return first;
 }
 
-template <class Id>
-std::array<Id, 2> renumbered(std::array<Id, 2> names, std::span<const Id> number) {
+template <class Extremum>
+std::array<Extremum, 2> renumbered(std::array<Extremum, 2> names, IdSpan<Extremum, const Extremum> number) {
     if (number.empty()) return names;
     return {number[names[0]], number[names[1]]};
 }
 
-template <class Id>
-ChunksWithExtrema<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const RepresentativeLookup<Id>& leads,
-                                  std::span<const Id> number, int threads) {
-    ChunksWithExtrema<Id> result(chunks.size());
+template <class Number>
+ChunksWithExtrema<Number> with_maxima(std::vector<BigVector<KeyedElement>> chunks, const RepresentativeLookup<Number>& leads,
+                                      IdSpan<MaximumIdOf<Number>, const MaximumIdOf<Number>> number, int threads) {
+    ChunksWithExtrema<Number> result(chunks.size());
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
-        result[c] = scratch_chunk<ElementWithExtrema<Id>>();
+        result[c] = scratch_chunk<ElementWithExtrema<Number>>();
         result[c].resize(chunks[c].size());
         const std::size_t first = 0;
-        PartWriters<ElementWithExtrema<Id>> elements(result[c], {&first, 1});
-        BudgetPoll memory;
-        for (const KeyedElement& element : chunks[c]) {
-            memory.step();
-            elements.put(0, {element, {renumbered<Id>(leads.above(element.code), number), {}}});
+        PartWriters<ElementWithExtrema<Number>> elements(result[c], {&first, 1});
+        for (const std::size_t i : streamed(chunks[c].size(), in_order(8))) {
+            const KeyedElement& element = chunks[c][i];
+            elements.put(0, {element, {renumbered(leads.above(element.code), number), {}}});
         }
         elements.finish();
         release(chunks[c]);
@@ -49,14 +49,15 @@ ChunksWithExtrema<Id> with_maxima(std::vector<BigVector<KeyedElement>> chunks, c
     return result;
 }
 
-template <class Id>
-void add_minima(ChunksWithExtrema<Id>& chunks, const RepresentativeLookup<Id>& leads, std::span<const Id> number, int threads) {
+template <class Number>
+void add_minima(ChunksWithExtrema<Number>& chunks, const RepresentativeLookup<Number>& leads,
+                IdSpan<MinimumIdOf<Number>, const MinimumIdOf<Number>> number, int threads) {
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
         constexpr std::size_t kPiece = std::size_t{1} << 12;
         for (std::size_t first = 0; first < chunks[c].size(); first += kPiece, check_memory()) {
             const std::size_t count = std::min(kPiece, chunks[c].size() - first);
-            change_part(std::span(chunks[c]).subspan(first, count), [&](std::span<ElementWithExtrema<Id>> piece) {
-                for (auto& element : piece) element.representatives.below = renumbered<Id>(leads.below(element.key.code), number);
+            change_part(std::span(chunks[c]).subspan(first, count), [&](std::span<ElementWithExtrema<Number>> piece) {
+                for (auto& element : piece) element.representatives.below = renumbered(leads.below(element.key.code), number);
             });
         }
     });
@@ -64,12 +65,12 @@ void add_minima(ChunksWithExtrema<Id>& chunks, const RepresentativeLookup<Id>& l
 
 }  // namespace
 
-template <class Id>
-BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
-                             const std::vector<std::int64_t>& first_number, int threads) {
-    BigVector<Id> basin(static_cast<std::size_t>(extent.voxels()));
+template <class Number>
+BigVector<Number> resolve_basins(const Extent& extent, std::int64_t height, Direction direction, std::span<const std::uint8_t> links,
+                                 const std::vector<std::int64_t>& first_number, int threads) {
+    BigVector<Number> basin(static_cast<std::size_t>(extent.voxels()));
     const auto slabs = static_cast<std::int64_t>(first_number.size());
-    Basins<Id> basins(extent, height, direction, links, basin);
+    Basins<Number> basins(extent, height, direction, links, basin);
     for_each_block(threads, slabs, [&](std::int64_t slab) { basins.forward(slab, first_number[slab]); });
     if (slabs > 1) {
         basins.exits();
@@ -78,34 +79,37 @@ BigVector<Id> resolve_basins(const Extent& extent, std::int64_t height, Directio
     return basin;
 }
 
-template <class Id>
-BigVector<Id> basins_of_maxima(const Extent& extent, std::span<const std::uint8_t> links, const Context& context) {
+template <class Number>
+BigVector<Number> basins_of_maxima(const Extent& extent, std::span<const std::uint8_t> links, const Context& context) {
     const std::int64_t height = slab_height(extent, context);
-    return resolve_basins<Id>(extent, height, Direction::up, links, first_of_slabs(extent, height, links, context.threads),
-                              context.threads);
+    return resolve_basins<Number>(extent, height, Direction::up, links, first_of_slabs(extent, height, links, context.threads),
+                                  context.threads);
 }
 
-template <class Id>
-ChunksWithExtrema<Id> elements_with_extrema(const Extent& extent, GridScan& scan, std::span<const Id> new_maximum,
-                                            std::span<const Id> new_minimum, BigVector<Id>* upward, int threads) {
-    ChunksWithExtrema<Id> elements;
+template <class Number>
+ChunksWithExtrema<Number> elements_with_extrema(const Extent& extent, GridScan& scan,
+                                                IdSpan<MaximumIdOf<Number>, const MaximumIdOf<Number>> new_maximum,
+                                                IdSpan<MinimumIdOf<Number>, const MinimumIdOf<Number>> new_minimum,
+                                                BigVector<Number>* upward, int threads) {
+    ChunksWithExtrema<Number> elements;
     {
-        BigVector<Id> up = resolve_basins<Id>(extent, scan.height, Direction::up, scan.links, scan.first_maximum, threads);
-        elements = with_maxima<Id>(std::move(scan.chunks), {extent, up}, new_maximum, threads);
+        BigVector<Number> up = resolve_basins<Number>(extent, scan.height, Direction::up, scan.links, scan.first_maximum, threads);
+        elements = with_maxima<Number>(std::move(scan.chunks), {extent, up}, new_maximum, threads);
         if (upward != nullptr) *upward = std::move(up);
     }
-    const BigVector<Id> down = resolve_basins<Id>(extent, scan.height, Direction::down, scan.links, scan.first_minimum, threads);
+    const BigVector<Number> down = resolve_basins<Number>(extent, scan.height, Direction::down, scan.links, scan.first_minimum, threads);
     release(scan.links);
-    add_minima<Id>(elements, {extent, down}, new_minimum, threads);
+    add_minima<Number>(elements, {extent, down}, new_minimum, threads);
     return elements;
 }
 
-#define ISOATLAS_LEADING(Id)                                                                                                 \
-    template BigVector<Id> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>,             \
-                                          const std::vector<std::int64_t>&, int);                                            \
-    template BigVector<Id> basins_of_maxima(const Extent&, std::span<const std::uint8_t>, const Context&);                   \
-    template ChunksWithExtrema<Id> elements_with_extrema(const Extent&, GridScan&, std::span<const Id>, std::span<const Id>, \
-                                                         BigVector<Id>*, int);
+#define ISOATLAS_LEADING(Number)                                                                                     \
+    template BigVector<Number> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>, \
+                                              const std::vector<std::int64_t>&, int);                                \
+    template BigVector<Number> basins_of_maxima(const Extent&, std::span<const std::uint8_t>, const Context&);       \
+    template ChunksWithExtrema<Number> elements_with_extrema(                                                        \
+        const Extent&, GridScan&, IdSpan<MaximumIdOf<Number>, const MaximumIdOf<Number>>,                            \
+        IdSpan<MinimumIdOf<Number>, const MinimumIdOf<Number>>, BigVector<Number>*, int);
 ISOATLAS_LEADING(std::uint32_t)
 ISOATLAS_LEADING(std::uint64_t)
 #undef ISOATLAS_LEADING

@@ -32,14 +32,14 @@
 
 namespace isoatlas {
 
-/// Per maximum, in raster order: its critical element. Cost: O(elements), a bit a voxel.
-template <class Id>
-[[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code, const Extent& extent);
+/// Maxima in raster order. Cost: O(elements), a bit a voxel.
+template <class Number>
+[[nodiscard]] ElementsOfMaxima<Number> elements_of_maxima(ByElementView<Number, std::uint64_t> code, const Extent& extent);
 
-template <class T, class IdType>
+template <class T, class NumberType>
 class GridDomain {
 public:
-    using Id = IdType;
+    using Number = NumberType;
     using Sample = T;
 
     /// scan: of scan_grid(); empty when critical() is not called.
@@ -47,11 +47,11 @@ public:
 
     /// Resolves basins and sorts; consumes the scan. Cost: O(voxels + c log c); 5 bytes a voxel and 64 a critical element while it runs
     /// with 32-bit ids, 4 bytes a voxel more when the basins are kept.
-    [[nodiscard]] Criticals<Id> critical(bool keep_basins, const Context& context);
+    [[nodiscard]] Criticals<Number> critical(bool keep_basins, const Context& context);
     [[nodiscard]] std::span<const T> samples() const { return {grid_.samples, static_cast<std::size_t>(grid_.extent.voxels())}; }
     /// Maxima are numbered in raster order.
-    [[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code) const {
-        return isoatlas::elements_of_maxima<Id>(code, grid_.extent);
+    [[nodiscard]] ElementsOfMaxima<Number> elements_of_maxima(ByElementView<Number, std::uint64_t> code) const {
+        return isoatlas::elements_of_maxima<Number>(code, grid_.extent);
     }
     void for_parts(const Context& context, const Phase& phase, const std::function<void(std::size_t, std::size_t)>& work) const;
 

@@ -9,12 +9,12 @@
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct PartitionedCriticals {
-    BigVector<double> value;           ///< by rank
-    BigVector<std::uint64_t> code;     ///< by rank: ElementCode bits
-    BigVector<std::uint16_t> part_of;  ///< by rank: the tile
-    PartitionedSet<Id> set;
+    ByElement<Number, double> value;
+    ByElement<Number, std::uint64_t> code;  ///< ElementCode bits
+    BigVector<std::uint16_t> part_of;       ///< by rank: the tile
+    PartitionedSet<Number> set;
 };
 
 /// Tiles so small that what is done to one of them on every thread stays well within the memory limit (base/memory_limit.h); their sides
@@ -22,7 +22,8 @@ struct PartitionedCriticals {
 [[nodiscard]] Tiling tiling_for(const Extent& extent, const Context& context);
 
 /// Consumes the scan. Cost: O(voxels + c log c) time; every pass runs through its arrays in order, or stays within some tiles.
-template <class Id>
-[[nodiscard]] PartitionedCriticals<Id> parted_criticals(const Extent& extent, GridScan scan, const Tiling& tiling, const Context& context);
+template <class Number>
+[[nodiscard]] PartitionedCriticals<Number> parted_criticals(const Extent& extent, GridScan scan, const Tiling& tiling,
+                                                            const Context& context);
 
 }  // namespace isoatlas

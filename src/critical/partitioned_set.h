@@ -13,14 +13,15 @@
 #include <span>
 #include <vector>
 
-#include "base/big_vector.h"
+#include "critical/ids.h"
 
 namespace isoatlas {
 
 /// Representatives of the components that meet at an element, above and below. On its empty side an extremum is its own.
-template <class Id>
+template <class Number>
 struct Representatives {
-    std::array<Id, 2> above, below;
+    std::array<MaximumIdOf<Number>, 2> above;
+    std::array<MinimumIdOf<Number>, 2> below;
 };
 
 /// How many components: above (low two bits) and below.
@@ -29,29 +30,30 @@ constexpr int branches_above(std::uint8_t branches) { return branches & 3; }
 constexpr int branches_below(std::uint8_t branches) { return branches >> 2; }
 
 /// Elements in descending order.
-template <class Id>
+template <class Number>
 struct RepresentedSet {
-    BigVector<std::uint8_t> branches;
-    BigVector<Representatives<Id>> representatives;
+    ByElement<Number, std::uint8_t> branches;
+    ByElement<Number, Representatives<Number>> representatives;
     std::size_t maxima = 0, minima = 0;  ///< above: 0 .. maxima-1; below: 0 .. minima, 0 = outside
 
     [[nodiscard]] std::size_t size() const { return representatives.size(); }
 };
 
 /// An element of a part. Side by side, because it is read in the order of ranks: from all parts alternately.
-template <class Id>
+template <class Number>
 struct PartitionedElement {
-    Representatives<Id> representatives;
+    Representatives<Number> representatives;
     std::uint8_t branches;
 };
 constexpr std::uint8_t kRemoved = 0xff;  ///< for branches: tree/reduce.h
 
-template <class Id>
+template <class Number>
 struct PartitionedSet {
-    BigVector<PartitionedElement<Id>> elements;
-    std::vector<std::size_t> first;  ///< element of each part, and of the end
-    /// Number of each part, and of the end. The outside is minimum 0 and belongs to no part.
-    std::vector<Id> first_maximum, first_minimum;
+    BigVector<PartitionedElement<Number>> elements;  ///< part after part
+    std::vector<std::size_t> first;                  ///< element of each part, and of the end
+    /// Of each part, and of the end. The outside is minimum 0 and belongs to no part.
+    std::vector<MaximumIdOf<Number>> first_maximum;
+    std::vector<MinimumIdOf<Number>> first_minimum;
 
     [[nodiscard]] std::size_t parts() const { return first.size() - 1; }
     [[nodiscard]] std::size_t size() const { return elements.size(); }

@@ -42,26 +42,26 @@ void for_voxels_of_slice(const Extent& extent, const Tiling& tiling, std::int64_
 
 }  // namespace
 
-template <class T, class Id>
-TiledBasins<Id> tiled_basins(const GridView<T>& grid, const Tiling& tiling, const Context& context) {
+template <class T, class Number>
+TiledBasins<Number> tiled_basins(const GridView<T>& grid, const Tiling& tiling, const Context& context) {
     const Extent& extent = grid.extent;
     const BigVector<std::uint8_t> links = links_of_grid(grid, context);
-    BigVector<Id> basin = basins_of_maxima<Id>(extent, links, context);
-    std::vector<Id> first(static_cast<std::size_t>(tiling.count()) + 1, Id{0});
+    BigVector<Number> basin = basins_of_maxima<Number>(extent, links, context);
+    std::vector<Number> first(static_cast<std::size_t>(tiling.count()) + 1, Number{0});
     for_maxima(links, [&](std::int64_t voxel) { ++first[tiling.tile_of_voxel(voxel)]; });
-    Id maxima = 0;
-    for (Id& of_tile : first) maxima += std::exchange(of_tile, maxima);
-    BigVector<Id> number;
+    Number maxima = 0;
+    for (Number& of_tile : first) maxima += std::exchange(of_tile, maxima);
+    BigVector<Number> number;
     {
         const PinInMemory keep;
         number.reserve(maxima);
     }
-    std::vector<Id> next = first;
+    std::vector<Number> next = first;
     for_maxima(links, [&](std::int64_t voxel) { number.push_back(next[tiling.tile_of_voxel(voxel)]++); });
-    TiledBasins<Id> result{std::move(basin), std::move(first), BitRanks(maxima)};
+    TiledBasins<Number> result{std::move(basin), std::move(first), BitRanks(maxima)};
     for_each_block(context.threads, extent.size[2], [&](std::int64_t z) {
         for_voxels_of_slice(extent, tiling, z, [&](std::int64_t voxel, std::int64_t tile, bool border) {
-            const Id maximum = number[Basins<Id>::number(result.maximum[voxel])];
+            const Number maximum = number[Basins<Number>::number(result.maximum[voxel])];
             result.maximum[voxel] = maximum;
             if (border || maximum < result.first[tile] || maximum >= result.first[tile + 1]) result.open.add(maximum);
         });

@@ -10,15 +10,15 @@
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct TiledBasins {
-    BigVector<Id> maximum;  ///< per voxel: the number of a maximum above it
-    std::vector<Id> first;  ///< per tile: the number of its first maximum; and of the end
-    BitRanks open;          ///< maxima that may be basins or representatives in another tile than their own
+    BigVector<Number> maximum;  ///< per voxel: the number of a maximum above it
+    std::vector<Number> first;  ///< per tile: the number of its first maximum; and of the end
+    BitRanks open;              ///< maxima that may be basins or representatives in another tile than their own
 };
 
-/// Cost: O(voxels) time, a byte a voxel beyond the result, and an Id each maximum.
-template <class T, class Id>
-[[nodiscard]] TiledBasins<Id> tiled_basins(const GridView<T>& grid, const Tiling& tiling, const Context& context);
+/// Cost: O(voxels) time, a byte a voxel beyond the result, and a Number each maximum.
+template <class T, class Number>
+[[nodiscard]] TiledBasins<Number> tiled_basins(const GridView<T>& grid, const Tiling& tiling, const Context& context);
 
 }  // namespace isoatlas

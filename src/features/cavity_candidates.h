@@ -18,7 +18,7 @@ struct CavityCandidates {
 
     /// Lowest voxel of the low component of an event; -1: the outside.
     [[nodiscard]] std::int64_t voxel(const AnalysisArrays<Id>& arrays, EventId event) const {
-        return lowest_voxel(arrays, sublevel, branches.highest[event].index());
+        return lowest_voxel(arrays, sublevel, branches.highest[event]);
     }
 };
 

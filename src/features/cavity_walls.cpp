@@ -156,7 +156,7 @@ std::vector<EventId> objects_around(const Analysis& analysis, const AnalysisArra
     for (const Candidate& row : candidates.chosen.rows) {
         const Branch& b = candidates.branches.branch[row.branch];
         const ActiveObjects there = index.at(-b.merges);
-        const std::int64_t id = lowest_voxel(arrays, candidates.sublevel, b.highest.index());
+        const std::int64_t id = lowest_voxel(arrays, candidates.sublevel, b.highest);
         const auto wall = std::ranges::find_if(
             there.contours, [id](const ActiveContour& contour) { return contour.shell == Shell::inner && contour.id == id; });
         if (wall == there.contours.end()) throw Error(ErrorKind::internal, {.what = "a cavity without a wall"});

@@ -25,11 +25,11 @@ template <class Id>
 CavityEntry entry_of(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>& side, const Candidate& row) {
     CavityEntry entry{};
     entry.id = side.voxel(arrays, row.event);
-    entry.branch_minimum = lowest_voxel(arrays, side.sublevel, side.branches.branch[row.branch].top.index());
+    entry.branch_minimum = lowest_voxel(arrays, side.sublevel, side.branches.branch[row.branch].top);
     entry.appears = -row.appears, entry.merges = -row.merges, entry.best_tau = -row.tau;
     entry.reason = std::ranges::find(side.chosen.isovalues, row.branch, &BranchIsovalue::branch)->reason;  // it has one row
     entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
-    entry.islands = static_cast<std::int64_t>(side.sublevel.contours[row.event.index()]) - 1;
+    entry.islands = static_cast<std::int64_t>(side.sublevel.contours[row.event]) - 1;
     entry.tau_low = -side.tree.height[row.event];
     entry.tau_high =
         side.tree.is_root(row.event) ? std::numeric_limits<double>::infinity() : -side.tree.height[side.tree.parent(row.event)];
@@ -45,7 +45,7 @@ void add_isovalues(const AnalysisArrays<Id>& arrays, const CavityCandidates<Id>&
         const EventId top = side.branches.branch[own.branch].top;
         EventId event = top;
         while (!side.tree.is_root(event) && side.tree.height[side.tree.parent(event)] > own.tau) event = side.tree.parent(event);
-        const std::int64_t minimum = lowest_voxel(arrays, side.sublevel, top.index());
+        const std::int64_t minimum = lowest_voxel(arrays, side.sublevel, top);
         table.isovalues.push_back({minimum, -own.tau, own.prominence, own.reason, side.voxel(arrays, event)});
     }
 }
@@ -66,19 +66,21 @@ void add_walls(const Analysis& analysis, CavityTable& table) {
 template <class Id>
 std::vector<std::uint32_t> label(const VolumeView& volume, const AnalysisArrays<Id>& arrays, const SublevelTree<Id>& sublevel, double tau,
                                  std::vector<std::int64_t>& ids) {
-    const std::size_t events = sublevel.tree.size();
+    const ObjectTree<Id> tree = sublevel.side();
+    const std::size_t events = tree.size();
     // Parents before their children: the low component at tau that every Low event lies in.
     BigVector<Id> at(events), lowest(events);
     std::iota(lowest.begin(), lowest.end(), Id{0});
     for (std::size_t e = events; e-- > 0;) {
         at[e] = static_cast<Id>(e);
-        if (!sublevel.tree.is_root(e) && -sublevel.height[sublevel.tree.parent[e]] < tau) at[e] = at[sublevel.tree.parent[e]];
+        const EventId event(e);
+        if (!tree.is_root(event) && -tree.height[tree.parent(event)] < tau) at[e] = at[tree.parent(event).index()];
     }
     BigVector<std::int64_t> voxels(events, std::int64_t{0});
     const auto for_lows = [&](auto&& visit) {
         visit_samples(volume, [&](auto samples) {
             for (std::size_t v = 0; v < samples.size(); ++v) {
-                if (static_cast<double>(samples[v]) < tau) visit(v, at[sublevel.zone[v]]);
+                if (static_cast<double>(samples[v]) < tau) visit(v, at[tree.zones[VoxelId(v)]]);
             }
         });
     };
@@ -90,7 +92,7 @@ std::vector<std::uint32_t> label(const VolumeView& volume, const AnalysisArrays<
     };
     std::vector<Cavity> cavities;
     for (std::size_t e = 0; e < events; ++e) {
-        const std::int64_t id = voxels[e] > 0 ? lowest_voxel(arrays, sublevel, lowest[e]) : -1;
+        const std::int64_t id = voxels[e] > 0 ? lowest_voxel(arrays, sublevel, EventId(lowest[e])) : -1;
         if (id >= 0) cavities.push_back({voxels[e], id, static_cast<Id>(e)});
     }
     std::ranges::sort(cavities, [](const Cavity& p, const Cavity& q) { return p.voxels != q.voxels ? p.voxels > q.voxels : p.id < q.id; });

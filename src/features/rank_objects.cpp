@@ -45,15 +45,15 @@ public:
 
 private:
     [[nodiscard]] ObjectEntry entry(const Candidate& row, std::int64_t inside) const {
-        const ElementCode code{arrays_.code[arrays_.tree.top[branches_.highest[row.event].index()]]};
+        const ElementCode code{arrays_.code[arrays_.tree.top[branches_.highest[row.event]]]};
         ObjectEntry entry{};
         entry.id = code.index();  // the highest element of an object is a maximum: a voxel
         entry.event = row.event;
         entry.appears = row.appears, entry.merges = row.merges, entry.best_tau = row.tau;
         entry.voxels = row.voxels, entry.measure = row.measure, entry.hypervolume = row.hypervolume;
-        const auto contours = static_cast<std::int64_t>(arrays_.measures.contours[row.event.index()]);
+        const auto contours = static_cast<std::int64_t>(arrays_.measures.contours[row.event]);
         entry.cavities = is_3d_ ? contours - 1 : 0;
-        entry.tunnels = 1 + entry.cavities - static_cast<std::int64_t>(arrays_.measures.chi[row.event.index()]);
+        entry.tunnels = 1 + entry.cavities - static_cast<std::int64_t>(arrays_.measures.chi[row.event]);
         entry.position = element_position(code, volume_.info->extent);
         entry.tau_low = tree_.is_root(row.event) ? -std::numeric_limits<double>::infinity() : tree_.height[tree_.parent(row.event)];
         entry.tau_high = tree_.height[row.event];

@@ -22,14 +22,14 @@ using Data = BranchHierarchy::Data;
 template <class Id>
 void gather(const VolumeInfo& info, const AnalysisArrays<Id>& arrays, const ZoneSums& zones, Data& data) {
     data.parent = IdArray<EventId, EventId>(arrays.tree.size());
-    for (const EventId e : data.parent.ids()) data.parent[e] = EventId(arrays.tree.parent[e.index()]);
-    data.voxels.items().assign(arrays.voxels.begin(), arrays.voxels.end());
+    for (const EventId e : data.parent.ids()) data.parent[e] = EventId(arrays.tree.parent[e]);
+    data.voxels.items().assign(arrays.voxels.items().begin(), arrays.voxels.items().end());
     const ObjectTree<Id> tree = superlevel_tree<Id>(arrays, data.value.items());
     data.branches = decompose_branches(tree, zones);
     data.measure = branch_measures(tree, data.branches, info);
     for (const BranchId i : data.branches.branch.ids()) {
         const Branch& b = data.branches.branch[i];
-        const std::int64_t id = ElementCode{arrays.code[arrays.tree.top[b.highest.index()]]}.index();
+        const std::int64_t id = ElementCode{arrays.code[arrays.tree.top[b.highest]]}.index();
         data.info.push_back({id, b.top, b.parent, b.appears, b.merges, b.persistence, b.hypervolume, b.voxels, data.measure[i]});
     }
 }

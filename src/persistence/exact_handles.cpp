@@ -34,7 +34,7 @@ std::vector<bool> events_inside(const AnalysisArrays<Id>& arrays, EventId event)
     std::vector<bool> inside(arrays.tree.size(), !event.exists());
     if (!event.exists()) return inside;
     inside[event.index()] = true;
-    for (std::size_t e = event.index(); e-- > 0;) inside[e] = inside[arrays.tree.parent[e]];
+    for (std::size_t e = event.index(); e-- > 0;) inside[e] = inside[arrays.tree.parent[EventId(e)].index()];
     return inside;
 }
 
@@ -47,10 +47,10 @@ template <class Id>
 TunnelElements tunnel_elements(const AnalysisArrays<Id>& arrays, EventId event) {
     const std::vector<bool> inside = events_inside(arrays, event);
     TunnelElements elements;
-    for (std::size_t x = 0; x < arrays.code.size(); ++x) {
+    for (const auto x : arrays.code.ids()) {
         const ElementCode code{arrays.code[x]};
         const bool in_one_contour = arrays.contours.above(x) == 1 && arrays.contours.below(x) == 1;
-        if (!in_one_contour || !inside[arrays.tree.event_of_element[x]]) continue;
+        if (!in_one_contour || !inside[arrays.tree.event_of_element[x].index()]) continue;
         if (code.h0() == 2) elements.opening.emplace_back(x);
         if (code.l0() == 2) elements.closing.emplace_back(x);
     }
@@ -63,7 +63,7 @@ public:
     Reduction(const GridView<T>& grid, double tunnel_height, const AnalysisArrays<Id>& arrays, EventId event, const Context& context)
         : arrays_(arrays), event_(event), context_(context), disks_(grid, tunnel_height), elements_(tunnel_elements(arrays, event)) {
         for (std::size_t row = 0; row < elements_.opening.size(); ++row)
-            row_of_[place_of(ElementCode{arrays.code[elements_.opening[row].index()]})] = static_cast<std::int64_t>(row);
+            row_of_[place_of(ElementCode{arrays.code[elements_.opening[row]]})] = static_cast<std::int64_t>(row);
     }
 
     [[nodiscard]] std::int64_t tunnels() const { return static_cast<std::int64_t>(elements_.opening.size()); }
@@ -85,7 +85,7 @@ public:
 private:
     [[nodiscard]] Column column(ElementId element) const {
         Column rows;
-        for (const ElementPlace place : disks_.boundary(ElementCode{arrays_.code[element.index()]})) {
+        for (const ElementPlace place : disks_.boundary(ElementCode{arrays_.code[element]})) {
             const auto row = row_of_.find(place);
             if (row != row_of_.end()) rows.push_back(row->second);
         }
@@ -107,10 +107,10 @@ private:
 
     /// Tunnels that are still open when the object merges.
     void add_open() {
-        const bool is_root = !event_.exists() || arrays_.tree.is_root(event_.index());
+        const bool is_root = !event_.exists() || arrays_.tree.is_root(event_);
         ISOATLAS_CHECK(!is_root || pairs_.size() == elements_.opening.size());
         if (is_root) return;
-        const ElementId merge(arrays_.tree.top[arrays_.tree.parent[event_.index()]]);
+        const ElementId merge(arrays_.tree.top[arrays_.tree.parent[event_]]);
         for (std::size_t row = 0; row < elements_.opening.size(); ++row) {
             if (!reduced_.contains(static_cast<std::int64_t>(row))) pairs_.push_back({elements_.opening[row], merge, true});
         }
@@ -165,18 +165,20 @@ EventId event_of_highest(const Analysis& analysis, VoxelId voxel) {
             const ElementCode code{bits};
             return code.kind() == CodeKind::vertex && code.h0() == 0 && code.index() == voxel.number();
         };
-        const auto found = std::ranges::find_if(arrays.code, is_it);
-        if (found == arrays.code.end()) return EventId::none();
+        const BigVector<std::uint64_t>& code = arrays.code.items();
+        const auto found = std::ranges::find_if(code, is_it);
+        if (found == code.end()) return EventId::none();
         std::vector<std::size_t> highest(arrays.tree.size());
-        for (std::size_t e = 0; e < highest.size(); ++e) highest[e] = e;
-        for (std::size_t e = 0; e < highest.size(); ++e) {
-            std::size_t& below = highest[arrays.tree.parent[e]];
-            below = std::min(below, highest[e]);
+        for (const auto e : arrays.tree.parent.ids()) highest[e.index()] = e.index();
+        for (const auto e : arrays.tree.parent.ids()) {
+            std::size_t& below = highest[arrays.tree.parent[e].index()];
+            below = std::min(below, highest[e.index()]);
         }
-        std::size_t event = arrays.tree.event_of_element[found - arrays.code.begin()];
-        const std::size_t top = event;
-        if (arrays.tree.top[top] != static_cast<std::size_t>(found - arrays.code.begin())) return EventId::none();
-        while (!arrays.tree.is_root(event) && highest[arrays.tree.parent[event]] == top) event = arrays.tree.parent[event];
+        const ElementId element(found - code.begin());
+        auto event = arrays.tree.event_of_element[element];
+        const std::size_t top = event.index();
+        if (arrays.tree.top[event].index() != element.index()) return EventId::none();
+        while (!arrays.tree.is_root(event) && highest[arrays.tree.parent[event].index()] == top) event = arrays.tree.parent[event];
         return EventId(event);
     });
 }

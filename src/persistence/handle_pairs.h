@@ -20,17 +20,17 @@ struct HandlePair {
 template <class Id>
 [[nodiscard]] std::vector<Handle> handles_of(const AnalysisArrays<Id>& arrays, const Extent& extent, std::vector<HandlePair> pairs,
                                              double min_persistence) {
-    const auto persistence = [&](const HandlePair& pair) { return arrays.value[pair.opens.index()] - arrays.value[pair.closes.index()]; };
+    const auto persistence = [&](const HandlePair& pair) { return arrays.value[pair.opens] - arrays.value[pair.closes]; };
     std::erase_if(pairs, [&](const HandlePair& pair) { return !(persistence(pair) > 0 && persistence(pair) >= min_persistence); });
     std::ranges::sort(pairs, [&](const HandlePair& p, const HandlePair& q) {
         return persistence(p) != persistence(q) ? persistence(p) > persistence(q) : p.opens < q.opens;
     });
     std::vector<Handle> handles;
     for (const HandlePair& pair : pairs) {
-        const std::size_t opens = pair.opens.index(), closes = pair.closes.index();
+        const auto [opens, closes, is_open] = pair;
         handles.push_back({arrays.value[opens], arrays.value[closes], element_position(ElementCode{arrays.code[opens]}, extent),
                            element_position(ElementCode{arrays.code[closes]}, extent), EventId(arrays.tree.event_of_element[opens]),
-                           pair.is_open});
+                           is_open});
     }
     return handles;
 }

@@ -9,40 +9,42 @@ namespace isoatlas {
 namespace {
 
 /// Walks down the contour tree with the open tunnels of every contour. Elements descend: the largest number was opened last.
-template <class Id>
+template <class Number>
 class HandlePairs {
 public:
-    explicit HandlePairs(const ContourTree<Id>& tree) : tree_(tree), in_(tree.nodes()), out_(tree.nodes()) {
-        for (std::size_t arc = 0; arc < tree.nodes(); ++arc) {
+    using Element = ElementIdOf<Number>;
+
+    explicit HandlePairs(const ContourTree<Number>& tree) : tree_(tree), in_(tree.nodes()), out_(tree.nodes()) {
+        for (const Element arc : tree.other.ids()) {
             if (!tree.has_arc(arc)) continue;
-            in_[tree.lower(arc)].push_back(static_cast<Id>(arc));
-            out_[tree.upper(arc)].push_back(static_cast<Id>(arc));
+            in_[tree.lower(arc)].push_back(arc);
+            out_[tree.upper(arc)].push_back(arc);
         }
     }
 
     [[nodiscard]] std::vector<HandlePair> pairs() && {
-        open_.resize(tree_.nodes());
-        for (std::size_t element = 0; element + 1 < tree_.nodes(); ++element) pass(element);
+        open_.items().resize(tree_.nodes());
+        for (const Element element : IdRange<Element>(tree_.outside().index())) pass(element);
         return std::move(pairs_);
     }
 
 private:
-    using Open = std::priority_queue<Id>;
+    using Open = std::priority_queue<Element>;
 
-    [[nodiscard]] std::int64_t genus(std::size_t arc) const { return 1 - static_cast<std::int64_t>(tree_.half_chi[arc]); }
+    [[nodiscard]] std::int64_t genus(Element arc) const { return 1 - static_cast<std::int64_t>(tree_.half_chi[arc]); }
 
     /// Contours arrive, a tunnel opens or closes, contours leave.
-    void pass(std::size_t element) {
+    void pass(Element element) {
         Open open;
         std::int64_t change = 0;
-        for (const Id arc : in_[element]) {
+        for (const Element arc : in_[element]) {
             change -= genus(arc);
             if (open_[arc].size() > open.size()) std::swap(open, open_[arc]);
             for (; !open_[arc].empty(); open_[arc].pop()) open.push(open_[arc].top());
             open_[arc] = {};
         }
-        for (const Id arc : out_[element]) change += genus(arc);
-        for (; change > 0; --change) open.push(static_cast<Id>(element));
+        for (const Element arc : out_[element]) change += genus(arc);
+        for (; change > 0; --change) open.push(element);
         for (; change < 0; ++change) {
             ISOATLAS_CHECK(!open.empty());
             pairs_.push_back({ElementId(open.top()), ElementId(element)});
@@ -52,9 +54,9 @@ private:
     }
 
     /// Where a contour splits, those with fewest tunnels take the last ones.
-    void leave(std::size_t element, Open& open) {
-        auto& arcs = out_[element];
-        std::ranges::stable_sort(arcs, {}, [this](Id arc) { return genus(arc); });
+    void leave(Element element, Open& open) {
+        std::vector<Element>& arcs = out_[element];
+        std::ranges::stable_sort(arcs, {}, [this](Element arc) { return genus(arc); });
         for (std::size_t i = 0; i + 1 < arcs.size(); ++i) {
             for (std::int64_t k = genus(arcs[i]); k > 0; --k) {
                 open_[arcs[i]].push(open.top());
@@ -64,9 +66,9 @@ private:
         if (!arcs.empty()) std::swap(open_[arcs.back()], open);
     }
 
-    const ContourTree<Id>& tree_;
-    std::vector<std::vector<Id>> in_, out_;  // per node: arcs that end, begin there
-    std::vector<Open> open_;                 // per arc
+    const ContourTree<Number>& tree_;
+    ByElement<Number, std::vector<Element>> in_, out_;  // arcs that end, begin at a node
+    ByElement<Number, Open> open_;                      // per arc
     std::vector<HandlePair> pairs_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/bit_ranks.h"
 #include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "tree/contour_tree.h"
 
 namespace isoatlas {
@@ -12,22 +13,29 @@ namespace {
 /// Which run a node is in. The outside is a run of its own.
 class RunsOfNodes {
 public:
-    template <class Id>
-    RunsOfNodes(std::span<const std::uint8_t> branches, std::span<const Id> join, std::span<const Id> split) : starts_(join.size()) {
+    template <class Number>
+    RunsOfNodes(ByElementView<Number, std::uint8_t> branches, MergeTreeView<Number> join, MergeTreeView<Number> split)
+        : starts_(join.size()) {
+        using Element = ElementIdOf<Number>;
         constexpr std::uint8_t kRegular = branches_of(1, 1);
-        const std::size_t n = branches.size();
-        BudgetPoll memory;
-        for (std::size_t i = 0; i <= n; ++i) {
-            memory.step();
-            const bool goes_on = i > 0 && i < n && branches[i - 1] == kRegular && branches[i] == kRegular &&
-                                 join[i - 1] == static_cast<Id>(i) && split[i] == static_cast<Id>(i - 1);
-            if (!goes_on) starts_.add(i);
+        const Element outside(branches.size());
+        for (const Element i : streamed<Element>(join.size(), in_order(8))) {
+            const bool goes_on = i > Element(0) && i < outside && branches[i.previous()] == kRegular && branches[i] == kRegular &&
+                                 join[i.previous()] == i && split[i] == i.previous();
+            if (!goes_on) starts_.add(i.index());
         }
         count_ = starts_.count();
     }
     [[nodiscard]] std::size_t count() const { return count_; }
-    [[nodiscard]] bool starts(std::size_t node) const { return starts_.has(node); }
-    [[nodiscard]] std::size_t of(std::size_t node) const { return starts_.rank(node + 1) - 1; }
+    template <class Element>
+    [[nodiscard]] bool starts(Element node) const {
+        return starts_.has(node.index());
+    }
+    /// Runs are the elements of a smaller tree.
+    template <class Element>
+    [[nodiscard]] Element of(Element node) const {
+        return Element(starts_.rank(node.index() + 1) - 1);
+    }
 
 private:
     BitRanks starts_;
@@ -36,46 +44,49 @@ private:
 
 }  // namespace
 
-template <class Id>
-BigVector<Id> arcs_by_runs(std::span<const std::uint8_t> branches, BigVector<Id> join, BigVector<Id> split, int threads) {
+template <class Number>
+ByElement<Number, ElementIdOf<Number>> arcs_by_runs(ByElementView<Number, std::uint8_t> branches, MergeTree<Number> join,
+                                                    MergeTree<Number> split, int threads) {
+    using Element = ElementIdOf<Number>;
     const std::size_t nodes = join.size();
-    const RunsOfNodes runs(branches, std::span<const Id>(join), std::span<const Id>(split));
-    BigVector<Id> first, join_of_runs, split_of_runs;
-    for (BigVector<Id>* of_runs : {&first, &join_of_runs, &split_of_runs}) of_runs->reserve(runs.count() + 1);
-    BudgetPoll memory;
-    for (std::size_t i = 0; i < nodes; ++i) {
-        memory.step();
+    const RunsOfNodes runs(branches, MergeTreeView<Number>(join), MergeTreeView<Number>(split));
+    ByElement<Number, Element> first;  // element of every run, and of the end
+    MergeTree<Number> join_of_runs, split_of_runs;
+    for (MergeTree<Number>* of_runs : {&first, &join_of_runs, &split_of_runs}) of_runs->items().reserve(runs.count() + 1);
+    for (const Element i : streamed<Element>(nodes, in_order(8))) {
         if (runs.starts(i)) {
-            first.push_back(static_cast<Id>(i));
-            split_of_runs.push_back(static_cast<Id>(runs.of(split[i])));
+            first.push_back(i);
+            split_of_runs.push_back(runs.of(split[i]));
         }
-        if (i + 1 == nodes || runs.starts(i + 1)) join_of_runs.push_back(static_cast<Id>(runs.of(join[i])));
+        if (i.index() + 1 == nodes || runs.starts(i.next())) join_of_runs.push_back(runs.of(join[i]));
     }
-    first.push_back(static_cast<Id>(nodes));
-    release(join);
-    release(split);
-    const ContourTree<Id> tree = [&] {
+    first.push_back(Element(nodes));
+    release(join.items());
+    release(split.items());
+    const ContourTree<Number> tree = [&] {
         const PinInMemory keep;
-        return contour_tree<Id>(join_of_runs, std::move(split_of_runs), {}, threads);
+        return contour_tree<Number>(join_of_runs, std::move(split_of_runs), {}, threads);
     }();
-    BigVector<Id> other(nodes);
-    for (std::size_t run = 0; run < runs.count(); ++run) {
-        memory.step();
-        const Id begin = first[run], last = first[run + 1] - 1, to = tree.other[run];
-        const bool down = to > static_cast<Id>(run);
-        for (Id i = begin; i <= last; ++i) other[i] = down ? i + 1 : i - 1;
-        if (to == static_cast<Id>(run)) {
+    ByElement<Number, Element> other(nodes);
+    for (const Element run : streamed<Element>(runs.count(), in_order(8))) {
+        const Element begin = first[run], last = first[run.next()].previous(), to = tree.other[run];
+        const bool down = to > run;
+        for (Element i = begin; i <= last; ++i) other[i] = down ? i.next() : i.previous();
+        if (to == run) {
             other[begin] = begin;  // the outside
         } else if (down) {
             other[last] = first[to];
         } else {
-            other[begin] = first[to + 1] - 1;
+            other[begin] = first[to.next()].previous();
         }
     }
     return other;
 }
 
-template BigVector<std::uint32_t> arcs_by_runs(std::span<const std::uint8_t>, BigVector<std::uint32_t>, BigVector<std::uint32_t>, int);
-template BigVector<std::uint64_t> arcs_by_runs(std::span<const std::uint8_t>, BigVector<std::uint64_t>, BigVector<std::uint64_t>, int);
+#define ISOATLAS_RUNS(Number) \
+    template MergeTree<Number> arcs_by_runs(ByElementView<Number, std::uint8_t>, MergeTree<Number>, MergeTree<Number>, int);
+ISOATLAS_RUNS(std::uint32_t)
+ISOATLAS_RUNS(std::uint64_t)
+#undef ISOATLAS_RUNS
 
 }  // namespace isoatlas

@@ -13,7 +13,8 @@ namespace isoatlas {
 /// ContourTree::other of all elements and the outside, in the order of ranks. part_of: per element in the order of ranks, its part. The set
 /// is consumed. Reports progress of "trees". Memory at random: what reduce_part() needs for a part (as many at once as there are threads),
 /// the representatives and the runs of survivors (tree/arcs_by_runs.h). Cost: O(n alpha).
-template <class Id>
-[[nodiscard]] BigVector<Id> contour_arcs(PartitionedSet<Id> set, std::span<const std::uint16_t> part_of, const Context& context);
+template <class Number>
+[[nodiscard]] ByElement<Number, ElementIdOf<Number>> contour_arcs(PartitionedSet<Number> set, std::span<const std::uint16_t> part_of,
+                                                                  const Context& context);
 
 }  // namespace isoatlas

@@ -10,44 +10,52 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <type_traits>
 
-#include "base/big_vector.h"
+#include "critical/ids.h"
 
 namespace isoatlas {
 
-template <class Id>
-struct ContourTree {
-    using Signed = std::make_signed_t<Id>;
-    BigVector<Id> other;             ///< per node x: the other end of its arc, the one towards the outside; the outside has none: itself
-    BigVector<Signed> half_chi;      ///< per node x: of its arc
-    BigVector<std::uint8_t> degree;  ///< per node: how many arcs it has above (low two bits) and below
+/// A join or split tree (merge_tree.h): the parent of every node; a root is its own.
+template <class Number>
+using MergeTree = ByElement<Number, ElementIdOf<Number>>;
+template <class Number>
+using MergeTreeView = ByElementView<Number, ElementIdOf<Number>>;
 
-    [[nodiscard]] int above(std::size_t x) const { return degree[x] & 3; }
-    [[nodiscard]] int below(std::size_t x) const { return degree[x] >> 2; }
+template <class Number>
+struct ContourTree {
+    using Element = ElementIdOf<Number>;
+    using Signed = std::make_signed_t<Number>;
+    ByElement<Number, Element> other;        ///< the other end of the arc of a node, towards the outside; the outside has none: itself
+    ByElement<Number, Signed> half_chi;      ///< of the arc of a node
+    ByElement<Number, std::uint8_t> degree;  ///< how many arcs a node has above (low two bits) and below
+
+    [[nodiscard]] int above(SameKind<Element> auto x) const { return degree[x] & 3; }
+    [[nodiscard]] int below(SameKind<Element> auto x) const { return degree[x] >> 2; }
 
     [[nodiscard]] std::size_t nodes() const { return other.size(); }
-    [[nodiscard]] bool has_arc(std::size_t x) const { return other[x] != static_cast<Id>(x); }
+    [[nodiscard]] Element outside() const { return Element(nodes() - 1); }
+    [[nodiscard]] bool has_arc(Element x) const { return other[x] != x; }
     /// Upper and lower end: ids ascend downwards.
-    [[nodiscard]] Id upper(std::size_t x) const { return other[x] < static_cast<Id>(x) ? other[x] : static_cast<Id>(x); }
-    [[nodiscard]] Id lower(std::size_t x) const { return other[x] < static_cast<Id>(x) ? static_cast<Id>(x) : other[x]; }
+    [[nodiscard]] Element upper(Element x) const { return other[x] < x ? other[x] : x; }
+    [[nodiscard]] Element lower(Element x) const { return other[x] < x ? x : other[x]; }
 };
 
 /// join, split: parents as made by merge_tree.h, n + 1 entries; split is consumed. delta_chi(x) for x < n;
 /// empty: no Euler numbers (2D), half_chi is 0.
 /// A node has as many arcs above as children in the join tree, and as many below as in the split tree.
 /// Cost: O(n) time; 18 bytes a node beyond input and output for 32-bit ids.
-template <class Id>
-ContourTree<Id> contour_tree(std::span<const Id> join, BigVector<Id> split, std::span<const std::int8_t> delta_chi, int threads = 1);
+template <class Number>
+ContourTree<Number> contour_tree(MergeTreeView<Number> join, MergeTree<Number> split, ByElementView<Number, std::int8_t> delta_chi,
+                                 int threads = 1);
 
 /// Fills in degree and half_chi of a tree that has `other` only. Returns false when it is not a tree rooted at the last node, a node has
 /// more arcs than an element can have, or not exactly one arc runs to the outside. Cost: O(n).
-template <class Id>
-[[nodiscard]] bool complete_contour_tree(ContourTree<Id>& tree, std::span<const std::int8_t> delta_chi);
+template <class Number>
+[[nodiscard]] bool complete_contour_tree(ContourTree<Number>& tree, ByElementView<Number, std::int8_t> delta_chi);
 
 /// The join tree of the scalar field is that of its contour tree. Cost: O(n alpha); 12 bytes a node while it runs.
-template <class Id>
-[[nodiscard]] BigVector<Id> join_tree_of(const ContourTree<Id>& tree);
+template <class Number>
+[[nodiscard]] MergeTree<Number> join_tree_of(const ContourTree<Number>& tree);
 
 }  // namespace isoatlas

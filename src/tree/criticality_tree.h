@@ -8,48 +8,48 @@
 // dimensions, 2003).
 #pragma once
 
-#include <span>
-
-#include "base/big_vector.h"
 #include "isoatlas/criticality.h"
 #include "tree/levels.h"
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 struct CriticalityTree {
-    BigVector<Id> event_of_element;  ///< per element: its event; for a dropped one the next event above
-    // per event
-    BigVector<Id> top;     ///< its highest element
-    BigVector<Id> parent;  ///< the event itself for the root
+    using Element = ElementIdOf<Number>;
+    using Event = EventIdOf<Number>;
+    ByElement<Number, Event> event_of_element;  ///< for an element of a dropped event the next one above
+    ByEvent<Number, Element> top;               ///< its highest element
+    ByEvent<Number, Event> parent;              ///< the event itself for the root
 
     [[nodiscard]] std::size_t size() const { return top.size(); }
-    [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e); }
+    [[nodiscard]] Event root() const { return Event(size() - 1); }
+    [[nodiscard]] bool is_root(SameKind<Event> auto e) const { return parent[e].index() == e.index(); }
 };
 
 /// What an event does and what its object is in the zone below it; all per event.
-template <class Id>
+template <class Number>
 struct EventMeasures {
-    using Signed = std::make_signed_t<Id>;
-    BigVector<Id> lows_out;
-    BigVector<Id> contours;  ///< of the object
-    BigVector<Signed> delta_chi;
-    BigVector<Signed> chi;        ///< of the object
-    BigVector<Criticality> kind;  ///< that of its non-trivial levels when they agree, else complex
+    using Signed = std::make_signed_t<Number>;
+    ByEvent<Number, Number> lows_out;
+    ByEvent<Number, Number> contours;  ///< of the object
+    ByEvent<Number, Signed> delta_chi;
+    ByEvent<Number, Signed> chi;        ///< of the object
+    ByEvent<Number, Criticality> kind;  ///< that of its non-trivial levels when they agree, else complex
 };
 
 /// Per element: the lowest element of its group of equal-valued join nodes. join: parents of the join tree, n + 1 entries. Cost: O(n).
-template <class Id>
-BigVector<Id> join_groups(std::span<const Id> join, std::span<const double> value);
+template <class Number>
+ByElement<Number, ElementIdOf<Number>> join_groups(MergeTreeView<Number> join, ByElementView<Number, double> value);
 
 /// group: of join_groups. level, kind: of levels.h. Cost: O(n).
-template <class Id>
-CriticalityTree<Id> criticality_tree(BigVector<Id> group, std::span<const Id> join, std::span<const Id> level,
-                                     std::span<const LevelKind> kind);
+template <class Number>
+CriticalityTree<Number> criticality_tree(ByElement<Number, ElementIdOf<Number>> group, MergeTreeView<Number> join,
+                                         ByElementView<Number, ElementIdOf<Number>> level, ByElementView<Number, LevelKind> kind);
 
-/// delta_chi: per element. Cost: O(n).
-template <class Id>
-EventMeasures<Id> measure_events(const CriticalityTree<Id>& tree, const ContourTree<Id>& contours, std::span<const Id> level,
-                                 std::span<const LevelKind> kind, std::span<const std::int8_t> delta_chi, int threads = 1);
+/// Cost: O(n).
+template <class Number>
+EventMeasures<Number> measure_events(const CriticalityTree<Number>& tree, const ContourTree<Number>& contours,
+                                     ByElementView<Number, ElementIdOf<Number>> level, ByElementView<Number, LevelKind> kind,
+                                     ByElementView<Number, std::int8_t> delta_chi, int threads = 1);
 
 }  // namespace isoatlas

@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/big_vector.h"
+#include "critical/ids.h"
 
 namespace isoatlas {
 
@@ -25,71 +25,82 @@ namespace isoatlas {
 template <class T>
 using ComparisonValue = std::conditional_t<std::is_same_v<T, float> || sizeof(T) <= 2, float, double>;
 
-/// A tree and its elements; spans of the last two are empty where every element is an event.
-template <class Id>
+/// A tree and its elements; the last two are empty where every element is an event.
+template <class Number>
 struct DescendingTree {
-    std::span<const Id> parent;            ///< per event: its parent comes later; of a root: itself, or one behind the last
-    std::span<const double> value;         ///< per element
-    std::span<const Id> top;               ///< per event: its highest element
-    std::span<const Id> event_of_element;  ///< per element
+    using Element = ElementIdOf<Number>;
+    using Event = EventIdOf<Number>;
+    ByEventView<Number, Event> parent;  ///< comes later; of a root: itself, or one behind the last
+    ByElementView<Number, double> value;
+    ByEventView<Number, Element> top;  ///< its highest element
+    ByElementView<Number, Event> event_of_element;
+
+    /// Of a join tree: every element is an event. parent: without that of the outside.
+    [[nodiscard]] static DescendingTree of_elements(ByElementView<Number, Element> parent, ByElementView<Number, double> value) {
+        return {ByEventView<Number, Event>(ids_of<Event>(numbers_of(parent.items()))), value, {}, {}};
+    }
 
     [[nodiscard]] std::size_t size() const { return parent.size(); }
-    [[nodiscard]] bool is_root(std::size_t e) const { return parent[e] == static_cast<Id>(e) || parent[e] == parent.size(); }
-    [[nodiscard]] Id top_of(std::size_t e) const { return top.empty() ? static_cast<Id>(e) : top[e]; }
-    [[nodiscard]] Id event_of(std::size_t element) const {
-        return event_of_element.empty() ? static_cast<Id>(element) : event_of_element[element];
+    [[nodiscard]] bool is_root(Event e) const { return parent[e] == e || parent[e] == Event(size()); }
+    [[nodiscard]] Element top_of(Event e) const { return top.empty() ? Element(e.number()) : top[e]; }
+    [[nodiscard]] Event event_of(Element element) const {
+        return event_of_element.empty() ? Event(element.number()) : event_of_element[element];
     }
 };
 
 /// An event while the paths are laid out.
-template <class Id>
+template <class Number>
 struct HeavyNode {
-    Id heavy;     ///< heaviest child (most events above it; ties: the higher event), the event itself for a leaf
-    Id path;      ///< first the weight: events above it and itself
-    Id position;  ///< in stops_; first the length of its path from here up
+    EventIdOf<Number> heavy;  ///< heaviest child (most events above it; ties: the higher event), the event itself for a leaf
+    Number path;              ///< first the weight: events above it and itself
+    Number position;          ///< in stops_; first the length of its path from here up
 };
 
-template <class Id, class Value>
+template <class Number, class Value>
 class HeavyPathDecomposition {
 public:
+    using Event = EventIdOf<Number>;
+    using Maximum = MaximumIdOf<Number>;
+
     /// maxima: per maximum, in raster order, its element. Cost: O(n) time; 12 bytes an event besides the result while it runs.
-    HeavyPathDecomposition(const DescendingTree<Id>& tree, std::span<const Id> maxima, int threads);
+    HeavyPathDecomposition(const DescendingTree<Number>& tree, IdSpan<Maximum, const ElementIdOf<Number>> maxima, int threads);
 
     /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to maximum[i]: the event e on the way down with
     /// value(parent(e)) < x[i] <= value(e). In rounds over all samples, so that their cache misses overlap.
-    /// maximum (at last: that of the path where the climb stopped) and scratch are overwritten; all spans have one entry a sample.
-    void zones(std::span<const Value> x, std::span<Id> maximum, std::span<std::uint32_t> scratch, std::span<Id> zone) const;
+    /// maximum, zone: numbers of maxima and events, as the memory of basins becomes that of zones. maximum (at last: that of the path where
+    /// the climb stopped) and scratch are overwritten; all spans have one entry a sample.
+    void zones(std::span<const Value> x, std::span<Number> maximum, std::span<std::uint32_t> scratch, std::span<Number> zone) const;
 
 private:
     struct Path {
         Value value_below;  ///< value of the event the path ends at; -infinity for the path of the root
-        Id below;           ///< path of that event
-        Id first, end;      ///< positions of its events in stops_
+        Number below;       ///< path of that event
+        Number first, end;  ///< positions of its events in stops_
     };
     struct Stop {
         Value value;
-        Id event;
+        Event event;
     };
     struct Scale {
         double low, factor;  ///< bucket of x = (x - low) * factor
     };
-    static constexpr Id kBucketed = 16;  ///< shorter paths are searched directly
-    static constexpr int kSteps = 4;     ///< of a search that are taken without branches; stops_ has as many more entries
+    static constexpr Number kBucketed = 16;  ///< shorter paths are searched directly
+    static constexpr int kSteps = 4;         ///< of a search that are taken without branches; stops_ has as many more entries
 
-    [[nodiscard]] BigVector<Path> lay_out(const DescendingTree<Id>& tree, std::span<HeavyNode<Id>> nodes);
+    [[nodiscard]] BigVector<Path> lay_out(const DescendingTree<Number>& tree, IdSpan<Event, HeavyNode<Number>> nodes);
     void prepare_scale(const Path& path);
     void make_buckets(const Path& path);
     [[nodiscard]] static bool is_long(const Path& path) { return path.end - path.first >= kBucketed; }
-    [[nodiscard]] static Id buckets(const Path& path) { return path.end - path.first - 1; }
-    [[nodiscard]] Id bucket_of(const Path& path, Value x) const;
-    [[nodiscard]] Id event_from(Id position, Id path, Value x) const;
-    void zones_by_place(std::span<const Value> x, std::span<Id> path, std::span<std::uint32_t> order, std::span<Id> zone) const;
+    [[nodiscard]] static Number buckets(const Path& path) { return path.end - path.first - 1; }
+    [[nodiscard]] Number bucket_of(const Path& path, Value x) const;
+    [[nodiscard]] Event event_from(Number position, Number path, Value x) const;
+    void zones_by_place(std::span<const Value> x, std::span<Number> path, std::span<std::uint32_t> order, std::span<Number> zone) const;
     /// Behind the position of the lowest event with a value of x or more.
-    [[nodiscard]] Id end_of_bucket(const Path& path, Value x) const;
+    [[nodiscard]] Number end_of_bucket(const Path& path, Value x) const;
 
-    BigVector<Path> paths_;  ///< per maximum; maxima of one event have equal ones
-    BigVector<Stop> stops_;  ///< by position
-    BigVector<Id> bucket_;   ///< of a long path: its place in scales_, then per bucket the first position in it or a later one
+    IdArray<Maximum, Path> paths_;  ///< maxima of one event have equal ones
+    BigVector<Stop> stops_;         ///< by position
+    BigVector<Number> bucket_;      ///< of a long path: its place in scales_, then per bucket the first position in it or a later one
     std::vector<Scale> scales_;
 };
 

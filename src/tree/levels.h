@@ -4,31 +4,28 @@
 // levels does not depend on voxel numbering nor on how ties are broken.
 #pragma once
 
-#include <span>
-
-#include "base/big_vector.h"
 #include "tree/contour_tree.h"
 
 namespace isoatlas {
 
 /// Does the arc of node x span an interval of values? Arcs to the outside do.
-template <class Id>
-[[nodiscard]] bool has_length(const ContourTree<Id>& tree, std::span<const double> value, std::size_t x) {
-    const std::size_t lower = tree.lower(x);
-    return lower == value.size() || value[tree.upper(x)] != value[lower];
+template <class Number>
+[[nodiscard]] bool has_length(const ContourTree<Number>& tree, ByElementView<Number, double> value, ElementIdOf<Number> x) {
+    const ElementIdOf<Number> lower = tree.lower(x);
+    return lower.index() == value.size() || value[tree.upper(x)] != value[lower];
 }
 
 /// Per element: the highest element of its level. value: per element, descending. Cost: O(n alpha).
-template <class Id>
-BigVector<Id> level_roots(const ContourTree<Id>& tree, std::span<const double> value);
+template <class Number>
+ByElement<Number, ElementIdOf<Number>> level_roots(const ContourTree<Number>& tree, ByElementView<Number, double> value);
 
 /// What happens at a level: k contours in, m out, and whether the sum of their genera changes.
 enum class LevelKind : std::uint8_t { maximum, minimum, merge, split, genus, complex, trivial };
 
 /// Per element, meaningful at the roots of levels. level: of level_roots. value, delta_chi: per element; no delta_chi: contours have no
 /// genus (2D). Cost: O(n); 12 bytes an element of the most frequent value while it runs, for 32-bit ids.
-template <class Id>
-BigVector<LevelKind> level_kinds(const ContourTree<Id>& tree, std::span<const Id> level, std::span<const double> value,
-                                 std::span<const std::int8_t> delta_chi);
+template <class Number>
+ByElement<Number, LevelKind> level_kinds(const ContourTree<Number>& tree, ByElementView<Number, ElementIdOf<Number>> level,
+                                         ByElementView<Number, double> value, ByElementView<Number, std::int8_t> delta_chi);
 
 }  // namespace isoatlas

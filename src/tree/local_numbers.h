@@ -8,26 +8,26 @@
 
 namespace isoatlas {
 
-template <class Id>
+template <class Number>
 class LocalNumbers {
 public:
     /// first, end: the part's own range. foreign: the others that it refers to, in any order, also several times.
-    LocalNumbers(Id first, Id end, std::vector<Id> foreign) : first_(first), own_(end - first), foreign_(std::move(foreign)) {
+    LocalNumbers(Number first, Number end, std::vector<Number> foreign) : first_(first), own_(end - first), foreign_(std::move(foreign)) {
         std::sort(foreign_.begin(), foreign_.end());
         foreign_.erase(std::unique(foreign_.begin(), foreign_.end()), foreign_.end());
     }
     [[nodiscard]] std::size_t size() const { return own_ + foreign_.size(); }
-    [[nodiscard]] bool is_own(Id number) const { return number - first_ < own_; }  // wraps around below the range
-    [[nodiscard]] Id own() const { return own_; }
-    [[nodiscard]] Id local(Id number) const {
-        if (is_own(number)) return number - first_;
-        return own_ + static_cast<Id>(std::lower_bound(foreign_.begin(), foreign_.end(), number) - foreign_.begin());
+    [[nodiscard]] bool is_own(Number extremum) const { return extremum - first_ < own_; }  // wraps around below the range
+    [[nodiscard]] Number own() const { return own_; }
+    [[nodiscard]] Number local(Number extremum) const {
+        if (is_own(extremum)) return extremum - first_;
+        return own_ + static_cast<Number>(std::lower_bound(foreign_.begin(), foreign_.end(), extremum) - foreign_.begin());
     }
-    [[nodiscard]] Id global(Id local) const { return local < own_ ? first_ + local : foreign_[local - own_]; }
+    [[nodiscard]] Number global(Number local) const { return local < own_ ? first_ + local : foreign_[local - own_]; }
 
 private:
-    Id first_, own_;
-    std::vector<Id> foreign_;
+    Number first_, own_;
+    std::vector<Number> foreign_;
 };
 
 }  // namespace isoatlas

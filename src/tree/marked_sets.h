@@ -9,16 +9,16 @@
 
 namespace isoatlas {
 
-template <class Id, class Allocator = std::allocator<std::byte>>
+template <class Number, class Allocator = std::allocator<std::byte>>
 class MarkedSets {
 public:
     /// mark(c): of c on its own.
     template <class Mark>
     void start(std::size_t count, const Mark& mark) {
         components_.resize(count);
-        for (std::size_t c = 0; c < count; ++c) components_[c] = {static_cast<Id>(c), 1, mark(static_cast<Id>(c))};
+        for (std::size_t c = 0; c < count; ++c) components_[c] = {static_cast<Number>(c), 1, mark(static_cast<Number>(c))};
     }
-    [[nodiscard]] Id find(Id c) {
+    [[nodiscard]] Number find(Number c) {
         while (components_[c].root != c) {
             components_[c].root = components_[components_[c].root].root;
             c = components_[c].root;
@@ -26,18 +26,18 @@ public:
         return c;
     }
     /// a, b: roots, may be equal. Returns the root of both, which has the mark of one of them.
-    Id join(Id a, Id b) {
+    Number join(Number a, Number b) {
         if (a == b) return a;
         if (components_[a].size < components_[b].size) std::swap(a, b);
         components_[b].root = a;
         components_[a].size += components_[b].size;
         return a;
     }
-    [[nodiscard]] Id& mark(Id root) { return components_[root].mark; }
+    [[nodiscard]] Number& mark(Number root) { return components_[root].mark; }
 
 private:
     struct Component {
-        Id root, size, mark;
+        Number root, size, mark;
     };
     std::vector<Component, typename std::allocator_traits<Allocator>::template rebind_alloc<Component>> components_;
 };

@@ -6,7 +6,7 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
-#include "base/union_find.h"
+#include "base/streamed.h"
 #include "field/order.h"
 
 namespace isoatlas {
@@ -14,18 +14,20 @@ namespace {
 
 /// Merge tree of the extremum graph (Lukasczyk et al. 2023): union-find over maxima (split tree: minima), with the last node that each
 /// component met. Side by side: a find ends where it is needed.
-template <class Id>
+template <class Number, class Extremum>
 class Sweep {
 public:
-    Sweep(std::size_t extrema, BigVector<Id>& parent) : parent_(parent) {
+    using Element = ElementIdOf<Number>;
+
+    Sweep(std::size_t extrema, MergeTree<Number>& parent) : parent_(parent) {
         const PinInMemory keep;
-        components_.resize(extrema);
+        components_.items().resize(extrema);
     }
 
-    void start(Id extremum, Id node) { components_[extremum] = {extremum, node, 1}; }
+    void start(Extremum extremum, Element node) { components_[extremum] = {extremum, node, 1}; }
 
     /// A node with so many branches: a leaf starts the component of its representative.
-    void meet(int branches, const std::array<Id, 2>& names, Id node) {
+    void meet(int branches, const std::array<Extremum, 2>& names, Element node) {
         if (branches == 0) {
             start(names[0], node);
         } else {
@@ -34,7 +36,7 @@ public:
     }
 
     /// The component of a passes node; b joins it when it is another one.
-    void pass(Id a, Id b, Id node) {
+    void pass(Extremum a, Extremum b, Element node) {
         a = find(a);
         parent_[components_[a].last] = node;
         if (b = find(b); b != a) {
@@ -48,10 +50,12 @@ public:
 
 private:
     struct Component {
-        Id root, last, size;
+        Extremum root;
+        Element last;
+        Number size;
     };
 
-    Id find(Id x) {
+    Extremum find(Extremum x) {
         while (components_[x].root != x) {
             components_[x].root = components_[components_[x].root].root;
             x = components_[x].root;
@@ -59,71 +63,70 @@ private:
         return x;
     }
 
-    BigVector<Component> components_;
-    BigVector<Id>& parent_;
+    IdArray<Extremum, Component> components_;
+    MergeTree<Number>& parent_;
 };
 
 /// count(i): branches of element i on the side that is swept first; names(i): representatives of their components.
-template <class Id, class Count, class Names>
-BigVector<Id> sweep_down(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
-    BigVector<Id> parent = filled<Id>(n + 1, static_cast<Id>(n));
-    Sweep<Id> sweep(extrema, parent);
-    BudgetPoll memory;
-    for (std::size_t i = 0; i < n; ++i) {
-        memory.step();
-        sweep.meet(count(i), names(i), static_cast<Id>(i));
-    }
+template <class Number, class Count, class Names>
+MergeTree<Number> sweep_down(std::size_t n, std::size_t maxima, const Count& count, const Names& names) {
+    using Element = ElementIdOf<Number>;
+    MergeTree<Number> parent(filled(n + 1, Element(n)));
+    Sweep<Number, MaximumIdOf<Number>> sweep(maxima, parent);
+    for (const Element i : streamed<Element>(n, in_order(8))) sweep.meet(count(i), names(i), i);
     return parent;
 }
 
-template <class Id, class Count, class Names>
-BigVector<Id> sweep_up(std::size_t n, std::size_t extrema, const Count& count, const Names& names) {
-    BigVector<Id> parent = filled<Id>(n + 1, Id{0});
-    Sweep<Id> sweep(extrema, parent);
-    sweep.start(Id{0}, static_cast<Id>(n));  // the outside
-    BudgetPoll memory;
-    for (std::size_t i = n; i-- > 0;) {
-        memory.step();
-        sweep.meet(count(i), names(i), static_cast<Id>(i));
-    }
+template <class Number, class Count, class Names>
+MergeTree<Number> sweep_up(std::size_t n, std::size_t minima, const Count& count, const Names& names) {
+    using Element = ElementIdOf<Number>;
+    using Minimum = MinimumIdOf<Number>;
+    MergeTree<Number> parent(filled(n + 1, Element(0)));
+    Sweep<Number, Minimum> sweep(minima + 1, parent);
+    sweep.start(Minimum(0), Element(n));  // the outside
+    for (const Element i : streamed_down<Element>(n, in_order(8))) sweep.meet(count(i), names(i), i);
     return parent;
 }
 
 }  // namespace
 
-template <class Id>
-BigVector<Id> join_tree(const CriticalSet<Id>& set) {
-    return sweep_down<Id>(
-        set.size(), static_cast<std::size_t>(set.maxima), [&](std::size_t i) { return ElementCode{set.code[i]}.h0(); },
-        [&](std::size_t i) { return std::array{set.up_a[i], set.up_b[i]}; });
+template <class Number>
+MergeTree<Number> join_tree(const CriticalSet<Number>& set) {
+    using Element = ElementIdOf<Number>;
+    return sweep_down<Number>(
+        set.size(), static_cast<std::size_t>(set.maxima), [&](Element i) { return ElementCode{set.code[i]}.h0(); },
+        [&](Element i) { return std::array{set.up_a[i], set.up_b[i]}; });
 }
 
-template <class Id>
-BigVector<Id> split_tree(const CriticalSet<Id>& set) {
-    return sweep_up<Id>(
-        set.size(), static_cast<std::size_t>(set.minima) + 1, [&](std::size_t i) { return ElementCode{set.code[i]}.l0(); },
-        [&](std::size_t i) { return std::array{set.low_a[i], set.low_b[i]}; });
+template <class Number>
+MergeTree<Number> split_tree(const CriticalSet<Number>& set) {
+    using Element = ElementIdOf<Number>;
+    return sweep_up<Number>(
+        set.size(), static_cast<std::size_t>(set.minima), [&](Element i) { return ElementCode{set.code[i]}.l0(); },
+        [&](Element i) { return std::array{set.low_a[i], set.low_b[i]}; });
 }
 
-template <class Id>
-BigVector<Id> join_tree(const RepresentedSet<Id>& set) {
-    return sweep_down<Id>(
-        set.size(), set.maxima, [&](std::size_t i) { return branches_above(set.branches[i]); },
-        [&](std::size_t i) { return set.representatives[i].above; });
+template <class Number>
+MergeTree<Number> join_tree(const RepresentedSet<Number>& set) {
+    using Element = ElementIdOf<Number>;
+    return sweep_down<Number>(
+        set.size(), set.maxima, [&](Element i) { return branches_above(set.branches[i]); },
+        [&](Element i) { return set.representatives[i].above; });
 }
 
-template <class Id>
-BigVector<Id> split_tree(const RepresentedSet<Id>& set) {
-    return sweep_up<Id>(
-        set.size(), set.minima + 1, [&](std::size_t i) { return branches_below(set.branches[i]); },
-        [&](std::size_t i) { return set.representatives[i].below; });
+template <class Number>
+MergeTree<Number> split_tree(const RepresentedSet<Number>& set) {
+    using Element = ElementIdOf<Number>;
+    return sweep_up<Number>(
+        set.size(), set.minima, [&](Element i) { return branches_below(set.branches[i]); },
+        [&](Element i) { return set.representatives[i].below; });
 }
 
-#define ISOATLAS_MERGE_TREE(Id)                                  \
-    template BigVector<Id> join_tree(const CriticalSet<Id>&);    \
-    template BigVector<Id> split_tree(const CriticalSet<Id>&);   \
-    template BigVector<Id> join_tree(const RepresentedSet<Id>&); \
-    template BigVector<Id> split_tree(const RepresentedSet<Id>&);
+#define ISOATLAS_MERGE_TREE(Number)                                      \
+    template MergeTree<Number> join_tree(const CriticalSet<Number>&);    \
+    template MergeTree<Number> split_tree(const CriticalSet<Number>&);   \
+    template MergeTree<Number> join_tree(const RepresentedSet<Number>&); \
+    template MergeTree<Number> split_tree(const RepresentedSet<Number>&);
 ISOATLAS_MERGE_TREE(std::uint32_t)
 ISOATLAS_MERGE_TREE(std::uint64_t)
 #undef ISOATLAS_MERGE_TREE

@@ -10,21 +10,22 @@
 
 #include "critical/critical_set.h"
 #include "critical/partitioned_set.h"
+#include "tree/contour_tree.h"
 
 namespace isoatlas {
 
 /// parent.size() == size + 1; parent[size] (the outside) is size itself: nothing lies below it. Cost: O(n alpha).
-template <class Id>
-BigVector<Id> join_tree(const CriticalSet<Id>& critical);
+template <class Number>
+MergeTree<Number> join_tree(const CriticalSet<Number>& critical);
 
 /// parent.size() == size + 1; the highest element is its own parent.
-template <class Id>
-BigVector<Id> split_tree(const CriticalSet<Id>& critical);
+template <class Number>
+MergeTree<Number> split_tree(const CriticalSet<Number>& critical);
 
 /// The same of the survivors of a reduction (tree/reduce.h), whose leaves need not be extrema of the field.
-template <class Id>
-BigVector<Id> join_tree(const RepresentedSet<Id>& set);
-template <class Id>
-BigVector<Id> split_tree(const RepresentedSet<Id>& set);
+template <class Number>
+MergeTree<Number> join_tree(const RepresentedSet<Number>& set);
+template <class Number>
+MergeTree<Number> split_tree(const RepresentedSet<Number>& set);
 
 }  // namespace isoatlas

@@ -23,15 +23,15 @@ namespace isoatlas {
 struct OpenExtrema {
     BitRanks maxima, minima;
 };
-template <class Id>
-[[nodiscard]] OpenExtrema open_extrema(const PartitionedSet<Id>& set, int threads);
+template <class Number>
+[[nodiscard]] OpenExtrema open_extrema(const PartitionedSet<Number>& set, int threads);
 
 /// Reduces one part: elements, which belong to the set or are a copy of what does. Branches of what is removed become kRemoved; arc, per
 /// element of the part: the element (by its place in the part) at the other end of its arc towards the outside; arcs of survivors are left
 /// alone. Branches and representatives of survivors become those that are left, each represented by a survivor that is a leaf; a leaf
 /// represents itself. Cost: O(n alpha) time; 25 bytes an element and 24 an extremum while it runs, for 32-bit ids.
-template <class Id>
-void reduce_part(const PartitionedSet<Id>& set, std::size_t part, const OpenExtrema& open, std::span<PartitionedElement<Id>> elements,
-                 std::span<Id> arc);
+template <class Number>
+void reduce_part(const PartitionedSet<Number>& set, std::size_t part, const OpenExtrema& open,
+                 std::span<PartitionedElement<Number>> elements, std::span<ElementIdOf<Number>> arc);
 
 }  // namespace isoatlas

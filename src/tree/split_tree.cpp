@@ -4,52 +4,52 @@
 #include <numeric>
 #include <span>
 
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 #include "base/union_find.h"
 
 namespace isoatlas {
 namespace {
 
 /// The lower ends of the arcs of every upper end.
-template <class Id>
+template <class Number>
 struct LowerEnds {
-    BigVector<Id> first, end;
+    using Element = ElementIdOf<Number>;
+    ByElement<Number, Number> first;  // position in `end`
+    BigVector<Element> end;
 
-    explicit LowerEnds(const ContourTree<Id>& tree) : first(tree.nodes() + 1, Id{0}), end(tree.nodes()) {
-        BudgetPoll memory;
+    explicit LowerEnds(const ContourTree<Number>& tree) : first(BigVector<Number>(tree.nodes() + 1, Number{0})), end(tree.nodes()) {
         const auto for_arcs = [&](auto&& visit) {
-            for (std::size_t x = 0; x < tree.nodes(); ++x) {
-                memory.step(2 * BudgetPoll::kTouch);
+            for (const Element x : streamed<Element>(tree.nodes(), at_random(2))) {
                 if (tree.has_arc(x)) visit(tree.upper(x), tree.lower(x));
             }
         };
-        for_arcs([&](Id upper, Id) { ++first[upper]; });
-        std::exclusive_scan(first.begin(), first.end(), first.begin(), Id{0});
-        for_arcs([&](Id upper, Id lower) { end[first[upper]++] = lower; });  // every list now begins where the one before it ends
+        for_arcs([&](Element upper, Element) { ++first[upper]; });
+        BigVector<Number>& counts = first.items();
+        std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), Number{0});
+        for_arcs([&](Element upper, Element lower) { end[first[upper]++] = lower; });  // every list now begins where the one before ends
     }
-    [[nodiscard]] std::span<const Id> of(std::size_t x) const {
-        const std::size_t begin = x == 0 ? 0 : first[x - 1];
-        return std::span<const Id>(end).subspan(begin, first[x] - begin);
+    [[nodiscard]] std::span<const Element> of(Element x) const {
+        const std::size_t begin = x == Element(0) ? 0 : first[x.previous()];
+        return std::span<const Element>(end).subspan(begin, first[x] - begin);
     }
 };
 
 }  // namespace
 
-template <class Id>
-SplitTree<Id> split_tree_of(const ContourTree<Id>& contours) {
+template <class Number>
+SplitTree<Number> split_tree_of(const ContourTree<Number>& contours) {
+    using Element = ElementIdOf<Number>;
     const std::size_t n = contours.nodes();
-    SplitTree<Id> tree{BigVector<Id>(n), BigVector<Id>(n)};
-    const LowerEnds<Id> lower(contours);
-    UnionFind<Id> sets(n);
-    BudgetPoll memory;
-    for (std::size_t x = n; x-- > 0;) {
-        memory.step(4 * BudgetPoll::kTouch);
-        tree.parent[x] = tree.lowest[x] = static_cast<Id>(x);
-        for (const Id y : lower.of(x)) {
-            const Id top = sets.find(y);  // the highest node of its component
-            tree.parent[top] = static_cast<Id>(x);
+    SplitTree<Number> tree{MergeTree<Number>(n), MergeTree<Number>(n)};
+    const LowerEnds<Number> lower(contours);
+    UnionFind<Element> sets(n);
+    for (const Element x : streamed_down<Element>(n, at_random(4))) {
+        tree.parent[x] = tree.lowest[x] = x;
+        for (const Element y : lower.of(x)) {
+            const Element top = sets.find(y);  // the highest node of its component
+            tree.parent[top] = x;
             tree.lowest[x] = std::max(tree.lowest[x], tree.lowest[top]);
-            sets.join(static_cast<Id>(x), top);
+            sets.join(x, top);
         }
     }
     return tree;

@@ -9,14 +9,14 @@
 namespace isoatlas {
 
 /// Per node of the contour tree (the outside is the last).
-template <class Id>
+template <class Number>
 struct SplitTree {
-    BigVector<Id> parent;  ///< the first element above at which the low component changes; the highest element is its own
-    BigVector<Id> lowest;  ///< lowest node of the low component just above this node
+    MergeTree<Number> parent;                       ///< the first element above at which the low component changes; the highest is its own
+    ByElement<Number, ElementIdOf<Number>> lowest;  ///< lowest node of the low component just above this node
 };
 
 /// Cost: O(n alpha) time, 12 bytes a node while it runs, for 32-bit ids.
-template <class Id>
-[[nodiscard]] SplitTree<Id> split_tree_of(const ContourTree<Id>& contours);
+template <class Number>
+[[nodiscard]] SplitTree<Number> split_tree_of(const ContourTree<Number>& contours);
 
 }  // namespace isoatlas

@@ -40,7 +40,7 @@ std::optional<Volume> checksums_are_right(const Atlas& atlas, const Context& con
 EventOfVoxel events_of_maxima(const Analysis& analysis) {
     std::unordered_map<VoxelId, EventId> events;
     analysis.data().visit([&](const auto& held) {
-        for (std::size_t i = 0; i < held.arrays.code.size(); ++i) {
+        for (const auto i : held.arrays.code.ids()) {
             const ElementCode code{held.arrays.code[i]};
             if (code.kind() == CodeKind::vertex && code.h0() == 0)
                 events.emplace(VoxelId(code.index()), EventId(held.arrays.tree.event_of_element[i]));

@@ -34,6 +34,11 @@ std::array<double, 2> range_of(const Volume& volume, const Box& box) {
     });
 }
 
+template <class Index, class I>
+std::span<const typename I::Number> numbers(const IdArray<Index, I>& ids) {
+    return numbers_of<I>(ids.items());
+}
+
 template <class Numbers>
 void compare(const char* name, const Numbers& stored, const Numbers& expected, Check& check, double tolerance = 0) {
     if (stored.size() != expected.size()) {
@@ -79,12 +84,12 @@ CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& 
             if constexpr (!std::is_same_v<Id, Other>) {
                 check.fail("its ids have a different width");
             } else {
-                compare("elements/value", own.arrays.value, fresh.arrays.value, check, tolerance);
-                compare("elements/code", own.arrays.code, fresh.arrays.code, check);
-                compare("elements/towards_outside", own.arrays.contours.other, fresh.arrays.contours.other, check);
-                compare("events/voxels", own.arrays.voxels, fresh.arrays.voxels, check);
-                compare("genus of contours", own.arrays.contours.half_chi, fresh.arrays.contours.half_chi, check);
-                compare("parents of events", own.arrays.tree.parent, fresh.arrays.tree.parent, check);
+                compare("elements/value", own.arrays.value.items(), fresh.arrays.value.items(), check, tolerance);
+                compare("elements/code", own.arrays.code.items(), fresh.arrays.code.items(), check);
+                compare("elements/towards_outside", numbers(own.arrays.contours.other), numbers(fresh.arrays.contours.other), check);
+                compare("events/voxels", own.arrays.voxels.items(), fresh.arrays.voxels.items(), check);
+                compare("genus of contours", own.arrays.contours.half_chi.items(), fresh.arrays.contours.half_chi.items(), check);
+                compare("parents of events", numbers(own.arrays.tree.parent), numbers(fresh.arrays.tree.parent), check);
             }
         });
     });

@@ -42,7 +42,7 @@ void check_arrays(const Analysis& analysis, Check& check, const Predicate& predi
 template <class Id>
 Verdict is_contour_tree_with_levels(const AnalysisArrays<Id>& arrays) {
     if (Verdict verdict = is_contour_tree(arrays.contours); !verdict) return verdict;
-    const BigVector<Id> join = join_tree_of(arrays.contours);
+    const MergeTree<Id> join = join_tree_of(arrays.contours);
     const SplitTree<Id> split = split_tree_of(arrays.contours);
     if (Verdict verdict = every_arc_has_one_contour<Id>(arrays.contours, join, split.parent); !verdict) return verdict;
     return every_level_has_one_value<Id>(arrays.contours, arrays.level, arrays.value);
@@ -110,7 +110,9 @@ CheckResult euler_sums_hold(const Analysis& analysis) {
     Check check("euler_sums_hold");
     const bool flat = analysis.extent().rank == 2;
     if (!flat) {
-        check_arrays(analysis, check, [](const auto& arrays) { return euler_numbers_add_up(arrays.contours, delta_chis(arrays.code, 3)); });
+        check_arrays(analysis, check, []<class Id>(const AnalysisArrays<Id>& arrays) {
+            return euler_numbers_add_up<Id>(arrays.contours, delta_chis(arrays.code, 3));
+        });
     }
     analysis.visit_object_contours([&](EventId id, std::span<const GenusCount> genera) {
         const Event event = analysis.event(id);

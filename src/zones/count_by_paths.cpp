@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
 #include "base/sample_types.h"
@@ -14,33 +16,40 @@ bool paths_fit(std::size_t elements) {
     return static_cast<std::int64_t>(elements) <= memory_at_random() / kBytes;
 }
 
-template <class T, class Id>
-BigVector<Id> voxels_by_paths(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
-                              const ContourTree<Id>& contours, std::span<const Id> basin, const Context& context) {
-    using Paths = HeavyPathDecomposition<Id, ComparisonValue<T>>;
+template <class T, class Number>
+ByElement<Number, Number> voxels_by_paths(const GridView<T>& grid, ByElementView<Number, double> value,
+                                          ByElementView<Number, std::uint64_t> code, const ContourTree<Number>& contours,
+                                          ByVoxelView<Number, Number> basin, const Context& context) {
+    using Paths = HeavyPathDecomposition<Number, ComparisonValue<T>>;
+    using Tree = DescendingTree<Number>;
     const std::size_t n = value.size();
     const PinInMemory keep;
-    BigVector<Id> join = join_tree_of(contours), maxima = elements_of_maxima<Id>(code, grid.extent);
-    const Paths paths({std::span<const Id>(join).first(n), value, {}, {}}, maxima, context.threads);
-    release(join);
-    release(maxima);
-    BigVector<Id> voxels = filled<Id>(n, Id{0});
+    MergeTree<Number> join = join_tree_of(contours);
+    ElementsOfMaxima<Number> maxima = elements_of_maxima<Number>(code, grid.extent);
+    const MergeTreeView<Number> of_elements(std::span(std::as_const(join).items()).first(n));
+    const Paths paths(Tree::of_elements(of_elements, value), maxima, context.threads);
+    release(join.items());
+    release(maxima.items());
+    ByElement<Number, Number> voxels(filled(n, Number{0}));
     const std::int64_t slice = grid.extent.slice();
     for_each_slab_of(slab_height(grid.extent, context), context, kAnalysisPhases["zones"], grid.extent.size[2], [&](const Slab& slab) {
         const std::size_t first = slab.z_begin * slice, count = (slab.z_end - slab.z_begin) * slice;
-        count_zones<T, Id>({grid.samples + first, count}, paths, basin.subspan(first, count), voxels);
+        count_zones<T, Number>({grid.samples + first, count}, paths, basin.items().subspan(first, count), voxels.items());
     });
     return voxels;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
-#define ISOATLAS_BY_PATHS(T)                                                                                                              \
-    template BigVector<std::uint32_t> voxels_by_paths(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>,        \
-                                                      const ContourTree<std::uint32_t>&, std::span<const std::uint32_t>, const Context&); \
-    template BigVector<std::uint64_t> voxels_by_paths(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>,        \
-                                                      const ContourTree<std::uint64_t>&, std::span<const std::uint64_t>, const Context&);
+// NOLINTBEGIN(bugprone-macro-parentheses): T, Number are types
+#define ISOATLAS_BY_PATHS_OF(T, Number)                                                                                  \
+    template ByElement<Number, Number> voxels_by_paths(const GridView<T>&, ByElementView<Number, double>,                \
+                                                       ByElementView<Number, std::uint64_t>, const ContourTree<Number>&, \
+                                                       ByVoxelView<Number, Number>, const Context&);
+#define ISOATLAS_BY_PATHS(T)               \
+    ISOATLAS_BY_PATHS_OF(T, std::uint32_t) \
+    ISOATLAS_BY_PATHS_OF(T, std::uint64_t)
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_BY_PATHS)
 #undef ISOATLAS_BY_PATHS
+#undef ISOATLAS_BY_PATHS_OF
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas

@@ -99,8 +99,10 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
 }  // namespace
 
 template <class T, class Id>
-BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
-                              const Context& context) {
+ByElement<Id, Id> voxels_by_tiles(const GridView<T>& grid, ByElementView<Id, double> values, ByElementView<Id, std::uint64_t> codes,
+                                  const Context& context) {
+    const std::span<const double> value = values.items();
+    const std::span<const std::uint64_t> code = codes.items();
     const Tiling tiling = tiling_for(grid.extent, context);
     TiledBasins<Id> basins = tiled_basins<T, Id>(grid, tiling, context);
     const std::size_t representatives = basins.open.count();
@@ -113,15 +115,15 @@ BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> v
     release(basins.maximum);
     release(elements.key);
     const PinInMemory keep;
-    return merge(value, elements, representatives, open, context.threads);
+    return ByElement<Id, Id>(merge(value, elements, representatives, open, context.threads));
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
 #define ISOATLAS_BY_TILES(T)                                                                                                       \
-    template BigVector<std::uint32_t> voxels_by_tiles(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
-                                                      const Context&);                                                             \
-    template BigVector<std::uint64_t> voxels_by_tiles(const GridView<T>&, std::span<const double>, std::span<const std::uint64_t>, \
-                                                      const Context&);
+    template ByElement<std::uint32_t, std::uint32_t> voxels_by_tiles(const GridView<T>&, ByElementView<std::uint32_t, double>,     \
+                                                                     ByElementView<std::uint32_t, std::uint64_t>, const Context&); \
+    template ByElement<std::uint64_t, std::uint64_t> voxels_by_tiles(const GridView<T>&, ByElementView<std::uint64_t, double>,     \
+                                                                     ByElementView<std::uint64_t, std::uint64_t>, const Context&);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_BY_TILES)
 #undef ISOATLAS_BY_TILES
 // NOLINTEND(bugprone-macro-parentheses)

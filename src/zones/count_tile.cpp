@@ -110,7 +110,8 @@ void count_tile(const GridView<T>& grid, const Tiling& tiling, std::int64_t tile
         if (maximum < begin || maximum >= end) foreign.push_back(maximum);
     };
     for (std::size_t e = 0; e < above.size(); ++e) {
-        above[e] = leads.above(elements[e].code);
+        const auto [first, second] = leads.above(elements[e].code);
+        above[e] = {first.number(), second.number()};
         for (const Id maximum : above[e]) note(maximum);
     }
     for (const TileVoxel<T, Id>& voxel : voxels) note(voxel.maximum);

@@ -5,9 +5,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
-#include "base/big_vector.h"
 #include "field/grid.h"
 #include "isoatlas/context.h"
 #include "tree/contour_tree.h"
@@ -17,16 +15,17 @@ namespace isoatlas {
 /// Does the memory limit leave room for the paths of so many elements, which are accessed at random?
 [[nodiscard]] bool paths_fit(std::size_t elements);
 
-/// With the tree. value, code: of all elements, by rank; contours: their arcs; basin: of critical/elements_with_extrema.h.
+/// With the tree. value, code: of all elements; contours: their arcs; basin: of critical/elements_with_extrema.h.
 /// Cost: O(n alpha + voxels), about 30 bytes an element.
-template <class T, class Id>
-[[nodiscard]] BigVector<Id> voxels_by_paths(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
-                                            const ContourTree<Id>& contours, std::span<const Id> basin, const Context& context);
+template <class T, class Number>
+[[nodiscard]] ByElement<Number, Number> voxels_by_paths(const GridView<T>& grid, ByElementView<Number, double> value,
+                                                        ByElementView<Number, std::uint64_t> code, const ContourTree<Number>& contours,
+                                                        ByVoxelView<Number, Number> basin, const Context& context);
 
 /// The same without a tree: works on one tile a thread at a time, and on what spans tiles in descending order.
 /// Cost: O(n alpha + voxels log(voxels of a tile)).
-template <class T, class Id>
-[[nodiscard]] BigVector<Id> voxels_by_tiles(const GridView<T>& grid, std::span<const double> value, std::span<const std::uint64_t> code,
-                                            const Context& context);
+template <class T, class Number>
+[[nodiscard]] ByElement<Number, Number> voxels_by_tiles(const GridView<T>& grid, ByElementView<Number, double> value,
+                                                        ByElementView<Number, std::uint64_t> code, const Context& context);
 
 }  // namespace isoatlas

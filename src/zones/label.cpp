@@ -6,6 +6,7 @@
 
 #include "base/memory_limit.h"
 #include "base/sample_types.h"
+#include "base/streamed.h"
 #include "critical/basins.h"
 
 namespace isoatlas {
@@ -17,14 +18,14 @@ constexpr std::size_t kLimitedBlock = std::size_t{1} << 15;  // where memory is 
 std::size_t block_size() { return memory_is_limited() ? kLimitedBlock : kBlock; }
 
 /// Voxels per event. Few events are counted per thread and added once: threads would contend for their cache lines.
-template <class Id>
+template <class Number>
 class Tally {
 public:
-    explicit Tally(std::span<Id> counts) : shared_(counts), own_(counts.size() <= kFew ? counts.size() : 0, Id{0}) {}
+    explicit Tally(std::span<Number> counts) : shared_(counts), own_(counts.size() <= kFew ? counts.size() : 0, Number{0}) {}
 
-    void add(std::span<const Id> zones) {
+    void add(std::span<const Number> zones) {
         if (!own_.empty()) {
-            for (const Id zone : zones) ++own_[zone];
+            for (const Number zone : zones) ++own_[zone];
             return;
         }
         if (memory_is_limited()) {  // page after page
@@ -32,12 +33,10 @@ public:
             std::ranges::sort(sorted_);
             zones = sorted_;
         }
-        for (std::size_t first = 0, i = 1; first < zones.size(); first = i++) {  // runs of one zone
-            memory_.step(BudgetPoll::kTouch);
-            while (i < zones.size() && zones[i] == zones[first]) ++i;
-            if (i + kAhead < zones.size()) __builtin_prefetch(shared_.data() + zones[i + kAhead], 1);
-            add(zones[first], static_cast<Id>(i - first));
-        }
+        for_runs(zones, at_random(), [&](std::size_t first, std::size_t end) {
+            if (end + kAhead < zones.size()) __builtin_prefetch(shared_.data() + zones[end + kAhead], 1);
+            add(zones[first], static_cast<Number>(end - first));
+        });
     }
     void finish() {
         for (std::size_t zone = 0; zone < own_.size(); ++zone) {
@@ -48,31 +47,29 @@ public:
 private:
     static constexpr std::size_t kFew = 1 << 16, kAhead = 16;
 
-    void add(std::size_t zone, Id count) { std::atomic_ref<Id>(shared_[zone]).fetch_add(count, std::memory_order_relaxed); }
+    void add(std::size_t zone, Number count) { std::atomic_ref<Number>(shared_[zone]).fetch_add(count, std::memory_order_relaxed); }
 
-    std::span<Id> shared_;
-    std::vector<Id> own_, sorted_;
-    BudgetPoll memory_;
+    std::span<Number> shared_;
+    std::vector<Number> own_, sorted_;
 };
 
 /// Calls visit(first, zones) for block after block. room(first, count): where the zones of a block go.
-template <class T, class Id, class Room, class Visit>
-void for_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
+template <class T, class Number, class Room, class Visit>
+void for_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths, std::span<const Number> basin,
                const Room& room, const Visit& visit) {
     using Value = ComparisonValue<T>;
     const std::size_t together = block_size();
     std::vector<Value> value(together);
-    std::vector<Id> maximum(together);
+    std::vector<Number> maximum(together);
     std::vector<std::uint32_t> scratch(together);
-    BudgetPoll memory;
-    for (std::size_t first = 0; first < samples.size(); first += together) {
-        const std::size_t count = std::min(together, samples.size() - first);
-        memory.step(count * (sizeof(T) + 2 * sizeof(Id)));
+    const std::size_t blocks = (samples.size() + together - 1) / together;
+    for (const std::size_t block : streamed(blocks, {together * (sizeof(T) + 2 * sizeof(Number))})) {
+        const std::size_t first = block * together, count = std::min(together, samples.size() - first);
         for (std::size_t i = 0; i < count; ++i) {
             value[i] = static_cast<Value>(samples[first + i]);
-            maximum[i] = Basins<Id>::number(basin[first + i]);
+            maximum[i] = Basins<Number>::number(basin[first + i]);
         }
-        const std::span<Id> zones = room(first, count);
+        const std::span<Number> zones = room(first, count);
         paths.zones({value.data(), count}, {maximum.data(), count}, scratch, zones);
         visit(zones);
     }
@@ -80,24 +77,24 @@ void for_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, Comp
 
 }  // namespace
 
-template <class T, class Id>
-void label_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<Id> basin_to_zone,
-                 std::span<Id> counts) {
-    Tally<Id> tally(counts);
-    for_zones<T, Id>(
+template <class T, class Number>
+void label_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths,
+                 std::span<Number> basin_to_zone, std::span<Number> counts) {
+    Tally<Number> tally(counts);
+    for_zones<T, Number>(
         samples, paths, basin_to_zone, [&](std::size_t first, std::size_t count) { return basin_to_zone.subspan(first, count); },
-        [&](std::span<const Id> zones) { tally.add(zones); });
+        [&](std::span<const Number> zones) { tally.add(zones); });
     tally.finish();
 }
 
-template <class T, class Id>
-void count_zones(std::span<const T> samples, const HeavyPathDecomposition<Id, ComparisonValue<T>>& paths, std::span<const Id> basin,
-                 std::span<Id> counts) {
-    Tally<Id> tally(counts);
-    std::vector<Id> block(block_size());
-    for_zones<T, Id>(
+template <class T, class Number>
+void count_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths, std::span<const Number> basin,
+                 std::span<Number> counts) {
+    Tally<Number> tally(counts);
+    std::vector<Number> block(block_size());
+    for_zones<T, Number>(
         samples, paths, basin, [&](std::size_t, std::size_t count) { return std::span(block).first(count); },
-        [&](std::span<const Id> zones) { tally.add(zones); });
+        [&](std::span<const Number> zones) { tally.add(zones); });
     tally.finish();
 }
 

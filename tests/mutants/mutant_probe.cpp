@@ -153,14 +153,18 @@ void check_requests() {
 
 /// The predicates that verify relies on find damaged trees.
 void check_predicates() {
-    using Ids = isoatlas::BigVector<std::uint32_t>;
+    using Element = isoatlas::ElementIdOf<std::uint32_t>;
+    using Event = isoatlas::EventIdOf<std::uint32_t>;
     isoatlas::ContourTree<std::uint32_t> contours;  // 0 - 1 - outside, and a cycle of 2 and 3
-    contours.other = Ids{1, 4, 3, 2, 4};
-    contours.degree = isoatlas::BigVector<std::uint8_t>{0 | 1 << 2, 1 | 1 << 2, 0 | 2 << 2, 2 | 0 << 2, 1 | 0 << 2};
+    for (const int other : {1, 4, 3, 2, 4}) contours.other.push_back(Element(other));
+    for (const int degree : {0 | 1 << 2, 1 | 1 << 2, 0 | 2 << 2, 2 | 0 << 2, 1 | 0 << 2})
+        contours.degree.push_back(static_cast<std::uint8_t>(degree));
     isoatlas::CriticalityTree<std::uint32_t> events;  // event 0 is not above its parent
-    events.event_of_element = events.top = Ids{0, 1};
-    events.parent = Ids{1, 1};
-    const std::vector<double> values{5, 5};
+    isoatlas::ByElement<std::uint32_t, double> values;
+    for (const int i : {0, 1}) {
+        events.event_of_element.push_back(Event(i)), events.top.push_back(Element(i)), events.parent.push_back(Event(1));
+        values.push_back(5);
+    }
     if (!isoatlas::is_contour_tree(contours) && !isoatlas::every_event_has_its_zone<std::uint32_t>(events, values)) return;
     std::puts("a damaged tree passes for a tree");
     std::exit(1);

@@ -81,7 +81,7 @@ bool are_filled_as_brute_force_says(const Grid& grid, isoatlas::Interpolant inte
                 const Snapshot at = snapshot(elements, elements.cut_at(tau));
                 const Nesting nesting(at);
                 const Index object =
-                    at.object_of[isoatlas::ElementCode{held.arrays.code[held.arrays.tree.top[branches.highest[event].index()]]}.index()];
+                    at.object_of[isoatlas::ElementCode{held.arrays.code[held.arrays.tree.top[branches.highest[event]]]}.index()];
                 Index count = 0;
                 for (Index v = 0; v < grid.voxels(); ++v) {
                     if (is_in_cavity(at, nesting, v, object)) was_in_cavity[v] = true;

@@ -16,7 +16,7 @@ namespace {
 
 /// A path of vertices with different values, in a space that is Low: objects are runs of vertices, and merge at the minima between them.
 struct PathDomain {
-    using Id = std::uint32_t;
+    using Number = std::uint32_t;
     using Sample = double;
     std::vector<double> value;
 
@@ -29,13 +29,15 @@ struct PathDomain {
         while (objects_above(v) > 0) v += is_above(v, 1) ? 1 : -1;
         return v;
     }
-    [[nodiscard]] Id number_of(std::size_t maximum) const {
-        Id number = 0;
+    [[nodiscard]] Number number_of(std::size_t maximum) const {
+        Number number = 0;
         for (std::size_t v = 0; v < maximum; ++v) number += objects_above(v) == 0 ? 1 : 0;
         return number;
     }
-    [[nodiscard]] Criticals<Id> critical(bool /*keep_basins*/, const Context& /*context*/) const {
-        Criticals<Id> result;
+    [[nodiscard]] Criticals<Number> critical(bool /*keep_basins*/, const Context& /*context*/) const {
+        using Maximum = MaximumIdOf<Number>;
+        const MinimumIdOf<Number> outside(0);
+        Criticals<Number> result;
         std::vector<std::size_t> order(value.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::ranges::sort(order, std::greater<>(), [this](std::size_t v) { return value[v]; });
@@ -45,21 +47,22 @@ struct PathDomain {
             if (above == 1) continue;
             result.set.value.push_back(value[v]);
             result.set.code.push_back(ElementCode::vertex(static_cast<std::int64_t>(v), above, 1, 0).bits);
-            result.set.up_a.push_back(number_of(maximum_of(above == 2 ? v - 1 : v)));
-            result.set.up_b.push_back(number_of(maximum_of(above == 2 ? v + 1 : v)));
-            result.set.low_a.push_back(0), result.set.low_b.push_back(0);
+            result.set.up_a.push_back(Maximum(number_of(maximum_of(above == 2 ? v - 1 : v))));
+            result.set.up_b.push_back(Maximum(number_of(maximum_of(above == 2 ? v + 1 : v))));
+            result.set.low_a.push_back(outside), result.set.low_b.push_back(outside);
         }
         for (std::size_t v = 0; v < value.size(); ++v) result.basin.push_back(number_of(maximum_of(v)));
         return result;
     }
     [[nodiscard]] std::span<const double> samples() const { return value; }
-    [[nodiscard]] BigVector<Id> elements_of_maxima(std::span<const std::uint64_t> code) const {
-        BigVector<Id> elements(value.size());
-        Id maxima = 0;
-        for (Id i = 0; i < code.size(); ++i) {
-            if (ElementCode{code[i]}.h0() == 0) elements[number_of(ElementCode{code[i]}.index())] = i, ++maxima;
+    [[nodiscard]] ElementsOfMaxima<Number> elements_of_maxima(ByElementView<Number, std::uint64_t> code) const {
+        ElementsOfMaxima<Number> elements(value.size());
+        std::size_t maxima = 0;
+        for (const ElementIdOf<Number> i : code.ids()) {
+            const ElementCode element{code[i]};
+            if (element.h0() == 0) elements[MaximumIdOf<Number>(number_of(element.index()))] = i, ++maxima;
         }
-        elements.resize(maxima);
+        elements.items().resize(maxima);
         return elements;
     }
     void for_parts(const Context&, const Phase&, const std::function<void(std::size_t, std::size_t)>& work) const { work(0, value.size()); }
@@ -86,12 +89,12 @@ RC_GTEST_PROP(ADomain, ThatIsAPathHasTheZonesOfItsRuns, ()) {
     analyse_domain(path, true, arrays, {});
     RC_ASSERT(arrays.zone.size() == path.value.size());
     for (std::size_t v = 0; v < path.value.size(); ++v) {
-        const std::uint32_t top = arrays.tree.top[arrays.zone[v]];
+        const auto top = arrays.tree.top[arrays.zone_of(VoxelId(v))];
         RC_ASSERT(static_cast<std::size_t>(ElementCode{arrays.code[top]}.index()) == event_vertex(path, v));
     }
     std::vector<std::uint32_t> counted(arrays.tree.size(), 0);
-    for (const std::uint32_t zone : arrays.zone) ++counted[zone];
-    RC_ASSERT(std::ranges::equal(counted, arrays.voxels));
+    for (const std::uint32_t zone : arrays.zone.items()) ++counted[zone];
+    RC_ASSERT(std::ranges::equal(counted, arrays.voxels.items()));
 }
 
 }  // namespace

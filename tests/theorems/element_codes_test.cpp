@@ -20,11 +20,11 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
     const isoatlas::Volume volume = to_volume(grid, type);
     const isoatlas::Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant, .tunnel_height = tunnel_height});
     const auto& arrays = std::get<0>(analysis.data().arrays)->arrays;
-    const std::span<const std::uint64_t> codes(arrays.code);
+    const std::span<const std::uint64_t> codes(arrays.code.items());
     std::vector<double> values(codes.size());
     isoatlas::find_element_values(codes, volume, isoatlas::tunnel_height_of(interpolant, tunnel_height), 1, values);
     for (std::size_t i = 0; i < codes.size(); ++i) {
-        RC_ASSERT(std::bit_cast<std::uint64_t>(values[i]) == std::bit_cast<std::uint64_t>(arrays.value[i]));
+        RC_ASSERT(std::bit_cast<std::uint64_t>(values[i]) == std::bit_cast<std::uint64_t>(arrays.value.items()[i]));
         const isoatlas::ElementForm form = isoatlas::form_of(isoatlas::ElementCode{codes[i]});
         RC_ASSERT(form.place >= 0 && form.place < volume.info.extent.voxels());
         RC_ASSERT(isoatlas::code_of(form).bits == codes[i]);

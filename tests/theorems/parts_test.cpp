@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/paced_fill.h"
 #include "critical/bodies.h"
 #include "critical/grid_domain.h"
 #include "oracle/volumes.h"
@@ -25,25 +26,27 @@ CriticalSet<Id> critical_set(const Grid& grid, isoatlas::Interpolant interpolant
     return isoatlas::GridDomain<double, Id>(view, isoatlas::scan_grid(view, tunnel_height, {})).critical(false, {}).set;
 }
 
-std::vector<Id> expected_arcs(const CriticalSet<Id>& set) {
-    const isoatlas::BigVector<Id> join = isoatlas::join_tree(set);
-    const auto tree = isoatlas::contour_tree<Id>(join, isoatlas::split_tree(set), {});
-    return {tree.other.begin(), tree.other.end()};
+isoatlas::MergeTree<Id> expected_arcs(const CriticalSet<Id>& set) {
+    return isoatlas::contour_tree<Id>(isoatlas::join_tree(set), isoatlas::split_tree(set), {}).other;
 }
 
-/// New numbers for extrema, so that those of a part follow each other. is_one(i): is element i an extremum of the kind; name[i]: its old
-/// number.
+/// New numbers for extrema, so that those of a part follow each other. is_one(code): is it an extremum of the kind; name: by element, the
+/// old number.
+template <class Extremum>
 struct Renumbered {
-    std::vector<Id> number, first;
+    isoatlas::IdArray<Extremum, Extremum> number;
+    std::vector<Extremum> first;
     template <class IsOne>
     Renumbered(const CriticalSet<Id>& set, const std::vector<std::uint16_t>& part_of, int parts, Id min, const IsOne& is_one,
-               const isoatlas::BigVector<Id>& name)
-        : number(set.size() + 1, 0) {
-        Id next = min;
+               const isoatlas::ByElement<Id, Extremum>& name)
+        : number(isoatlas::filled(set.size() + 1, Extremum(0))) {
+        Extremum next(min);
         for (int part = 0; part < parts; ++part) {
             first.push_back(next);
-            for (std::size_t i = 0; i < set.size(); ++i) {
-                if (part_of[i] == part && is_one(ElementCode{set.code[i]})) number[name[i]] = next++;
+            for (const auto i : set.code.ids()) {
+                if (part_of[i.index()] != part || !is_one(ElementCode{set.code[i]})) continue;
+                number[name[i]] = next;
+                ++next;
             }
         }
         first.push_back(next);
@@ -57,8 +60,8 @@ isoatlas::PartitionedSet<Id> cut(const CriticalSet<Id>& set, const std::vector<s
     result.first_maximum = maxima.first, result.first_minimum = minima.first;
     result.first.push_back(0);
     for (int part = 0; part < parts; ++part) {
-        for (std::size_t i = 0; i < set.size(); ++i) {
-            if (part_of[i] != part) continue;
+        for (const auto i : set.code.ids()) {
+            if (part_of[i.index()] != part) continue;
             const ElementCode code{set.code[i]};
             result.elements.push_back(
                 {{{maxima.number[set.up_a[i]], maxima.number[set.up_b[i]]}, {minima.number[set.low_a[i]], minima.number[set.low_b[i]]}},
@@ -71,7 +74,7 @@ isoatlas::PartitionedSet<Id> cut(const CriticalSet<Id>& set, const std::vector<s
 
 void expect_same_arcs(const CriticalSet<Id>& set, const std::vector<std::uint16_t>& part_of, int parts) {
     const auto actual = isoatlas::contour_arcs<Id>(cut(set, part_of, parts), part_of, {});
-    RC_ASSERT(std::vector<Id>(actual.begin(), actual.end()) == expected_arcs(set));
+    RC_ASSERT(actual == expected_arcs(set));
 }
 
 void trees_of_parts_cut_into_slabs_are_those_of_the_whole() {
@@ -79,7 +82,7 @@ void trees_of_parts_cut_into_slabs_are_those_of_the_whole() {
     const CriticalSet<Id> set = critical_set(grid, *arbitrary_interpolant());
     for (const Index height : {1, 2, 3, 7}) {
         std::vector<std::uint16_t> part_of;
-        for (const std::uint64_t bits : set.code) {
+        for (const std::uint64_t bits : set.code.items()) {
             const ElementCode code{bits};
             const Index owner = code.is_body() ? code.cell() : code.kind() == isoatlas::CodeKind::face ? code.index() / 3 : code.index();
             part_of.push_back(static_cast<std::uint16_t>(owner / (grid.size[0] * grid.size[1]) / height));

@@ -39,14 +39,16 @@ std::vector<Id> climbed(const Grid& grid, isoatlas::Interpolant interpolant) {
     const double tunnel_height = isoatlas::tunnel_height_of(interpolant, 0);
     const auto [set, basin] = isoatlas::GridDomain<double, Id>(view, isoatlas::scan_grid(view, tunnel_height, {})).critical(true, {});
     const auto parent = isoatlas::join_tree(set);
-    std::vector<Id> element_of_maximum(static_cast<std::size_t>(set.maxima)), voxels(set.size(), 0);
-    for (Id i = 0; i < set.size(); ++i) {
+    isoatlas::ElementsOfMaxima<Id> element_of_maximum(static_cast<std::size_t>(set.maxima));
+    std::vector<Id> voxels(set.size(), 0);
+    for (const auto i : set.code.ids()) {
         if (isoatlas::ElementCode{set.code[i]}.h0() == 0) element_of_maximum[set.up_a[i]] = i;
     }
     for (Index v = 0; v < grid.voxels(); ++v) {
-        Id at = element_of_maximum[isoatlas::Basins<Id>::number(basin[v])];
-        while (parent[at] < set.size() && set.value[parent[at]] >= grid.value[v]) at = parent[at];
-        ++voxels[at];
+        const isoatlas::MaximumIdOf<Id> maximum(isoatlas::Basins<Id>::number(basin[isoatlas::VoxelId(v)]));
+        auto at = element_of_maximum[maximum];
+        while (parent[at].index() < set.size() && set.value[parent[at]] >= grid.value[v]) at = parent[at];
+        ++voxels[at.index()];
     }
     return voxels;
 }
@@ -56,13 +58,8 @@ std::vector<Id> counted_by_tiles(const isoatlas::Volume& volume, const isoatlas:
     return isoatlas::visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const isoatlas::GridView<T> grid{samples.data(), volume.info.extent};
         const auto voxels = isoatlas::voxels_by_tiles<T, Id>(grid, arrays.value, arrays.code, context);
-        return std::vector<Id>(voxels.begin(), voxels.end());
+        return std::vector<Id>(voxels.items().begin(), voxels.items().end());
     });
-}
-
-template <class A, class B>
-bool same(const A& a, const B& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueType type, const std::vector<Index>& tiles) {
@@ -79,17 +76,17 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
             isoatlas::ContourArcs arcs = isoatlas::compute_arcs(volume, options, context);
             const auto counted = std::get<0>(isoatlas::count_voxels(arcs, volume, context));
             const auto& found = std::get<0>(arcs.arrays);
-            RC_ASSERT(same(found.value, arrays.value) && same(found.code, arrays.code));
-            RC_ASSERT(same(found.contours.other, arrays.contours.other));
-            RC_ASSERT(same(counted, voxels));
-            RC_ASSERT(same(counted_by_tiles(volume, found, context), voxels));
+            RC_ASSERT(found.value == arrays.value && found.code == arrays.code);
+            RC_ASSERT(found.contours.other == arrays.contours.other);
+            RC_ASSERT(std::ranges::equal(counted.items(), voxels));
+            RC_ASSERT(counted_by_tiles(volume, found, context) == voxels);
             Arrays restored;
             restored.value = found.value, restored.code = found.code, restored.contours = found.contours;
             RC_ASSERT(isoatlas::restore_trees(restored, grid.rank, context_of(1, 0)));
             isoatlas::add_up_voxels<Id>(counted, restored);
-            RC_ASSERT(same(restored.voxels, arrays.voxels));
+            RC_ASSERT(restored.voxels == arrays.voxels);
             const isoatlas::Analysis made = isoatlas::make_analysis(std::move(arcs), volume, context);
-            RC_ASSERT(same(std::get<0>(made.data().arrays)->arrays.zone, arrays.zone));
+            RC_ASSERT(std::get<0>(made.data().arrays)->arrays.zone == arrays.zone);
         }
     }
 }
@@ -108,10 +105,12 @@ void any_arcs_are_refused_or_give_trees() {
         arrays.code.push_back(isoatlas::ElementCode::vertex(i, h0, l0, 0).bits);
         arrays.value.push_back(value -= *rc::gen::inRange(0, 2));
     }
-    std::vector<Id> order(n), inside{n};
-    std::iota(order.begin(), order.end(), Id{0});
-    arrays.contours.other.resize(n + 1);
-    arrays.contours.other[n] = n;
+    using Element = isoatlas::ElementIdOf<Id>;
+    const Element outside(n);
+    std::vector<Element> order, inside{outside};
+    for (const Element i : isoatlas::IdRange<Element>(n)) order.push_back(i);
+    arrays.contours.other.items().resize(n + 1);
+    arrays.contours.other[outside] = outside;
     for (Id i = 0; i < n; ++i) {
         std::swap(order[i], order[*rc::gen::inRange<Id>(i, n)]);
         arrays.contours.other[order[i]] = inside[*rc::gen::inRange<std::size_t>(0, inside.size())];

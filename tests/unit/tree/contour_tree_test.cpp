@@ -29,9 +29,9 @@ TEST(ContourTree, HasTwoArcsBelowWhereACavityCloses) {
     const ContourTree<Id> tree = hollow_ball().contours();
     EXPECT_EQ(list(tree.other), (Ids{1, 3, 1, 3}));
     EXPECT_EQ(list(tree.degree), degrees({{0, 1}, {1, 2}, {1, 0}, {1, 0}}));
-    EXPECT_EQ(tree.upper(2), 1U);  // the arc of the minimum runs up
-    EXPECT_EQ(tree.lower(2), 2U);
-    EXPECT_FALSE(tree.has_arc(3));
+    EXPECT_EQ(tree.upper(ElementKey(2)), ElementKey(1));  // the arc of the minimum runs up
+    EXPECT_EQ(tree.lower(ElementKey(2)), ElementKey(2));
+    EXPECT_FALSE(tree.has_arc(ElementKey(3)));
 }
 
 // A - s1, B - s1, C - s2, s1 - s2, s2 - closes, m - closes, closes - outside: as removed in docs/theory/4-genus.md#the-contour-tree.
@@ -67,7 +67,7 @@ TEST(ContourTree, IsRestoredFromItsArcs) {
 TEST(ContourTree, IsNotRestoredFromWhatIsNotATree) {
     const auto is_restored = [](const Ids& other) {
         ContourTree<Id> tree;
-        tree.other.assign(other.begin(), other.end());
+        for (const Id node : other) tree.other.push_back(ElementKey(node));
         return complete_contour_tree<Id>(tree, two_peaks().delta_chi());
     };
     EXPECT_TRUE(is_restored({2, 2, 3, 3}));
@@ -78,7 +78,7 @@ TEST(ContourTree, IsNotRestoredFromWhatIsNotATree) {
     EXPECT_FALSE(is_restored({2, 3, 3, 3}));  // two
     ContourTree<Id> tree;
     tree.other = two_peaks().contours().other;
-    EXPECT_FALSE(complete_contour_tree<Id>(tree, std::vector<std::int8_t>{1, 1, 1}));  // Euler numbers of no box
+    EXPECT_FALSE(complete_contour_tree<Id>(tree, by_element(std::vector<std::int8_t>{1, 1, 1})));  // Euler numbers of no box
 }
 
 TEST(ContourTree, GivesItsJoinTreeBack) {
@@ -98,8 +98,8 @@ TEST(SplitTree, NamesTheLowestNodeOfEveryLowComponent) {
 
 Ids by_runs(const Drawing& drawing) {
     const ContourTree<Id> tree = drawing.contours();
-    BigVector<std::uint8_t> branches(drawing.elements.size());
-    for (std::size_t i = 0; i < branches.size(); ++i) branches[i] = tree.degree[i];
+    ByElement<Id, std::uint8_t> branches(drawing.elements.size());
+    for (const ElementKey i : branches.ids()) branches[i] = tree.degree[i];
     return list(arcs_by_runs<Id>(branches, drawing.join(), drawing.split(), 1));
 }
 

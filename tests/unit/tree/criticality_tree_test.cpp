@@ -17,18 +17,19 @@ struct Events {
 
     Events(const Drawing& drawing, const std::vector<double>& values) {
         const ContourTree<Id> contours = drawing.contours();
-        const std::vector<std::int8_t> delta = drawing.delta_chi();
-        const BigVector<Id> join = drawing.join(), level = level_roots<Id>(contours, values);
-        const BigVector<LevelKind> kind = level_kinds<Id>(contours, level, values, delta);
-        tree = criticality_tree<Id>(join_groups<Id>(join, values), join, level, kind);
+        const auto value = by_element(values);
+        const ByElement<Id, std::int8_t> delta = drawing.delta_chi();
+        const MergeTree<Id> join = drawing.join(), level = level_roots<Id>(contours, value);
+        const ByElement<Id, LevelKind> kind = level_kinds<Id>(contours, level, value, delta);
+        tree = criticality_tree<Id>(join_groups<Id>(join, value), join, level, kind);
         measures = measure_events<Id>(tree, contours, level, kind, delta);
     }
 };
 
 TEST(JoinGroups, AreJoinedElementsOfOneValue) {
-    EXPECT_EQ(list(join_groups<Id>(islands().join(), islands().values)), (Ids{0, 1, 2, 3, 4, 5, 6}));
-    EXPECT_EQ(list(join_groups<Id>(islands().join(), std::vector<double>{100, 82, 66, 50, 50, 22, 10})), (Ids{0, 1, 2, 4, 4, 5, 6}));
-    EXPECT_EQ(list(join_groups<Id>(two_peaks().join(), std::vector<double>{5, 5, 5})), (Ids{2, 2, 2}));
+    EXPECT_EQ(list(join_groups<Id>(islands().join(), islands().value())), (Ids{0, 1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(list(join_groups<Id>(islands().join(), by_element<double>({100, 82, 66, 50, 50, 22, 10}))), (Ids{0, 1, 2, 4, 4, 5, 6}));
+    EXPECT_EQ(list(join_groups<Id>(two_peaks().join(), by_element<double>({5, 5, 5}))), (Ids{2, 2, 2}));
 }
 
 TEST(CriticalityTree, OfDistinctValuesIsTheJoinTree) {
@@ -36,7 +37,7 @@ TEST(CriticalityTree, OfDistinctValuesIsTheJoinTree) {
     EXPECT_EQ(list(events.tree.top), (Ids{0, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(list(events.tree.parent), (Ids{2, 2, 3, 4, 5, 6, 6}));
     EXPECT_EQ(list(events.tree.event_of_element), (Ids{0, 1, 2, 3, 4, 5, 6}));
-    EXPECT_TRUE(events.tree.is_root(6));
+    EXPECT_TRUE(events.tree.is_root(EventKey(6)));
 }
 
 // 3 and 4 cancel: the zone of the merge (element 2) goes on below them.

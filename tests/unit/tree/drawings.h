@@ -14,17 +14,31 @@ namespace isoatlas {
 
 using Id = std::uint32_t;
 using Ids = std::vector<Id>;
+using ElementKey = ElementIdOf<Id>;
+using EventKey = EventIdOf<Id>;
 using DrawnElement = PartitionedElement<Id>;
 
-constexpr DrawnElement peak(Id number, Id low = 0) { return {{{number, number}, {low, low}}, branches_of(0, 1)}; }
-constexpr DrawnElement pit(Id number, Id high = 0) { return {{{high, high}, {number, number}}, branches_of(1, 0)}; }
+constexpr DrawnElement drawn(std::array<Id, 2> above, std::array<Id, 2> below, std::uint8_t branches) {
+    using Maximum = MaximumIdOf<Id>;
+    using Minimum = MinimumIdOf<Id>;
+    return {{{Maximum(above[0]), Maximum(above[1])}, {Minimum(below[0]), Minimum(below[1])}}, branches};
+}
+constexpr DrawnElement peak(Id number, Id low = 0) { return drawn({number, number}, {low, low}, branches_of(0, 1)); }
+constexpr DrawnElement pit(Id number, Id high = 0) { return drawn({high, high}, {number, number}, branches_of(1, 0)); }
 /// Two objects meet, or one closes to a ring.
-constexpr DrawnElement joins(Id a, Id b, Id low = 0) { return {{{a, b}, {low, low}}, branches_of(2, 1)}; }
+constexpr DrawnElement joins(Id a, Id b, Id low = 0) { return drawn({a, b}, {low, low}, branches_of(2, 1)); }
 /// A low component falls in two, or a ring is filled.
-constexpr DrawnElement parts(Id a, Id b, Id high = 0) { return {{{high, high}, {a, b}}, branches_of(1, 2)}; }
-constexpr DrawnElement regular(Id high = 0, Id low = 0) { return {{{high, high}, {low, low}}, branches_of(1, 1)}; }
+constexpr DrawnElement parts(Id a, Id b, Id high = 0) { return drawn({high, high}, {a, b}, branches_of(1, 2)); }
+constexpr DrawnElement regular(Id high = 0, Id low = 0) { return drawn({high, high}, {low, low}, branches_of(1, 1)); }
 /// A saddle in 2D.
-constexpr DrawnElement saddle_2d(Id a, Id b, Id c, Id d) { return {{{a, b}, {c, d}}, branches_of(2, 2)}; }
+constexpr DrawnElement saddle_2d(Id a, Id b, Id c, Id d) { return drawn({a, b}, {c, d}, branches_of(2, 2)); }
+
+/// Arrays of tests as those of the engine.
+template <class T>
+ByElementView<Id, T> by_element(const std::vector<T>& items) {
+    return ByElementView<Id, T>(std::span<const T>(items));
+}
+inline MergeTreeView<Id> tree_of(const Ids& parent) { return MergeTreeView<Id>(ids_of<ElementKey>(parent)); }
 
 struct Drawing {
     std::vector<DrawnElement> elements;
@@ -41,36 +55,47 @@ struct Drawing {
         }
         return set;
     }
-    template <class SetId = Id>
-    [[nodiscard]] CriticalSet<SetId> critical_set() const {
-        CriticalSet<SetId> set;
+    template <class Number = Id>
+    [[nodiscard]] CriticalSet<Number> critical_set() const {
+        using Maximum = MaximumIdOf<Number>;
+        using Minimum = MinimumIdOf<Number>;
+        CriticalSet<Number> set;
         for (std::size_t i = 0; i < elements.size(); ++i) {
             const auto& [representatives, branches] = elements[i];
             const int h0 = branches_above(branches), l0 = branches_below(branches);
             set.value.push_back(values[i]);
             set.code.push_back(ElementCode::vertex(static_cast<std::int64_t>(i), h0, l0, 0).bits);
-            set.up_a.push_back(representatives.above[0]), set.up_b.push_back(representatives.above[1]);
-            set.low_a.push_back(representatives.below[0]), set.low_b.push_back(representatives.below[1]);
+            const auto& [above, below] = representatives;
+            set.up_a.push_back(Maximum(above[0])), set.up_b.push_back(Maximum(above[1]));
+            set.low_a.push_back(Minimum(below[0])), set.low_b.push_back(Minimum(below[1]));
             set.maxima += h0 == 0, set.minima += l0 == 0;
         }
         set.rank = rank;
         return set;
     }
-    [[nodiscard]] BigVector<Id> join() const { return join_tree(represented_set()); }
-    [[nodiscard]] BigVector<Id> split() const { return split_tree(represented_set()); }
+    [[nodiscard]] MergeTree<Id> join() const { return join_tree(represented_set()); }
+    [[nodiscard]] MergeTree<Id> split() const { return split_tree(represented_set()); }
+    [[nodiscard]] ByElementView<Id, double> value() const { return by_element(values); }
     /// In 2D contours have no Euler numbers: empty.
-    [[nodiscard]] std::vector<std::int8_t> delta_chi() const {
-        std::vector<std::int8_t> change;
+    [[nodiscard]] ByElement<Id, std::int8_t> delta_chi() const {
+        ByElement<Id, std::int8_t> change;
+        if (rank == 2) return change;
         for (const DrawnElement& element : elements)
             change.push_back(static_cast<std::int8_t>(branches_below(element.branches) - branches_above(element.branches)));
-        return rank == 3 ? change : std::vector<std::int8_t>();
+        return change;
     }
     [[nodiscard]] ContourTree<Id> contours() const { return contour_tree<Id>(join(), split(), delta_chi()); }
 };
 
-template <class T>
-std::vector<T> list(const BigVector<T>& array) {
-    return {array.begin(), array.end()};
+/// Ids as numbers.
+template <class I, class T>
+auto list(const IdArray<I, T>& array) {
+    if constexpr (requires { typename T::Number; }) {
+        const std::span<const typename T::Number> numbers = numbers_of<T>(array.items());
+        return std::vector<typename T::Number>(numbers.begin(), numbers.end());
+    } else {
+        return std::vector<T>(array.items().begin(), array.items().end());
+    }
 }
 
 //   A     B       9  7

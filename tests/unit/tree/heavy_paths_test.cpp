@@ -12,13 +12,13 @@ namespace isoatlas {
 namespace {
 
 /// The event e on the way from a maximum to the root with value(parent(e)) < x <= value(e).
-Id climbed(const DescendingTree<Id>& tree, Id e, double x) {
-    while (!tree.is_root(e) && tree.value[tree.parent[e]] >= x) e = tree.parent[e];
-    return e;
+Id climbed(const DescendingTree<Id>& tree, EventKey e, double x) {
+    while (!tree.is_root(e) && tree.value[tree.top_of(tree.parent[e])] >= x) e = tree.parent[e];
+    return e.number();
 }
 
 Ids zones_of(const DescendingTree<Id>& tree, const Ids& maxima, Ids maximum, const std::vector<double>& x) {
-    const HeavyPathDecomposition<Id, double> paths(tree, maxima, 1);
+    const HeavyPathDecomposition<Id, double> paths(tree, IdSpan<MaximumIdOf<Id>, const ElementKey>(ids_of<ElementKey>(maxima)), 1);
     std::vector<std::uint32_t> scratch(x.size());
     Ids zone(x.size());
     paths.zones(x, maximum, scratch, zone);
@@ -31,9 +31,10 @@ Ids zones_of(const DescendingTree<Id>& tree, const Ids& maxima, Ids maximum, con
 //     closes          22
 //     m               10 (on the wall of the lake, but of the same object)
 TEST(HeavyPaths, OfIslandsLeadToTheirEvents) {
-    const BigVector<Id> join = islands().join();
+    Ids join = list(islands().join());
+    join.pop_back();  // the outside
     const std::vector<double> values = islands().values;
-    const DescendingTree<Id> tree{std::span<const Id>(join).first(7), values, {}, {}};
+    const auto tree = DescendingTree<Id>::of_elements(tree_of(join), by_element(values));
     EXPECT_EQ(zones_of(tree, {0, 1, 2}, {0, 0, 0, 1, 2, 2, 1}, {60, 54, 54.5, 40, 30, 5, 82}), (Ids{0, 3, 0, 4, 4, 6, 1}));
 }
 
@@ -54,7 +55,7 @@ RC_GTEST_PROP(HeavyPaths, LeadWhereClimbingLeads, ()) {
     for (Id i = 0; i < n; ++i) {
         if (is_leaf[i]) maxima.push_back(i);
     }
-    const DescendingTree<Id> tree{parent, values, {}, {}};
+    const auto tree = DescendingTree<Id>::of_elements(tree_of(parent), by_element(values));
     std::vector<double> x;
     Ids maximum, expected;
     for (int sample = 0; sample < 50; ++sample) {
@@ -62,7 +63,7 @@ RC_GTEST_PROP(HeavyPaths, LeadWhereClimbingLeads, ()) {
         const double top = values[maxima[m]];
         maximum.push_back(m);
         x.push_back(std::min(top, *rc::gen::inRange(-2, 2 * static_cast<int>(top) + 1) / 2.0));
-        expected.push_back(climbed(tree, maxima[m], x.back()));
+        expected.push_back(climbed(tree, EventKey(maxima[m]), x.back()));
     }
     RC_ASSERT(zones_of(tree, maxima, maximum, x) == expected);
 }

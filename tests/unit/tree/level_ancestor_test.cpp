@@ -20,7 +20,8 @@ RC_GTEST_PROP(Climbs, EndWhereSingleStepsEnd, ()) {
         const std::uint32_t p = i == 0 ? 0 : i - 1 - static_cast<std::uint32_t>(state >> 33) % std::min(i, reach);
         parent[down ? n - 1 - i : i] = down ? n - 1 - p : p;
     }
-    const LevelAncestor<std::uint32_t> climber{std::span<const std::uint32_t>(parent)};
+    using Element = ElementIdOf<std::uint32_t>;
+    const LevelAncestor<Element> climber{IdSpan<Element, const Element>(ids_of<Element>(parent))};
     for (int climb = 0; climb < 20; ++climb) {
         const auto start = *rc::gen::inRange<std::uint32_t>(0, n), limit = *rc::gen::inRange<std::uint32_t>(0, n);
         int asked = 0;
@@ -31,7 +32,7 @@ RC_GTEST_PROP(Climbs, EndWhereSingleStepsEnd, ()) {
         std::uint32_t expected = start;
         while (parent[expected] != expected && belongs(parent[expected])) expected = parent[expected];
         asked = 0;
-        RC_ASSERT(climber.climb(start, belongs) == expected);
+        RC_ASSERT(climber.climb(Element(start), [&](Element x) { return belongs(x.number()); }) == Element(expected));
         RC_ASSERT(asked <= 8 * std::bit_width(n) + 8);
     }
 }

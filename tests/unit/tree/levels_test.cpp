@@ -17,9 +17,10 @@ struct Levels {
 
     explicit Levels(const Drawing& drawing, const std::vector<double>& values) {
         const ContourTree<Id> tree = drawing.contours();
-        const BigVector<Id> roots = level_roots<Id>(tree, values);
+        const auto value = by_element(values);
+        const ByElement<Id, ElementKey> roots = level_roots<Id>(tree, value);
         level = list(roots);
-        kind = list(level_kinds<Id>(tree, roots, values, drawing.delta_chi()));
+        kind = list(level_kinds<Id>(tree, roots, value, drawing.delta_chi()));
     }
 };
 
@@ -85,9 +86,10 @@ TEST(Levels, OfIslandsHaveNoGenus) {
 TEST(Levels, ArcsToTheOutsideHaveALength) {
     const ContourTree<Id> tree = two_peaks().contours();
     const std::vector<double> values{7, 5, 5};
-    EXPECT_TRUE(has_length<Id>(tree, values, 0));
-    EXPECT_FALSE(has_length<Id>(tree, values, 1));
-    EXPECT_TRUE(has_length<Id>(tree, values, 2));
+    const auto value = by_element(values);
+    EXPECT_TRUE(has_length<Id>(tree, value, ElementKey(0)));
+    EXPECT_FALSE(has_length<Id>(tree, value, ElementKey(1)));
+    EXPECT_TRUE(has_length<Id>(tree, value, ElementKey(2)));
 }
 
 }  // namespace

@@ -36,11 +36,11 @@ TEST(MergeTrees, OfCriticalElementsAreThoseOfTheirRepresentatives) {
 }
 
 TEST(MergeTrees, AreTheSameForBothWidthsOfIds) {
-    const BigVector<Id> join = body().join(), split = body().split();
-    const BigVector<std::uint64_t> wide_join = join_tree(body().critical_set<std::uint64_t>()),
-                                   wide_split = split_tree(body().critical_set<std::uint64_t>());
-    EXPECT_TRUE(std::equal(join.begin(), join.end(), wide_join.begin(), wide_join.end()));
-    EXPECT_TRUE(std::equal(split.begin(), split.end(), wide_split.begin(), wide_split.end()));
+    const Ids join = list(body().join()), split = list(body().split());
+    const auto wide_join = list(join_tree(body().critical_set<std::uint64_t>())),
+               wide_split = list(split_tree(body().critical_set<std::uint64_t>()));
+    EXPECT_TRUE(std::ranges::equal(join, wide_join));
+    EXPECT_TRUE(std::ranges::equal(split, wide_split));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Parts {
         Id maxima = 0, minima = 1;
         for (std::uint16_t part = 0; part <= *std::max_element(part_of.begin(), part_of.end()); ++part) {
             set.first.push_back(set.size());
-            set.first_maximum.push_back(maxima), set.first_minimum.push_back(minima);
+            set.first_maximum.emplace_back(maxima), set.first_minimum.emplace_back(minima);
             for (std::size_t i = 0; i < part_of.size(); ++i) {
                 if (part_of[i] != part) continue;
                 set.elements.push_back(drawing.elements[i]);
@@ -31,7 +31,7 @@ struct Parts {
             }
         }
         set.first.push_back(set.size());
-        set.first_maximum.push_back(maxima), set.first_minimum.push_back(minima);
+        set.first_maximum.emplace_back(maxima), set.first_minimum.emplace_back(minima);
     }
 
     [[nodiscard]] Ids contour_arcs_of_all() const { return list(contour_arcs<Id>(set, part_of, {})); }
@@ -39,17 +39,27 @@ struct Parts {
 
 struct Reduced {
     std::vector<DrawnElement> elements;
-    Ids arc;
+    std::vector<ElementKey> arc;
 
     Reduced(const Parts& parts, std::size_t part) {
         const auto own = parts.set.of(part, parts.set.elements);
         elements.assign(own.begin(), own.end());
-        arc.assign(elements.size(), 99);  // of survivors: left alone
+        arc.assign(elements.size(), ElementKey(99));  // of survivors: left alone
         reduce_part<Id>(parts.set, part, open_extrema(parts.set, 1), elements, arc);
     }
     [[nodiscard]] bool survives(std::size_t x) const { return elements[x].branches != kRemoved; }
-    [[nodiscard]] std::array<Id, 2> above(std::size_t x) const { return elements[x].representatives.above; }
-    [[nodiscard]] std::array<Id, 2> below(std::size_t x) const { return elements[x].representatives.below; }
+    [[nodiscard]] Ids arcs() const {
+        const std::span<const Id> numbers = numbers_of<ElementKey>(arc);
+        return {numbers.begin(), numbers.end()};
+    }
+    [[nodiscard]] std::array<Id, 2> above(std::size_t x) const { return numbers(elements[x].representatives.above); }
+    [[nodiscard]] std::array<Id, 2> below(std::size_t x) const { return numbers(elements[x].representatives.below); }
+
+private:
+    template <class Extremum>
+    static std::array<Id, 2> numbers(const std::array<Extremum, 2>& names) {
+        return {names[0].number(), names[1].number()};
+    }
 };
 
 using Pair = std::array<Id, 2>;
@@ -65,7 +75,7 @@ TEST(OpenExtrema, AreThoseThatOtherPartsReferTo) {
 // All is decided but what becomes of the contour at the outside: 5 stays, as a leaf.
 TEST(Reduction, OfAWholeVolumeLeavesTheContourAtTheOutside) {
     const Reduced body_alone(Parts(body(), {0, 0, 0, 0, 0, 0, 0}), 0);
-    EXPECT_EQ(body_alone.arc, (Ids{2, 2, 3, 4, 5, 99, 5}));
+    EXPECT_EQ(body_alone.arcs(), (Ids{2, 2, 3, 4, 5, 99, 5}));
     for (std::size_t x = 0; x < 7; ++x) EXPECT_EQ(body_alone.survives(x), x == 5) << x;
     EXPECT_EQ(body_alone.elements[5].branches, branches_of(0, 1));
     EXPECT_EQ(body_alone.below(5), (Pair{0, 0}));
@@ -76,19 +86,19 @@ TEST(Reduction, OfAWholeVolumeLeavesTheContourAtTheOutside) {
 TEST(Reduction, KeepsWhatAnOpenMaximumMeets) {
     const Parts parts(two_peaks(), {0, 1, 0});
     const Reduced left(parts, 0), right(parts, 1);
-    EXPECT_EQ(left.arc, (Ids{1, 99}));
+    EXPECT_EQ(left.arcs(), (Ids{1, 99}));
     EXPECT_FALSE(left.survives(0));
     EXPECT_EQ(left.elements[1].branches, branches_of(1, 1));
     EXPECT_EQ(left.above(1), (Pair{1, 1}));
     EXPECT_EQ(right.elements[0].branches, branches_of(0, 1));
-    EXPECT_EQ(right.arc, (Ids{99}));
+    EXPECT_EQ(right.arcs(), (Ids{99}));
 }
 
 // The same from below: s and the minimum refer to extrema of each other's part, so nothing is decided.
 TEST(Reduction, KeepsWhatAnOpenMinimumMeets) {
     const Parts parts(hollow_ball(), {0, 0, 1});
     const Reduced left(parts, 0), right(parts, 1);
-    EXPECT_EQ(left.arc, (Ids{99, 99}));
+    EXPECT_EQ(left.arcs(), (Ids{99, 99}));
     EXPECT_EQ(left.elements[1].branches, branches_of(1, 2));
     EXPECT_EQ(left.below(1), (Pair{0, 1}));
     EXPECT_EQ(right.elements[0].branches, branches_of(1, 0));
@@ -99,7 +109,7 @@ TEST(Reduction, KeepsWhatAnOpenMinimumMeets) {
 //   | `-m
 TEST(Reduction, RemovesACavityInsideThePart) {
     const Reduced lower(Parts(hollow_ball(), {0, 1, 1}), 1);
-    EXPECT_EQ(lower.arc, (Ids{99, 0}));
+    EXPECT_EQ(lower.arcs(), (Ids{99, 0}));
     EXPECT_FALSE(lower.survives(1));
     EXPECT_EQ(lower.elements[0].branches, branches_of(1, 1));
     EXPECT_EQ(lower.above(0), (Pair{0, 0}));

@@ -74,35 +74,36 @@ TEST_F(Damaged, WholeItHolds) {
 }
 
 TEST_F(Damaged, AWrongParentIsFound) {
-    arrays().tree.parent[2] = 4;  // event 4 is on another branch, of lower value: voxels and chi do not add up any more
+    arrays().tree.parent[EventId(2)] =
+        EventIdOf<std::uint32_t>(4);  // event 4 is on another branch, of lower value: voxels and chi do not add up any more
     EXPECT_FALSE(euler_sums_hold(analysis_).holds);
 }
 
 TEST_F(Damaged, AParentAboveItsChildIsFound) {
-    arrays().tree.parent[7] = 6;
+    arrays().tree.parent[EventId(7)] = EventIdOf<std::uint32_t>(6);
     EXPECT_FALSE(join_tree_is_valid(analysis_).holds);
 }
 
 TEST_F(Damaged, AVoxelInTheWrongZoneIsFound) {
-    arrays().zone[0] = 0;
+    arrays().zone[VoxelId(0)] = 0;
     const CheckResult check = zones_partition_voxels(analysis_, volume_);
     EXPECT_FALSE(check.holds);
     EXPECT_NE(check.detail.find("voxel 0 "), std::string::npos) << check.detail;
 }
 
 TEST_F(Damaged, AWrongVoxelCountIsFound) {
-    ++arrays().voxels[3];
+    ++arrays().voxels[EventId(3)];
     EXPECT_FALSE(zones_partition_voxels(analysis_, volume_).holds);
     EXPECT_FALSE(euler_sums_hold(analysis_).holds);
 }
 
 TEST_F(Damaged, AWrongEulerNumberIsFound) {
-    ++arrays().measures.chi[5];
+    ++arrays().measures.chi[EventId(5)];
     EXPECT_FALSE(euler_sums_hold(analysis_).holds);
 }
 
 TEST_F(Damaged, AWrongGenusIsFound) {
-    for (auto& half_chi : arrays().contours.half_chi) half_chi -= 1;
+    for (auto& half_chi : arrays().contours.half_chi.items()) half_chi -= 1;
     EXPECT_FALSE(euler_sums_hold(analysis_).holds);
     Check check("contour_tree_equals_cut");
     compare_arcs_and_cut(analysis_, cut(volume_, 57), check);
@@ -110,24 +111,24 @@ TEST_F(Damaged, AWrongGenusIsFound) {
 }
 
 TEST_F(Damaged, AnArcToAnotherElementIsFound) {
-    arrays().contours.other[0] = arrays().contours.other[0] + 1;
+    ++arrays().contours.other[ElementId(0)];
     EXPECT_FALSE(contour_tree_is_a_tree(analysis_).holds);
 }
 
 TEST_F(Damaged, AnElementInTheWrongLevelIsFound) {
-    arrays().level[1] = 0;
+    arrays().level[ElementId(1)] = ElementIdOf<std::uint32_t>(0);
     const CheckResult check = contour_tree_is_a_tree(analysis_);
     EXPECT_FALSE(check.holds);
     EXPECT_NE(check.detail.find("element 1 "), std::string::npos) << check.detail;
 }
 
 TEST_F(Damaged, AnElementOutsideTheZoneOfItsEventIsFound) {
-    arrays().tree.event_of_element.back() = 0;
+    arrays().tree.event_of_element.items().back() = EventIdOf<std::uint32_t>(0);
     EXPECT_FALSE(join_tree_is_valid(analysis_).holds);
 }
 
 TEST_F(Damaged, AWrongEventOfALevelIsFound) {
-    auto& event_of_element = arrays().tree.event_of_element;
+    auto& event_of_element = arrays().tree.event_of_element.items();
     std::swap(event_of_element.front(), event_of_element.back());
     EXPECT_FALSE(levels_match_events(analysis_).holds);
 }
