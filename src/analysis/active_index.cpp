@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "base/big_vector.h"
 #include "base/streamed.h"
 
 namespace isoatlas {

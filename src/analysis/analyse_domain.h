@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/trees.h"
+#include "base/big_vector.h"
 #include "base/paced_fill.h"
 #include "critical/domain.h"
 #include "tree/heavy_paths.h"

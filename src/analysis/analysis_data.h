@@ -9,6 +9,7 @@
 
 #include "base/lazy.h"
 #include "isoatlas/analysis.h"
+#include "tree/contour_tree.h"
 #include "tree/criticality_tree.h"
 
 namespace isoatlas {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "analysis/analysis_data.h"
+#include "base/big_vector.h"
 #include "base/id_array.h"
 #include "base/streamed.h"
 #include "field/volume_view.h"

@@ -18,6 +18,7 @@
 #include "field/grid.h"
 #include "field/order.h"
 #include "isoatlas/context.h"
+#include "tree/contour_tree.h"
 #include "tree/criticality_tree.h"
 
 namespace isoatlas {

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "analysis/analysis_data.h"
+#include "base/big_vector.h"
 #include "store/container.h"
 #include "store/pack.h"
 

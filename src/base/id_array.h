@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/big_vector.h"
+#include "isoatlas/array.h"
 #include "isoatlas/id.h"
 
 namespace isoatlas {
@@ -51,7 +51,7 @@ public:
     IdArray() = default;
     explicit IdArray(std::size_t count) : items_(count) {}  ///< not initialised, where a T is not by default
     IdArray(std::size_t count, const T& item) : items_(count, item) {}
-    explicit IdArray(BigVector<T> items) noexcept : items_(std::move(items)) {}
+    explicit IdArray(Array<T> items) noexcept : items_(std::move(items)) {}
 
     template <SameKind<I> J>
     [[nodiscard]] T& operator[](J id) {
@@ -66,8 +66,8 @@ public:
     [[nodiscard]] IdRange<I> ids() const noexcept { return IdRange<I>(items_.size()); }
     void push_back(const T& item) { items_.push_back(item); }
     /// As a plain array, to be resized, filled, read or written as a whole.
-    [[nodiscard]] BigVector<T>& items() noexcept { return items_; }
-    [[nodiscard]] const BigVector<T>& items() const noexcept { return items_; }
+    [[nodiscard]] Array<T>& items() noexcept { return items_; }
+    [[nodiscard]] const Array<T>& items() const noexcept { return items_; }
     // NOLINTNEXTLINE(google-explicit-constructor): as an array to a span
     operator IdSpan<I, const T>() const noexcept { return IdSpan<I, const T>(std::span<const T>(items_)); }
     // NOLINTNEXTLINE(google-explicit-constructor)
@@ -75,7 +75,7 @@ public:
     friend bool operator==(const IdArray&, const IdArray&) = default;
 
 private:
-    BigVector<T> items_;
+    Array<T> items_;
 };
 
 /// The numbers of ids, and back: for files, and for what is a tree of other things at the same time.

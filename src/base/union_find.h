@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/big_vector.h"
 #include "base/id_array.h"
 #include "base/streamed.h"
 

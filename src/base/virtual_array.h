@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "base/big_vector.h"
+
 namespace isoatlas {
 
 class VirtualArray {

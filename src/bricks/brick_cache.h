@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/big_vector.h"
 #include "base/virtual_array.h"
 #include "field/brick_grid.h"
 

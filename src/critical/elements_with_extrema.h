@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/big_vector.h"
 #include "critical/grid_scan.h"
 #include "critical/partitioned_set.h"
 #include "critical/representative_lookup.h"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/big_vector.h"
 #include "critical/scan.h"
 #include "isoatlas/context.h"
 

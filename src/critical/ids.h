@@ -25,4 +25,10 @@ using ByVoxel = IdArray<VoxelIdOf<Number>, T>;
 template <class Number, class T>
 using ByVoxelView = IdSpan<VoxelIdOf<Number>, const T>;
 
+/// A join or split tree (tree/merge_tree.h): the parent of every node; a root is its own.
+template <class Number>
+using MergeTree = ByElement<Number, ElementIdOf<Number>>;
+template <class Number>
+using MergeTreeView = ByElementView<Number, ElementIdOf<Number>>;
+
 }  // namespace isoatlas

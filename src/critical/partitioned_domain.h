@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/big_vector.h"
 #include "critical/grid_scan.h"
 #include "critical/partitioned_set.h"
 #include "critical/tiling.h"

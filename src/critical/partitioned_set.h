@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "base/big_vector.h"
 #include "critical/ids.h"
 
 namespace isoatlas {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/big_vector.h"
 #include "base/bit_ranks.h"
 #include "critical/basins.h"
 #include "critical/tiling.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/big_vector.h"
 #include "base/cancel.h"
 #include "base/check.h"
 #include "base/parallel.h"

@@ -16,12 +16,6 @@
 
 namespace isoatlas {
 
-/// A join or split tree (merge_tree.h): the parent of every node; a root is its own.
-template <class Number>
-using MergeTree = ByElement<Number, ElementIdOf<Number>>;
-template <class Number>
-using MergeTreeView = ByElementView<Number, ElementIdOf<Number>>;
-
 template <class Number>
 struct ContourTree {
     using Element = ElementIdOf<Number>;

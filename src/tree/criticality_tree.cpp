@@ -1,4 +1,5 @@
 #include "tree/criticality_tree.h"
+#include "tree/contour_tree.h"
 
 #include <utility>
 

@@ -17,6 +17,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/big_vector.h"
 #include "critical/ids.h"
 
 namespace isoatlas {

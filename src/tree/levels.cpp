@@ -1,5 +1,7 @@
 #include "tree/levels.h"
 
+#include "tree/contour_tree.h"
+
 #include <array>
 #include <utility>
 

@@ -4,9 +4,12 @@
 // levels does not depend on voxel numbering nor on how ties are broken.
 #pragma once
 
-#include "tree/contour_tree.h"
+#include "critical/ids.h"
 
 namespace isoatlas {
+
+template <class Number>
+struct ContourTree;
 
 /// Does the arc of node x span an interval of values? Arcs to the outside do.
 template <class Number>

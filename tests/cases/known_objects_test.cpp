@@ -70,7 +70,7 @@ TEST(KnownObjects, HaveAnOuterBoundaryOfTheirOwn) {
     const ObjectTable table = rank_objects(volume, analyse(volume));
     const auto outer = std::ranges::find(table.isovalues, IsovalueReason::outer, &RecommendedIsovalue::reason);
     ASSERT_NE(outer, table.isovalues.end());
-    EXPECT_EQ(outer->branch_top, table.entries[0].branch_top);
+    EXPECT_EQ(outer->branch_top, table.entries[0].branch_top.number());
     EXPECT_TRUE(35 < outer->tau && outer->tau < 55) << outer->tau;
     EXPECT_TRUE(std::ranges::any_of(table.isovalues, [](const RecommendedIsovalue& i) { return i.reason == IsovalueReason::inner; }));
 }

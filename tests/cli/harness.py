@@ -63,7 +63,7 @@ class CliTest(unittest.TestCase):
         options.setdefault("stdout", subprocess.PIPE)
         environment = dict(os.environ, **options.pop("environment", {}))
         return subprocess.run([CLI, *map(str, arguments)], cwd=cls.folder, stderr=subprocess.PIPE, text=True, env=environment,
-                              timeout=300, **options)
+                              timeout=1800 if SANITIZED else 300, **options)
 
     def run_ok(self, *arguments):
         done = self.start(arguments)

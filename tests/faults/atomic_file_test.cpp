@@ -198,7 +198,7 @@ TEST_F(AtomicFileTest, ReadOnlyFilesAreNotReplaced) {
     std::ofstream(path_) << "old";
     fs::permissions(path_, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
     EXPECT_EQ(kind_of([&] { AtomicFile file(path_); }, "0444"), ErrorKind::resource);
-    EXPECT_EQ(kind_of([&] { isoatlas::check_output_file(path_); }, "chmod"), ErrorKind::resource);
+    EXPECT_EQ(kind_of([&] { isoatlas::check_output_file(path_); }, "allow writing"), ErrorKind::resource);
     EXPECT_EQ(content(path_), "old");
     EXPECT_EQ(files(), 1u);
 }

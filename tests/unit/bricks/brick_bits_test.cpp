@@ -62,7 +62,10 @@ Scene arbitrary_scene() {
     return scene;
 }
 
-/// As bricks/brick_surroundings.h says in words, sample by sample. In an image nothing lies before or behind it.
+Index3 clamped(const Index3& at, const Extent& extent) { return max(Index3{}, min(at, extent.size - Index3{1, 1, 1})); }
+
+/// As bricks/brick_surroundings.h says in words, sample by sample. In an image nothing lies before or behind it. What lies outside the
+/// volume is reached by one step only: normals at its border are those of the border and read no samples.
 bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
     const std::int64_t reach_z = scene.grid.extent.rank == 2 ? 0 : 2;
     for (std::int64_t z = box.begin[2] - reach_z; z < box.end[2] + reach_z; ++z) {
@@ -75,7 +78,10 @@ bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
                     steps += away;
                     furthest = std::max(furthest, away);
                 }
-                if ((steps <= 2 || furthest <= 1) && scene.at(x, y, z) != own) return true;
+                const bool inside = clamped(at, scene.grid.extent) == at;
+                if ((inside && steps <= 2) || furthest <= 1) {
+                    if (scene.at(x, y, z) != own) return true;
+                }
             }
         }
     }

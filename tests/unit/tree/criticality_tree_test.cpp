@@ -1,5 +1,6 @@
 // Events of volumes drawn by hand (drawings.h), and what they measure.
 #include "tree/criticality_tree.h"
+#include "tree/contour_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // Levels of volumes drawn by hand (drawings.h) whose values are made equal.
 #include "tree/levels.h"
+#include "tree/contour_tree.h"
 
 #include <gtest/gtest.h>
 
