@@ -7,6 +7,7 @@
 #include "base/memory_limit.h"
 #include "base/part_streams.h"
 #include "base/sample_types.h"
+#include "base/streamed.h"
 #include "critical/partitioned_domain.h"
 #include "field/slab_work.h"
 #include "tree/marked_sets.h"
@@ -25,19 +26,14 @@ struct TiledElements {
 
     TiledElements(std::span<const double> value, std::span<const std::uint64_t> code, const Tiling& tiling)
         : tile(code.size()), first(static_cast<std::size_t>(tiling.count()) + 1, 0), key(code.size()), counted(code.size()) {
-        BudgetPoll memory;
-        for (std::size_t r = 0; r < code.size(); ++r) {
-            memory.step();
+        for (const std::size_t r : streamed(code.size(), in_order(8))) {
             tile[r] = static_cast<std::uint16_t>(tiling.tile_of(ElementCode{code[r]}));
             ++first[tile[r]];
         }
         std::size_t end = 0;
         for (std::size_t& of_tile : first) end += std::exchange(of_tile, end);
         PartWriters<KeyedElement> keys(key, first);
-        for (std::size_t r = 0; r < code.size(); ++r) {
-            memory.step();
-            keys.put(tile[r], {value[r], ElementCode{code[r]}});
-        }
+        for (const std::size_t r : streamed(code.size(), in_order(8))) keys.put(tile[r], {value[r], ElementCode{code[r]}});
         keys.finish();
     }
     template <class Array>
@@ -49,10 +45,8 @@ struct TiledElements {
 /// Values that cut the elements into so many runs, about equal.
 std::vector<double> bounds_of_buckets(std::span<const double> value, std::size_t buckets) {
     std::vector<double> bounds;
-    BudgetPoll memory;
-    for (std::size_t b = 1; b < buckets; ++b) {
-        memory.step(BudgetPoll::kTouch);
-        const double bound = value[b * value.size() / buckets];
+    for (const std::size_t b : streamed(buckets - 1, at_random())) {
+        const double bound = value[(b + 1) * value.size() / buckets];
         if (bounds.empty() || bound < bounds.back()) bounds.push_back(bound);
     }
     return bounds;
@@ -73,9 +67,7 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
     MarkedSets<Id, ArrayAllocator<Id>> components;  // marks: the last element
     components.start(representatives, [](Id) { return Id{0}; });
     PartReaders<CountedElement<Id>> counted(elements.counted, elements.first);
-    BudgetPoll memory;
     const auto pass = [&](std::size_t r) {
-        memory.step();
         const CountedElement<Id>& element = counted.next(elements.tile[r]);
         voxels[r] = element.voxels;
         auto [a, b] = element.representatives;
@@ -85,14 +77,18 @@ BigVector<Id> merge(std::span<const double> value, const TiledElements<Id>& elem
         if (b != kNoRepresentative<Id>) a = components.join(a, components.find(b));
         components.mark(a) = static_cast<Id>(r);
     };
+    StreamedLoops ranks;
     std::size_t r = 0;
+    const auto pass_up_to = [&](std::size_t end) { ranks.over(std::exchange(r, end), end, in_order(8), pass); };
     for (std::size_t bucket = 0; bucket < open.count(); ++bucket) {
         open.take(bucket, threads, [&](const OpenVoxels<T, Id>& record) {
-            for (; r < n && value[r] >= static_cast<double>(record.value); ++r) pass(r);
+            std::size_t end = r;
+            while (end < n && value[end] >= static_cast<double>(record.value)) ++end;
+            pass_up_to(end);
             voxels[components.mark(components.find(record.representative))] += record.count;
         });
     }
-    for (; r < n; ++r) pass(r);
+    pass_up_to(n);
     return voxels;
 }
 
