@@ -103,6 +103,7 @@ ChunksWithExtrema<Number> elements_with_extrema(const Extent& extent, GridScan& 
     return elements;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): Number is a type
 #define ISOATLAS_LEADING(Number)                                                                                     \
     template BigVector<Number> resolve_basins(const Extent&, std::int64_t, Direction, std::span<const std::uint8_t>, \
                                               const std::vector<std::int64_t>&, int);                                \
@@ -113,5 +114,6 @@ ChunksWithExtrema<Number> elements_with_extrema(const Extent& extent, GridScan& 
 ISOATLAS_LEADING(std::uint32_t)
 ISOATLAS_LEADING(std::uint64_t)
 #undef ISOATLAS_LEADING
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas

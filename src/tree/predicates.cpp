@@ -222,6 +222,7 @@ Verdict every_event_has_its_zone(const CriticalityTree<Number>& tree, ByElementV
     return {};
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): Number is a type
 #define ISOATLAS_PREDICATES(Number)                                                                                               \
     template Verdict children_come_before_parents(IdSpan<ElementIdOf<Number>, const ElementIdOf<Number>>);                        \
     template Verdict children_come_before_parents(IdSpan<EventIdOf<Number>, const EventIdOf<Number>>);                            \
@@ -235,5 +236,6 @@ Verdict every_event_has_its_zone(const CriticalityTree<Number>& tree, ByElementV
 ISOATLAS_PREDICATES(std::uint32_t)
 ISOATLAS_PREDICATES(std::uint64_t)
 #undef ISOATLAS_PREDICATES
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas

@@ -181,6 +181,7 @@ void reduce_part(const PartitionedSet<Number>& set, std::size_t part, const Open
     }
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): Number is a type
 #define ISOATLAS_REDUCE(Number)                                                                                                      \
     template OpenExtrema open_extrema(const PartitionedSet<Number>&, int);                                                           \
     template void reduce_part(const PartitionedSet<Number>&, std::size_t, const OpenExtrema&, std::span<PartitionedElement<Number>>, \
@@ -188,5 +189,6 @@ void reduce_part(const PartitionedSet<Number>& set, std::size_t part, const Open
 ISOATLAS_REDUCE(std::uint32_t)
 ISOATLAS_REDUCE(std::uint64_t)
 #undef ISOATLAS_REDUCE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace isoatlas
