@@ -20,7 +20,7 @@ GROUP = 8
 
 
 def groups(commands):
-    """{(folder, options): files}: files that are compiled alike."""
+    """(options, files) of files of a folder that are compiled alike, at most GROUP together."""
     found = collections.defaultdict(set)
     for entry in commands:
         file = pathlib.Path(entry["file"])
@@ -43,8 +43,8 @@ def lint(options, files):
     with tempfile.NamedTemporaryFile("w", suffix=".cpp") as unit:
         unit.writelines(f'#include "{file}"\n' for file in files)
         unit.flush()
-        done = subprocess.run([TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "--checks=-bugprone-suspicious-include", unit.name, "--", *options, "-w"],
-                              capture_output=True, text=True)
+        done = subprocess.run([TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "--checks=-bugprone-suspicious-include", unit.name,
+                               "--", *options, "-w"], capture_output=True, text=True)
     if done.returncode == 0:
         return ""
     if "[clang-diagnostic-error" in done.stdout and len(files) > 1:

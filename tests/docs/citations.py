@@ -7,9 +7,8 @@ Sources cite pages of this checkout by their path from the root: docs/NAME.md le
 docs/decisions/NNNN to the one decision of that number. "NAME.md section 3" and "NAME.md T3" lead nowhere: a page has no numbered sections.
 """
 import re
-import sys
 
-from links import Checkout, anchors_of, line_of, self_test
+from links import Checkout, anchors_of, line_of, main
 
 SOURCES = (".h", ".cpp", ".in", ".cmake", ".txt", ".py", ".sh", ".mjs", ".ts", ".css", ".html", ".rc", "Makefile")
 OWN = ("tests/docs/citations.py", "tests/docs/links.py", "tests/docs/names.py")  # they show what they look for
@@ -79,17 +78,5 @@ BAD = (
 )
 
 
-def main(action, *arguments):
-    if action == "self-test":
-        self_test("citations", findings_of, GOOD, 8, BAD)
-        return
-    findings, citations = findings_of(arguments[0])
-    for finding in findings:
-        print(finding)
-    print(f"citations: {citations} in comments, {len(findings)} findings")
-    if findings or citations < 50:
-        raise SystemExit(1)
-
-
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main("citations", findings_of, GOOD, 8, BAD, "in comments", 50)

@@ -266,17 +266,18 @@ def self_test(name, findings_of, good, count, bad):
     print(f"{name}: {len(bad)} faults noticed")
 
 
-def main(action, *arguments):
-    if action == "self-test":
-        self_test("links", findings_of, GOOD, 4, BAD)
+def main(name, findings_of, good, count, bad, counted, least):
+    """What the command line asks of a test of documents: its self-test, or the findings in a checkout, which has at least so many `counted`."""
+    if sys.argv[1] == "self-test":
+        self_test(name, findings_of, good, count, bad)
         return
-    findings, documents = findings_of(arguments[0])
+    findings, number = findings_of(sys.argv[2])
     for finding in findings:
         print(finding)
-    print(f"links: {documents} documents, {len(findings)} findings")
-    if findings or documents < 10:
+    print(f"{name}: {number} {counted}, {len(findings)} findings")
+    if findings or number < least:
         raise SystemExit(1)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main("links", findings_of, GOOD, 4, BAD, "documents", 10)

@@ -9,9 +9,8 @@ docs/decisions/README.md under its number, with its title.
 """
 import ast
 import re
-import sys
 
-from links import Checkout, line_of, self_test
+from links import Checkout, line_of, main
 
 TYPE = re.compile(r"^(?:template <[^\n]*>\n?)?(?:class|struct|enum class|concept|using) (?!std::)(\w+)(?=[^;\n:]*[{=]|[^;\n]* : )", re.M)
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]*\d*|[a-z]+")
@@ -103,17 +102,5 @@ BAD = (
 )
 
 
-def main(action, *arguments):
-    if action == "self-test":
-        self_test("names", findings_of, GOOD, 3, BAD)
-        return
-    findings, types = findings_of(arguments[0])
-    for finding in findings:
-        print(finding)
-    print(f"names: {types} public types, {len(findings)} findings")
-    if findings or types < 50:
-        raise SystemExit(1)
-
-
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main("names", findings_of, GOOD, 3, BAD, "public types", 50)

@@ -7,9 +7,8 @@ No string in src/ or include/ holds "--option", "-o" or "isoatlas VERB", a verb 
 that may, and why. docs/cli.md#reasons has one line for each value of Reason in include/isoatlas/error.h.
 """
 import re
-import sys
 
-from links import Checkout, line_of, self_test
+from links import Checkout, line_of, main
 
 LITERAL = re.compile(r"//[^\n]*|/\*.*?\*/|#include[^\n]*|R\"(\w*)\((.*?)\)\1\"|\"((?:[^\"\\\n]|\\.)*)\"|'(?:[^'\\\n]|\\.)+'", re.S)
 OPTION = r"(?<![\w<!-])--[a-z][\w-]*|(?<![\w\"'-])-[a-z](?![\w-])"
@@ -91,17 +90,5 @@ BAD = [
 ]
 
 
-def main(action, *arguments):
-    if action == "self-test":
-        self_test("options", findings_of, GOOD, 6, BAD)
-        return
-    findings, count = findings_of(arguments[0])
-    for finding in findings:
-        print(finding)
-    print(f"options: {count} strings and reasons, {len(findings)} findings")
-    if findings or count < 2000:
-        raise SystemExit(1)
-
-
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main("options", findings_of, GOOD, 6, BAD, "strings and reasons", 2000)

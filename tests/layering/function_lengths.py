@@ -10,6 +10,8 @@ import re
 import sys
 from pathlib import Path
 
+from layering import sources_of
+
 MAX_LINES = 60
 SCOPE = re.compile(r"(template <.*> )?(inline |extern )*(namespace|class|struct|enum|union|extern|concept)\b(?!.*\) (const |noexcept )*\{)")
 
@@ -43,15 +45,15 @@ def functions_of(text):
 
 def check(root):
     count, findings = 0, 0
-    for folder in ("src", "include", "apps"):
-        for path in sorted((root / folder).rglob("*")):
-            if path.suffix not in (".h", ".cpp"):
-                continue
-            for line, length in functions_of(path.read_text(encoding="utf-8")):
-                count += 1
-                if length > MAX_LINES:
-                    findings += 1
-                    print(f"{path.relative_to(root).as_posix()}:{line}: a function of {length} lines; at most {MAX_LINES}")
+    for path in sources_of(root):
+        name = path.relative_to(root).as_posix()
+        if not name.startswith(("src/", "include/", "apps/")):
+            continue
+        for line, length in functions_of(path.read_text(encoding="utf-8")):
+            count += 1
+            if length > MAX_LINES:
+                findings += 1
+                print(f"{name}:{line}: a function of {length} lines; at most {MAX_LINES}")
     print(f"function lengths: {count} functions, {findings} too long")
     return 1 if findings or count < 1000 else 0
 

@@ -43,10 +43,12 @@ struct Scene {
     BrickGrid grid;
     std::vector<bool> is_high;  ///< per voxel
 
-    [[nodiscard]] bool at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    [[nodiscard]] bool contains(std::int64_t x, std::int64_t y, std::int64_t z) const {
         const Index3& size = grid.extent.size;
-        const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
-        return inside && is_high[static_cast<std::size_t>(grid.extent.index(x, y, z))];
+        return x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
+    }
+    [[nodiscard]] bool at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return contains(x, y, z) && is_high[static_cast<std::size_t>(grid.extent.index(x, y, z))];
     }
 };
 
@@ -62,8 +64,6 @@ Scene arbitrary_scene() {
     return scene;
 }
 
-Index3 clamped(const Index3& at, const Extent& extent) { return max(Index3{}, min(at, extent.size - Index3{1, 1, 1})); }
-
 /// As bricks/brick_surroundings.h says in words, sample by sample. In an image nothing lies before or behind it. What lies outside the
 /// volume is reached by one step only: normals at its border are those of the border and read no samples.
 bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
@@ -78,10 +78,8 @@ bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
                     steps += away;
                     furthest = std::max(furthest, away);
                 }
-                const bool inside = clamped(at, scene.grid.extent) == at;
-                if ((inside && steps <= 2) || furthest <= 1) {
-                    if (scene.at(x, y, z) != own) return true;
-                }
+                const bool is_near = furthest <= 1 || (steps <= 2 && scene.contains(x, y, z));
+                if (is_near && scene.at(x, y, z) != own) return true;
             }
         }
     }
