@@ -13,6 +13,7 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/phase.h"
+#include "base/streamed.h"
 #include "census/level_census.h"
 #include "codec/checksum.h"
 #include "field/gaussian.h"
@@ -46,10 +47,7 @@ Context shifted(const Context& context, int by, const Extent& extent) {
 std::uint64_t checksum_of(std::span<const std::byte> samples) {
     constexpr std::size_t kPart = std::size_t{1} << 22;
     Checksum sum;
-    for (std::size_t first = 0; first < samples.size(); first += kPart) {
-        sum.add(samples.subspan(first, std::min(kPart, samples.size() - first)));
-        check_memory();
-    }
+    for (const Block block : streamed_blocks(samples.size(), kPart)) sum.add(samples.subspan(block.first, block.size()));
     return sum.sum();
 }
 
@@ -91,10 +89,9 @@ double range_of(const VolumeView& volume) {
     return visit_samples(volume, []<class T>(std::span<const T> samples) {
         constexpr std::size_t kPart = std::size_t{1} << 20;
         T low = samples[0], high = samples[0];
-        for (std::size_t first = 0; first < samples.size(); first += kPart) {
-            const auto [min, max] = std::ranges::minmax(samples.subspan(first, std::min(kPart, samples.size() - first)));
+        for (const Block block : streamed_blocks(samples.size(), kPart)) {
+            const auto [min, max] = std::ranges::minmax(samples.subspan(block.first, block.size()));
             low = std::min(low, min), high = std::max(high, max);
-            check_memory();
         }
         return static_cast<double>(high) - static_cast<double>(low);
     });

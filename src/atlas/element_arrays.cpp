@@ -7,8 +7,8 @@
 
 #include "atlas/element_form.h"
 #include "base/cancel.h"
-#include "base/memory_limit.h"
 #include "base/parallel_sort.h"
+#include "base/streamed.h"
 #include "critical/bodies.h"
 #include "critical/element_values.h"
 #include "critical/sort_codes.h"
@@ -53,12 +53,11 @@ constexpr ElementForm element_of(std::uint64_t key) {
 BigVector<std::uint64_t> sorted_grid_keys(std::span<const std::uint64_t> codes, int threads) {
     constexpr std::size_t kKeys = std::size_t{1} << 18;  // of a chunk: large enough to be released when memory is short
     std::vector<BigVector<std::uint64_t>> chunks((codes.size() + kKeys - 1) / kKeys);
-    for (std::size_t c = 0; c < chunks.size(); ++c) {
-        const auto some = codes.subspan(c * kKeys, std::min(kKeys, codes.size() - c * kKeys));
-        chunks[c].resize(some.size());
-        std::transform(some.begin(), some.end(), chunks[c].begin(),
-                       [](std::uint64_t code) { return grid_key(form_of(ElementCode{code})); });
-        check_memory();
+    for (const Block block : streamed_blocks(codes.size(), kKeys)) {
+        const auto some = codes.subspan(block.first, block.size());
+        BigVector<std::uint64_t>& chunk = chunks[block.first / kKeys];
+        chunk.resize(some.size());
+        std::transform(some.begin(), some.end(), chunk.begin(), [](std::uint64_t code) { return grid_key(form_of(ElementCode{code})); });
     }
     BigVector<std::uint64_t> keys;
     sort_chunks(

@@ -54,6 +54,39 @@ private:
     bool down_;
 };
 
+/// Consecutive numbers first .. end - 1.
+struct Block {
+    std::size_t first, end;
+    [[nodiscard]] std::size_t size() const { return end - first; }
+};
+
+/// for (const Block block : streamed_blocks(n, 4096)): 0 .. n - 1 in parts of at most so many numbers; the budget is enforced after each.
+class StreamedBlocks {
+public:
+    class End {};
+    class Iterator {
+    public:
+        Iterator(std::size_t count, std::size_t size) : count_(count), size_(size) {}
+        [[nodiscard]] Block operator*() const { return {at_, std::min(at_ + size_, count_)}; }
+        Iterator& operator++() {
+            at_ = std::min(at_ + size_, count_);
+            check_memory();
+            return *this;
+        }
+        [[nodiscard]] friend bool operator==(const Iterator& it, End) { return it.at_ == it.count_; }
+
+    private:
+        std::size_t at_ = 0, count_, size_;
+    };
+    StreamedBlocks(std::size_t count, std::size_t size) : count_(count), size_(size) {}
+    [[nodiscard]] Iterator begin() const { return {count_, size_}; }
+    [[nodiscard]] End end() const { return {}; }
+
+private:
+    std::size_t count_, size_;
+};
+[[nodiscard]] inline StreamedBlocks streamed_blocks(std::size_t count, std::size_t size) { return {count, size}; }
+
 /// Many paths through large arrays, which share one look at the budget:
 ///     StreamedPaths paths(at_random());
 ///     for (const EventId e : paths.from(leaf, [&](EventId at) { return at == root ? EventId::none() : parent[at]; }))

@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "base/memory_limit.h"
+#include "base/streamed.h"
 
 namespace isoatlas {
 namespace {
@@ -51,8 +51,8 @@ void Basins<Number>::point(Slab slab, Number& next) {
     const std::array<std::int64_t, 6> step{-1, 1, -nx, nx, -slice, slice};
     const bool down = direction_ == Direction::down, is_3d = extent_.rank == 3;
     const std::uint8_t flip = down ? (is_3d ? 0b111111 : 0b001111) : 0;
-    for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-        check_memory();
+    for (const Block slice_block : streamed_blocks(slab.z_end - slab.z_begin, 1)) {
+        const std::int64_t z = slab.z_begin + static_cast<std::int64_t>(slice_block.first);
         const std::uint8_t known = z > slab.z_begin ? 0b010101 : 0b000101;  // neighbours with an entry in this slab
         for (std::int64_t y = 0; y < ny; ++y) {
             const std::int64_t row = nx * (y + ny * z);
@@ -93,10 +93,9 @@ template <class Number>
 void Basins<Number>::exits() {
     std::vector<std::int64_t> path;
     const std::int64_t slice = extent_.slice();
-    for (std::int64_t begin = 0; begin < extent_.size[2]; begin += height_) {
-        const Slab slab = slab_at(begin / height_, height_, extent_.size[2]);
+    for (const Block depth : streamed_blocks(extent_.size[2], height_)) {
+        const Slab slab = slab_at(static_cast<std::int64_t>(depth.first) / height_, height_, extent_.size[2]);
         for (const std::int64_t z : {slab.z_begin, slab.z_end - 1}) {
-            check_memory();
             for (std::int64_t v = z * slice; v < (z + 1) * slice; ++v) compress(v, 0, extent_.voxels(), path);
         }
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/memory_limit.h"
 #include "base/paced_fill.h"
 #include "base/parallel.h"
 #include "base/part_streams.h"
@@ -54,9 +53,8 @@ void add_minima(ChunksWithExtrema<Number>& chunks, const RepresentativeLookup<Nu
                 IdSpan<MinimumIdOf<Number>, const MinimumIdOf<Number>> number, int threads) {
     for_each_block(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t c) {
         constexpr std::size_t kPiece = std::size_t{1} << 12;
-        for (std::size_t first = 0; first < chunks[c].size(); first += kPiece, check_memory()) {
-            const std::size_t count = std::min(kPiece, chunks[c].size() - first);
-            change_part(std::span(chunks[c]).subspan(first, count), [&](std::span<ElementWithExtrema<Number>> piece) {
+        for (const Block block : streamed_blocks(chunks[c].size(), kPiece)) {
+            change_part(std::span(chunks[c]).subspan(block.first, block.size()), [&](std::span<ElementWithExtrema<Number>> piece) {
                 for (auto& element : piece) element.representatives.below = renumbered(leads.below(element.key.code), number);
             });
         }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/sample_types.h"
+#include "base/streamed.h"
 #include "critical/elements_with_extrema.h"
 #include "critical/grid_scan.h"
 
@@ -16,9 +16,9 @@ namespace {
 template <class Visit>
 void for_maxima(std::span<const std::uint8_t> links, const Visit& visit) {
     constexpr std::size_t kBlock = std::size_t{1} << 18;
-    for (std::size_t first = 0; first < links.size(); first += kBlock, check_memory()) {
-        const auto end = links.begin() + static_cast<std::ptrdiff_t>(std::min(first + kBlock, links.size()));
-        auto at = links.begin() + static_cast<std::ptrdiff_t>(first);
+    for (const Block block : streamed_blocks(links.size(), kBlock)) {
+        const auto end = links.begin() + static_cast<std::ptrdiff_t>(block.end);
+        auto at = links.begin() + static_cast<std::ptrdiff_t>(block.first);
         for (; (at = std::find(at, end, std::uint8_t{0})) != end; ++at) visit(at - links.begin());
     }
 }

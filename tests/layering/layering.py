@@ -83,7 +83,7 @@ FORBIDDEN_IN_SOURCE = {
     r"\b(rand|srand|random_device)\s*\(": "results are the same on every run",
 }
 # what no line of a room behind base may contain
-FORBIDDEN_BEHIND_BASE = {r"\bBudgetPoll\b": "loops over large arrays are those of base/streamed.h"}
+FORBIDDEN_BEHIND_BASE = {r"\b(BudgetPoll|check_memory)\b": "loops over large arrays are those of base/streamed.h"}
 LATER = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "XX" + "X", "HA" + "CK"]) + r")\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
@@ -309,6 +309,7 @@ SNIPPETS = [
     ("src/tree/a.cpp", "static_assert(sizeof(int) == 4);\n", 0),
     ("src/tree/a.cpp", "#include <mutex>\n", 1),
     ("src/tree/a.cpp", "BudgetPoll memory;\n", 1),
+    ("src/tree/a.cpp", "check_memory();\n", 1),
     ("src/base/a.h", "BudgetPoll memory;\n", 0),
     ("src/tree/a.cpp", "std::thread worker(run);\n", 1),
     ("src/tree/a.cpp", '// never std::cout or exit(1) here\nconst char* s = "abort()";\n', 0),
