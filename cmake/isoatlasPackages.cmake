@@ -37,6 +37,8 @@ macro(isoatlas_find_packages library)
   elseif("${library}" STREQUAL store)
     isoatlas_import(hdf5 hdf5.h hdf5_serial hdf5)  # FindHDF5 needs a C compiler
     isoatlas_import(deflate libdeflate.h deflate)
+  elseif("${library}" STREQUAL measures)
+    isoatlas_import(qhull libqhull_r/qhull_ra.h qhull_r)
   elseif("${library}" STREQUAL render)
     isoatlas_import(embree embree3/rtcore.h embree3)  # its own package file has to be told where TBB is
     isoatlas_import(webp webp/decode.h webp)

@@ -19,6 +19,7 @@ demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
+demo|libqhull-dev|convex hulls of objects, for their diameters
 demo|libembree-dev|ray tracing of pictures
 demo|libwebp-dev|WebP pictures
 demo|libboost-dev|the server of the viewer, integers of any size (headers only)

@@ -11,6 +11,7 @@ program_of() {
         zones | analysis | persistence) echo theorems_trees ;;
         formats*) echo unit_formats ;;
         codec | store | bricks | census | atlas) echo unit_store ;;
+        measures) echo unit_measures ;;
         image | render) echo unit_render ;;
         catalogue | page | server) echo unit_server ;;
         phantom | verify) echo unit_checks ;;

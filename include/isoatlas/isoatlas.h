@@ -36,6 +36,7 @@
 #include "isoatlas/interpolant.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/locate.h"
+#include "isoatlas/measures.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/output.h"

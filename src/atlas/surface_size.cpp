@@ -58,31 +58,4 @@ SurfaceSize size_of_surface(const Surface& surface, const Context& context) {
     return size;
 }
 
-std::vector<ObjectSize> sizes_of_objects(const Surface& surface) {
-    std::vector<std::int64_t> ids(surface.object.begin(), surface.object.end());
-    std::ranges::sort(ids);
-    ids.erase(std::ranges::unique(ids).begin(), ids.end());
-    const auto place = [&](std::size_t point) {
-        return static_cast<std::size_t>(std::ranges::lower_bound(ids, surface.object[point]) - ids.begin());
-    };
-    std::vector<ObjectSize> sizes(ids.size());
-    std::vector<const Point*> first(ids.size());  // centre near the object, for a precise volume
-    for (std::size_t i = 0; i < surface.points.size(); ++i) {
-        const Point& point = surface.points[i];
-        ObjectSize& size = sizes[place(i)];
-        const bool is_first = first[place(i)] == nullptr;
-        if (is_first) first[place(i)] = &point, size.object = surface.object[i], size.low = size.high = point;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            size.low[axis] = std::min(size.low[axis], point[axis]);
-            size.high[axis] = std::max(size.high[axis], point[axis]);
-        }
-    }
-    for (const std::array<std::int64_t, 3>& triangle : surface.triangles) {
-        const std::size_t object = place(static_cast<std::size_t>(triangle[0]));
-        const SurfaceSize one = size_of(surface, triangle, *first[object]);
-        sizes[object].area += one.area, sizes[object].measure += one.measure, ++sizes[object].triangles;
-    }
-    return sizes;
-}
-
 }  // namespace isoatlas

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
-#include "atlas/surface_size.h"
 #include "page/page_json.h"
 #include "page/web_colour.h"
 #include "server/document.h"
@@ -76,17 +74,21 @@ std::string active_json(const ActiveObjects& active, double tau, std::int64_t to
     });
 }
 
-std::string measures_json(const Surface& surface, const ActiveObjects& active, double tau) {
-    std::map<std::int64_t, const ActiveObject*> topology;
-    for (const ActiveObject& object : active.objects) topology[object.id] = &object;
+std::string measures_json(const VolumeInfo& info, std::span<const ObjectMeasures> objects, double tau) {
     return document("measures", [&](JsonStream& json) {
-        json.key("tau").value(tau).key("unit").value(surface.unit).key("objects").begin_array();
-        for (const ObjectSize& size : sizes_of_objects(surface)) {
-            const ActiveObject& object = *topology.at(size.object);
-            json.line().begin_object().key("id").value(size.object).key("area").value(size.area).key("volume").value(size.measure);
-            json.key("tunnels").value(object.b1).key("cavities").value(object.b2).key("triangles").value(size.triangles);
-            put_bounds(json, "voxels", {object.min_voxels, object.max_voxels});
-            json.key("box").begin_array().value(size.low).value(size.high).end_array().end_object();
+        json.key("tau").value(tau).key("unit").value(info.geometry.unit).key("objects").begin_array();
+        for (const ObjectMeasures& object : objects) {
+            json.line().begin_object().key("id").value(object.id).key("area").value(object.area).key("volume").value(object.volume);
+            json.key("tunnels").value(object.tunnels).key("cavities").value(object.cavities).key("triangles").value(object.facets);
+            put_bounds(json, "voxels", {object.voxels, object.voxels});
+            json.key("box").begin_array().value(object.bounds[0]).value(object.bounds[1]).end_array();
+            const ValueStatistics& values = object.values;
+            json.key("values").begin_object().key("mean").value(values.mean).key("min").value(values.min).key("max").value(values.max);
+            json.key("sum").value(values.sum).key("deviation").value(values.deviation).end_object();
+            json.key("sphericity").value(object.sphericity).key("feret").begin_object().key("max").value(object.feret.max);
+            json.key("min").value(object.feret.min).key("mean").value(object.feret.mean).end_object();
+            json.key("centroid").value(object.centroid).key("axes").value(object.axes.length);
+            json.key("touches_border").value(object.touches_border).end_object();
         }
         json.end_array();
     });

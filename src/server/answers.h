@@ -10,6 +10,7 @@
 #include "catalogue/page_contents.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/error.h"
+#include "isoatlas/measures.h"
 #include "isoatlas/render.h"
 #include "server/job_queues.h"
 #include "server/store_state.h"
@@ -26,8 +27,7 @@ struct NamedObject {
 [[nodiscard]] std::string preview_json(const SurfacePreview& preview, double tau, const NamedObject& named);
 /// The first `top` objects.
 [[nodiscard]] std::string active_json(const ActiveObjects& active, double tau, std::int64_t top);
-/// Measures of the objects of a closed surface with ids. active: the objects at its isovalue.
-[[nodiscard]] std::string measures_json(const Surface& surface, const ActiveObjects& active, double tau);
+[[nodiscard]] std::string measures_json(const VolumeInfo& info, std::span<const ObjectMeasures> objects, double tau);
 
 /// A sample, and the objects that contain it.
 struct AtVoxel {

@@ -214,11 +214,8 @@ Response Service::measures_answer(const Request& request) {
     if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
     (void)known(request);  // loads the trees
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
-    SurfaceOptions options;
-    options.objects = objects;
-    options.normals = false;
-    const Surface surface = extract(stored_tau(atlas, tau), options, context_of(*job));
-    return json_answer(measures_json(surface, atlas.active(surface.tau, false, context_of(*job)), tau));
+    const AtlasMeasureOptions options{.objects = objects, .max_triangles = max_triangles()};
+    return json_answer(measures_json(atlas.info(), measure_objects(atlas, stored_tau(atlas, tau), options, context_of(*job)), tau));
 }
 
 Response Service::branches_answer(const Request& request) {
@@ -333,8 +330,10 @@ Context Service::context_of(JobQueue::Job& job) const {
     return context;
 }
 
+std::int64_t Service::max_triangles() const { return std::min(memory_ / kTriangleBytes, kMaxTriangles); }
+
 Surface Service::extract(double tau, SurfaceOptions options, const Context& context) const {
-    options.max_triangles = std::min(memory_ / kTriangleBytes, kMaxTriangles);
+    options.max_triangles = max_triangles();
     return atlas().extract(tau, options, context);
 }
 

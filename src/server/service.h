@@ -80,6 +80,7 @@ private:
     [[nodiscard]] Context context_of(JobQueue::Job& job) const;
     /// Throws where a response would exceed its memory budget.
     [[nodiscard]] Surface extract(double tau, SurfaceOptions options, const Context& context) const;
+    [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
     /// Is it the first surface of every page?
     [[nodiscard]] bool is_first(double tau, const SurfaceOptions& options, std::int64_t max) const;

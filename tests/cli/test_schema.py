@@ -36,6 +36,8 @@ class Schemas(harness.CliTest):
             self.check("objects", "objects", file, "--keep", "3")
             self.check("simplified-tree", "tree", file, "--top", "50%")
             self.check("objects-at", "objects", file, "--tau", "7")
+            self.check("measure", "measure", file)
+            self.check("measure", "measure", file, "--tau", "7", "--no-percolation")
             self.check("extract", "extract", file, "--tau", "7", "-o", "x.ply")
             self.check("extract", "extract", file, "--best", "--style", "full", "--boundary", "open", "-o", "x.stl")
             self.check("label", "label", file, "--tau", "7", "-o", "x.nrrd")

@@ -131,6 +131,17 @@ Spectrum Source::spectrum(const SpectrumOptions& options) {
     return isoatlas::spectrum(volume(), analysis(true), options, context());
 }
 
+std::vector<ObjectMeasures> Source::measure(double tau, const std::vector<std::int64_t>& objects) {
+    if (atlas_ && !arguments_.voxel_units) return measure_objects(*atlas_, tau, {.objects = objects}, context(), &cost_);
+    return measure_objects(volume(), tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .objects = objects}, context());
+}
+
+std::vector<std::int64_t> Source::samples_below(const std::vector<double>& taus) {
+    return volume_ ? isoatlas::samples_below(*volume_, taus, context()) : isoatlas::samples_below(*atlas_, taus, context());
+}
+
+Percolation Source::percolation() { return isoatlas::percolation(volume(), analysis_options(), context()); }
+
 Analysis Source::analysis(bool with_zones) {
     if (atlas_ && !with_zones) return atlas_->analysis();
     return analyse(volume(), analysis_options(), context());

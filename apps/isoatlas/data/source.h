@@ -49,6 +49,10 @@ public:
     /// The selection of the command line, in stored values.
     [[nodiscard]] Selection selection();
     [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);
+    /// The objects at an isovalue, or those that contain one of these voxels.
+    [[nodiscard]] std::vector<ObjectMeasures> measure(double tau, const std::vector<std::int64_t>& objects);
+    [[nodiscard]] std::vector<std::int64_t> samples_below(const std::vector<double>& taus);
+    [[nodiscard]] Percolation percolation();
     /// The trees. with_zones: zone(voxel) is needed.
     [[nodiscard]] Analysis analysis(bool with_zones);
     /// All samples.

@@ -41,7 +41,8 @@ struct Arguments {
     // Selection
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<std::int64_t> objects, contours;
-    bool exact = false;  ///< handles: exact pairs
+    bool exact = false;           ///< handles: exact pairs
+    bool no_percolation = false;  ///< measure: leave it out
     bool best = false, all = false, zones = false, list = false, cavities = false, both = false;
     std::int64_t top = 0;  ///< 0: not given
     Selection selection;   ///< as typed: reported units

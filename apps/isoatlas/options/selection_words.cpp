@@ -9,7 +9,7 @@ namespace {
 /// --top N limits lines, --top P% selects objects: `tree` has no lines, `handles` has no objects.
 void take_top(const std::string& word, Arguments& arguments) {
     const bool is_part = word.ends_with('%');
-    if (!is_part && (arguments.verb != "objects" && arguments.verb != "handles")) {
+    if (!is_part && (arguments.verb != "objects" && arguments.verb != "measure" && arguments.verb != "handles")) {
         throw Error(ErrorKind::usage, {.what = "--top requires a percent sign here",
                                        .next = "--top 5% keeps a part of all objects, --keep N keeps N objects"});
     }

@@ -56,6 +56,16 @@ void objects_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_flag("--both", arguments.both, "Objects and cavities")->excludes(cavities);
 }
 
+void measure_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_tau(app, typed, "Measure every object at this isovalue");
+    app.add_option("--top", typed.selection.top,
+                   "At most N objects (without --tau: 24); with a percent sign: keep the first P percent of all objects")
+        ->type_name("N|P%");
+    add_selection(app, typed.selection, false);
+    app.add_flag("--no-percolation", arguments.no_percolation, "Do not look for the isovalues at which a phase percolates");
+    add_output(app, arguments, ".csv", false);
+}
+
 void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_tau(app, typed, "Isovalue; default: the best isovalue of the object");
     add_number(app, "--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
@@ -202,11 +212,11 @@ void add_interpolant(CLI::App& app, Typed& typed) {
 void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments, Typed& typed) {
     using Add = void (*)(CLI::App&, Arguments&, Typed&);
     static const std::map<std::string_view, Add> list{
-        {"tree", tree_options},         {"info", info_options},         {"objects", objects_options}, {"extract", extract_options},
-        {"render", render_options},     {"animate", animate_options},   {"label", label_options},     {"build", build_options},
-        {"atlas", atlas_options},       {"view", view_options},         {"ask", ask_options},         {"handles", handles_options},
-        {"spectrum", spectrum_options}, {"table131", table131_options}, {"convert", convert_options}, {"phantom", phantom_options},
-        {"verify", verify_options},
+        {"tree", tree_options},       {"info", info_options},         {"objects", objects_options},   {"measure", measure_options},
+        {"extract", extract_options}, {"render", render_options},     {"animate", animate_options},   {"label", label_options},
+        {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},         {"ask", ask_options},
+        {"handles", handles_options}, {"spectrum", spectrum_options}, {"table131", table131_options}, {"convert", convert_options},
+        {"phantom", phantom_options}, {"verify", verify_options},
     };
     if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
 }

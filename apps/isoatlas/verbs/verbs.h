@@ -16,6 +16,7 @@ int run_view(const Arguments& arguments, Terminal& terminal);
 int run_info(const Arguments& arguments, Terminal& terminal);
 int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);
+int run_measure(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);

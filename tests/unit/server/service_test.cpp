@@ -268,6 +268,10 @@ TEST_F(ServiceTest, MeasuresAreThoseOfTheSurface) {
     }
     EXPECT_NEAR(object["volume"].get<double>(), cut.objects[0].measure, 0.2 * cut.objects[0].measure);
     EXPECT_GT(object["area"].get<double>(), 0);
+    EXPECT_EQ(object["voxels"][0], cut.objects[0].voxels);
+    EXPECT_GE(object["values"]["min"].get<double>(), 0.5);
+    EXPECT_GE(object["feret"]["max"].get<double>(), object["feret"]["min"].get<double>());
+    EXPECT_LE(object["sphericity"].get<double>(), 1);
 }
 
 TEST_F(ServiceTest, WithoutAStoreItSaysHowFarItIs) {

@@ -34,7 +34,12 @@ export function area(measure: number, unit: string | null): string {
   return unit === null ? plural(Math.round(measure), "voxel face") : powerOf(measure, unit, 2);
 }
 
-function powerOf(measure: number, unit: string, power: 2 | 3): string {
+/** A length in the unit; null: in voxels. */
+export function length(measure: number, unit: string | null): string {
+  return unit === null ? plural(Number(measure.toPrecision(3)), "voxel") : powerOf(measure, unit, 1);
+}
+
+function powerOf(measure: number, unit: string, power: 1 | 2 | 3): string {
   let name = unit;
   let size = measure;
   for (const [larger, factor] of ladders[unit] ?? []) {
@@ -43,5 +48,5 @@ function powerOf(measure: number, unit: string, power: 2 | 3): string {
     name = larger;
   }
   const digits = Number(size.toPrecision(3));
-  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}${power === 3 ? "³" : "²"}`;
+  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}${["", "²", "³"][power - 1]}`;
 }

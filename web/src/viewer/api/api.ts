@@ -34,6 +34,12 @@ export interface ObjectAtIsovalue {
 export interface Measures extends ObjectAtIsovalue {
   area: number;
   volume: number;
+  sphericity: number;
+  /** null: flat within rounding */
+  feret: { max: number | null; min: number | null; mean: number | null };
+  values: { mean: number; min: number; max: number; sum: number; deviation: number };
+  /** the volume ends before the object does */
+  touches_border: boolean;
 }
 
 /** between polls for pending requests, in milliseconds */

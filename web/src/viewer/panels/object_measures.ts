@@ -1,5 +1,5 @@
 // Measures of an object at its current isovalue, computed by the server.
-import { area, count, plural, value, volume } from "../../shared/format";
+import { area, count, length, plural, value, volume } from "../../shared/format";
 import { entryOf, type Page } from "../../shared/page";
 import { isSuperseded, type Measures } from "../api/api";
 import type { ViewerContext } from "../context/viewer_context";
@@ -29,8 +29,16 @@ export function factsOf(there: Measures, id: number, tau: number, unit: string |
   return [
     [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit)}`],
     ["area", area(there.area, unit)],
+    ["diameters", diametersOf(there, unit)],
+    ["sphericity", value(there.sphericity)],
+    ["values", `mean ${value(there.values.mean)}, ${value(there.values.min)} to ${value(there.values.max)}`],
     ["topology", `${plural(there.tunnels, "tunnel")}, ${plural(there.cavities, "cavity", "cavities")}`],
   ];
+}
+
+/** Largest and smallest distance of two parallel planes that touch the object. */
+function diametersOf({ feret }: Measures, unit: string | null): string {
+  return [feret.max, feret.min].map((one) => (one === null ? "flat" : length(one, unit))).join(" by ");
 }
 
 /** relative width below which a range of voxels is shown */

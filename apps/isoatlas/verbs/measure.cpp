@@ -1,0 +1,207 @@
+// isoatlas measure: sizes, shapes and values of objects; porosity, percolation and distribution of sizes of a volume.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/document.h"
+#include "text/interrupt.h"
+#include "text/measures_json.h"
+#include "text/sizes.h"
+#include "text/table.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr std::int64_t kDefaultTop = 24;
+
+/// What is printed: the objects in the order of the table, or of one isovalue.
+struct Measured {
+    std::optional<double> tau;  ///< stored; none: each object at its best isovalue
+    std::vector<ObjectMeasures> objects;
+    std::vector<std::string> notes;  ///< of the objects of the table
+    std::vector<double> isovalues;   ///< stored, of the porosity
+    std::vector<std::int64_t> below;
+    std::int64_t below_tau = 0;
+    std::optional<Percolation> percolation;
+};
+
+/// The objects of the table, all those of one isovalue together.
+void measure_table(const Arguments& arguments, Source& source, Measured& measured) {
+    RankOptions options{.top = arguments.top > 0 ? arguments.top : kDefaultTop};
+    if (arguments.selects) {
+        options.selection = source.selection();
+        if (arguments.top == 0) options.top = 0;
+    }
+    const ObjectTable table = source.objects(options);
+    std::map<double, std::vector<std::int64_t>> at;
+    for (const ObjectEntry& entry : table.entries) at[entry.best_tau].push_back(entry.id);
+    std::map<std::pair<double, std::int64_t>, ObjectMeasures> found;
+    for (const auto& [tau, ids] : at) {
+        for (const ObjectMeasures& object : source.measure(tau, ids)) found[{tau, object.id}] = object;
+    }
+    for (const ObjectEntry& entry : table.entries) {
+        measured.objects.push_back(found.at({entry.best_tau, entry.id}));
+        measured.notes.push_back(entry.note);
+    }
+}
+
+/// Isovalues of the curve of porosity: every integer where there are few, else as many even steps.
+std::vector<double> isovalues_over(const ValueRange& range, ValueType type) {
+    constexpr int kSteps = 256;
+    std::vector<double> taus;
+    const bool each = !is_floating(type) && range.high - range.low < kSteps;
+    const double step = each ? 1 : (range.high - range.low) / kSteps;
+    if (!(step > 0)) return {range.low};
+    for (int i = 0; i <= kSteps && range.low + i * step <= range.high; ++i) taus.push_back(range.low + i * step);
+    return taus;
+}
+
+void measure_volume(const Arguments& arguments, Source& source, Measured& measured) {
+    measured.isovalues = isovalues_over(source.range(), source.info().type);
+    measured.below = source.samples_below(measured.isovalues);
+    if (measured.tau) measured.below_tau = source.samples_below({*measured.tau})[0];
+    if (!arguments.no_percolation) measured.percolation = source.percolation();
+}
+
+// JSON
+
+void print_json(Terminal& terminal, Source& source, const Measured& measured, std::int64_t shown) {
+    const VolumeInfo& info = source.info();
+    const Calibration& calibration = info.calibration;
+    Json head = document("measure", info, source.interpolant(), source.tunnel_height());
+    head["tau"] = measured.tau ? Json(calibration.reported(*measured.tau)) : Json(nullptr);
+    head["samples"] = info.extent.voxels();
+    head["below_tau"] = measured.tau ? Json(measured.below_tau) : Json(nullptr);
+    Json taus = Json::array();
+    for (const double tau : measured.isovalues) taus.push_back(calibration.reported(tau));
+    head["porosity"] = {{"tau", std::move(taus)}, {"below", measured.below}};
+    head["percolation"] = measured.percolation ? percolation_json(*measured.percolation, info) : Json(nullptr);
+    head["sizes"] = measured.tau ? sizes_json(size_distribution(measured.objects)) : Json(nullptr);
+    add_reads(head, source.reads());
+    print(terminal, head, "objects", shown, [&](std::int64_t i) {
+        Json json = measures_json(measured.objects[static_cast<std::size_t>(i)], info);
+        json["note"] = measured.notes.empty() ? "" : measured.notes[static_cast<std::size_t>(i)];
+        return json;
+    });
+}
+
+// Text
+
+std::string size_text(double size) {
+    if (!std::isfinite(size)) return "-";
+    return size < 1000 ? fmt::format("{:.4g}", size) : count_text(std::llround(size));
+}
+
+std::string with_unit(const std::string& title, const std::string& unit) { return unit.empty() ? title : title + " [" + unit + "]"; }
+
+std::string note_of(const Measured& measured, std::size_t i) {
+    std::string note = measured.notes.empty() ? "" : measured.notes[i];
+    if (measured.objects[i].touches_border) note += note.empty() ? "reaches the border" : ", reaches the border";
+    return note;
+}
+
+void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& measured, std::int64_t shown) {
+    const bool flat = info.extent.rank == 2;
+    const Scale scale(info);
+    double largest = 0;
+    for (const ObjectMeasures& object : measured.objects) largest = std::max(largest, object.volume);
+    const MeasureUnit unit = measure_unit(info, largest);
+    const std::string& length = info.geometry.unit;
+    std::vector<Table::Column> columns{{"#"}, {"id"}};
+    if (!measured.tau) columns.push_back({"tau"});
+    columns.push_back({with_unit(flat ? "area" : "volume", unit.name)});
+    columns.push_back({flat ? with_unit("length", length) : with_unit("area", length.empty() ? "" : length + "2")});
+    columns.push_back({with_unit("Feret", length)});
+    columns.push_back({"min"});
+    columns.push_back({flat ? "circularity" : "sphericity"});
+    columns.push_back({with_unit("mean", info.value_unit)});
+    columns.push_back({flat ? "holes" : "tunnels"});
+    if (!flat) columns.push_back({"cavities"});
+    columns.push_back({"note", true});
+    Table text(columns);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(shown); ++i) {
+        const ObjectMeasures& object = measured.objects[i];
+        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
+        if (!measured.tau) row.push_back(scale.brief(object.tau));
+        row.insert(row.end(), {size_text(object.volume * unit.factor), size_text(object.area), size_text(object.feret.max),
+                               size_text(object.feret.min), fmt::format("{:.3f}", object.sphericity), size_text(object.values.mean),
+                               object.tunnels == 0 ? "-" : count_text(object.tunnels)});
+        if (!flat) row.push_back(object.cavities == 0 ? "-" : count_text(object.cavities));
+        row.push_back(note_of(measured, i));
+        text.add(row);
+    }
+    text.print(terminal);
+}
+
+std::string along_axes(const Vec3& taus, const VolumeInfo& info) {
+    const Scale scale(info);
+    std::string text;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(info.extent.rank); ++axis)
+        text += fmt::format("{}{} along {}", axis > 0 ? ", " : "", scale.brief(taus[axis]), "xyz"[axis]);
+    return text;
+}
+
+void print_volume(Terminal& terminal, const VolumeInfo& info, const Measured& measured) {
+    if (measured.tau) {
+        const double percent = 100 * static_cast<double>(measured.below_tau) / static_cast<double>(info.extent.voxels());
+        terminal.out() << fmt::format("\nporosity: {:.4g} % of the samples are below {}\n", percent, Scale(info).brief(*measured.tau));
+        const SizeDistribution sizes = size_distribution(measured.objects);
+        const auto quantiles = [&](const SizeQuantiles& q) {
+            return fmt::format("{} (10 %), {} (50 %), {} (90 %)", size_text(q[0]), size_text(q[2]), size_text(q[4]));
+        };
+        terminal.out() << fmt::format("diameters{} of {}: {}; by volume {}\n",
+                                      info.geometry.unit.empty() ? "" : " in " + info.geometry.unit, counted(sizes.objects, "object"),
+                                      quantiles(sizes.by_number), quantiles(sizes.by_volume));
+    }
+    if (!measured.percolation) return;
+    terminal.out() << fmt::format("{}high values percolate up to {}\n", measured.tau ? "" : "\n",
+                                  along_axes(measured.percolation->high, info));
+    terminal.out() << fmt::format("low values percolate above {}\n", along_axes(measured.percolation->low, info));
+}
+
+}  // namespace
+
+int run_measure(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.tau && arguments.selects) {
+        throw Error(ErrorKind::usage, {.what = "a selection applies to the table of best isovalues, not to one isovalue",
+                                       .next = "omit --tau, or the selection"});
+    }
+    if (!arguments.output.empty()) check_output(arguments, {".csv"});
+    Source source(arguments, terminal);
+    Measured measured;
+    if (arguments.tau) {
+        measured.tau = source.tau();
+        measured.objects = source.measure(*measured.tau, {});
+    } else {
+        measure_table(arguments, source, measured);
+    }
+    measure_volume(arguments, source, measured);
+    stop_if_interrupted();
+    const auto all = static_cast<std::int64_t>(measured.objects.size());
+    if (!arguments.output.empty()) {
+        const WritingGuard guard;
+        write_measures(arguments.output, source.info(), measured.objects);
+    }
+    if (arguments.json) {
+        print_json(terminal, source, measured, measured.tau && arguments.top > 0 ? std::min(all, arguments.top) : all);
+        return 0;
+    }
+    const std::int64_t shown = measured.tau ? std::min(all, arguments.top > 0 ? arguments.top : kDefaultTop) : all;
+    print_objects(terminal, source.info(), measured, shown);
+    if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
+    print_volume(terminal, source.info(), measured);
+    if (arguments.output.empty()) {
+        const std::string tau = arguments.tau ? fmt::format(" --tau {}", *arguments.tau) : "";
+        terminal.next(fmt::format("isoatlas measure {}{}{} -o measures.csv    # all measures of all of them", shell_word(arguments.file),
+                                  reading_options(arguments), tau));
+    }
+    return 0;
+}
+
+}  // namespace isoatlas::cli
