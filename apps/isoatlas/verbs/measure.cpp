@@ -150,7 +150,8 @@ std::string along_axes(const Vec3& taus, const VolumeInfo& info) {
 void print_volume(Terminal& terminal, const VolumeInfo& info, const Measured& measured) {
     if (measured.tau) {
         const double percent = 100 * static_cast<double>(measured.below_tau) / static_cast<double>(info.extent.voxels());
-        terminal.out() << fmt::format("\nporosity: {:.4g} % of the samples are below {}\n", percent, Scale(info).brief(*measured.tau));
+        terminal.out() << fmt::format("\nporosity: {:.4g} % of the samples are below {}, {:.4g} % are not\n", percent,
+                                      Scale(info).brief(*measured.tau), 100 - percent);
         const SizeDistribution sizes = size_distribution(measured.objects);
         const auto quantiles = [&](const SizeQuantiles& q) {
             return fmt::format("{} (10 %), {} (50 %), {} (90 %)", size_text(q[0]), size_text(q[2]), size_text(q[4]));
