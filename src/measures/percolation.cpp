@@ -47,34 +47,32 @@ IdArray<EventId, double> reaching(const Volume& volume, const Analysis& analysis
     return from;
 }
 
-/// Integers: -1 - v, or max - v without a sign; reals: -v. The order of the values is reversed, exactly.
-template <class T>
-T reversed(T value) {
-    if constexpr (std::is_floating_point_v<T>) {
-        return -value;
-    } else {
-        return static_cast<T>(~value);
-    }
-}
+/// The samples in reversed order, exactly: integers as lowest + highest - v, which their type holds; reals as -v.
+struct ReversedSamples {
+    Volume volume;
+    double both = 0;  ///< lowest + highest; reals: 0
 
-Volume reversed_samples(const Volume& volume, const Context& context) {
-    Volume result;
-    result.info = volume.info;
-    result.bytes.resize(volume.bytes.size());
+    /// The value whose reversed one this is.
+    [[nodiscard]] double back(double value) const { return both - value; }
+};
+
+ReversedSamples reversed_samples(const Volume& volume, const Context& context) {
+    ReversedSamples result;
+    result.volume.info = volume.info;
+    result.volume.bytes.resize(volume.bytes.size());
     visit_type(volume.info.type, [&]<class T>(T) {
         const std::span<const T> from = volume.samples<T>();
-        const std::span<T> to = result.samples<T>();
-        for_each_index(context.threads, from.size(), [&](std::size_t i) { to[i] = reversed(from[i]); });
+        const std::span<T> to = result.volume.samples<T>();
+        if constexpr (std::is_floating_point_v<T>) {
+            for_each_index(context.threads, from.size(), [&](std::size_t i) { to[i] = -from[i]; });
+        } else {
+            const auto [low, high] = std::ranges::minmax(from);
+            const std::int64_t both = std::int64_t{low} + std::int64_t{high};
+            for_each_index(context.threads, from.size(), [&](std::size_t i) { to[i] = static_cast<T>(both - std::int64_t{from[i]}); });
+            result.both = static_cast<double>(both);
+        }
     });
     return result;
-}
-
-/// The value whose reversed one this is.
-double reversed_back(double value, ValueType type) {
-    return visit_type(type, [value]<class T>(T) {
-        if constexpr (std::is_floating_point_v<T>) return -value + 0.0;
-        return static_cast<double>(reversed(T{})) - value;
-    });
 }
 
 }  // namespace
@@ -105,9 +103,9 @@ Percolation percolation(const Volume& volume, const AnalysisOptions& options, co
     zoned.zones = true;
     Percolation result;
     result.high = high_percolation(volume, analyse(volume, zoned, context), context);
-    const Volume other = reversed_samples(volume, context);
-    result.low = high_percolation(other, analyse(other, zoned, context), context);
-    for (double& tau : result.low) tau = reversed_back(tau, volume.info.type);
+    const ReversedSamples other = reversed_samples(volume, context);
+    result.low = high_percolation(other.volume, analyse(other.volume, zoned, context), context);
+    for (double& tau : result.low) tau = other.back(tau);
     return result;
 }
 

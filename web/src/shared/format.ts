@@ -36,7 +36,7 @@ export function area(measure: number, unit: string | null): string {
 
 /** A length in the unit; null: in voxels. */
 export function length(measure: number, unit: string | null): string {
-  return unit === null ? plural(Number(measure.toPrecision(3)), "voxel") : powerOf(measure, unit, 1);
+  return unit === null ? `${value(Number(measure.toPrecision(3)))} voxels` : powerOf(measure, unit, 1);
 }
 
 function powerOf(measure: number, unit: string, power: 1 | 2 | 3): string {
