@@ -66,13 +66,13 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await tab.close();
   });
 
-  it("shows cavities apart, with what encloses them", async () => {
+  it("shows cavities with what encloses them", async () => {
     const old = await open(scene, "#dark-1"); // an address before version 0.2
     expect(await old.tab.getByRole("dialog", { name: "Cavity 1" }).isVisible()).toBe(true);
     await old.tab.close();
     const { tab } = await open(scene, "#cavity-1");
-    expect(await tab.locator(".cavity-part .card").count()).toBe(1);
-    expect(await tab.locator(".cavity-part").textContent()).toContain("a cavity of object 1");
+    expect(await tab.locator(".card.cavity").count()).toBe(1);
+    expect(await tab.locator(".card.cavity").textContent()).toContain("a cavity of object 1");
     const dialog = tab.getByRole("dialog", { name: "Cavity 1" });
     expect(await dialog.textContent()).toContain("grows with the isovalue");
     await dialog.getByRole("button", { name: "Object 1", exact: true }).click();

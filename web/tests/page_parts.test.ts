@@ -4,11 +4,11 @@ import { chosenBranches, chosenEntries, firstChoice, ranked } from "../src/page/
 import { columnAt, countPath, countWords, Scale } from "../src/page/columns";
 import { hiddenSentences } from "../src/shared/hidden_counts";
 import { plural, value, volume } from "../src/shared/format";
-import { anchorOf, branchName, contentsOf, describe as said, nameOf, placeOf, rangeOf, reasonOf } from "../src/shared/names";
+import { anchorOf, branchName, contentsOf, describe as said, furtherIsovalues, nameOf, placeOf, rangeOf, reasonOf } from "../src/shared/names";
 import { largestAt } from "../src/page/others";
 import { isDeep, lanesOf } from "../src/shared/overview";
 import { readPage } from "../src/shared/page";
-import { branch, page, scene } from "./sample";
+import { branch, entry, page, scene } from "./sample";
 
 describe("numbers", () => {
   it("have about four digits", () => {
@@ -83,6 +83,19 @@ describe("objects", () => {
     expect(chosenEntries(scene, { ...choice, order: "size" })).toEqual([0, 1, 3, 2]);
     expect(chosenEntries(scene, { ...choice, side: "object", minVoxels: 50 })).toEqual([0, 1]);
     expect(chosenEntries(scene, { ...choice, order: "cavities", side: "cavity" })).toEqual([3]);
+  });
+  it("and cavities share one order, the object that never merges first", () => {
+    const small = branch({ merges: 20, hypervolume: 10 });
+    const cavity = branch({ side: "cavity", merges: 70, hypervolume: 300 });
+    const mixed = page([branch({}), small, cavity], [entry({ branch: 0 }), entry({ branch: 1 }), entry({ branch: 2 })]);
+    expect(ranked(mixed)).toEqual([0, 2, 1]);
+    expect(chosenEntries(mixed, firstChoice(mixed))).toEqual([0, 2, 1]);
+  });
+  it("show each further isovalue on the closest card of the same object", () => {
+    const isovalues = [70, 33, 31, 48].map((tau) => ({ tau, why: "its boundary is sharp" }));
+    const entries = [entry({ branch: 0, tau: 30 }), entry({ branch: 0, tau: 50 }), entry({ branch: 1, tau: 33 })];
+    const nested = page([branch({ isovalues }), branch({ merges: 20 })], entries);
+    expect([0, 1, 2].map((i) => furtherIsovalues(nested, i).map(({ tau }) => tau))).toEqual([[31, 33], [48, 70], []]);
   });
   it("have names and descriptions", () => {
     expect([nameOf(scene, 2), nameOf(scene, 3), anchorOf(scene, 3)]).toEqual(["Object 3", "Cavity 1", "cavity-1"]);

@@ -1,10 +1,18 @@
 // A card for an object: its picture, its size, and the range of its isovalues.
 import { html } from "../shared/dom";
 import { value, volume } from "../shared/format";
-import { anchorOf, describe, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf } from "../shared/names";
+import { anchorOf, describe, furtherIsovalues, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf } from "../shared/names";
 import { rangeBar } from "../shared/overview";
 import { branchOf, entryOf, type Page } from "../shared/page";
 import { turntable } from "../shared/turntable";
+
+/** The other isovalues at which it looks much the same. */
+function alsoAt(page: Page, i: number): HTMLElement[] {
+  const further = furtherIsovalues(page, i);
+  if (further.length === 0) return [];
+  const chips = further.map(({ tau, why }) => html("li", { title: why }, value(tau)));
+  return [html("dt", {}, "also at"), html("dd", {}, html("ul", { class: "chips" }, ...chips))];
+}
 
 export function card(page: Page, i: number, open: (i: number) => void): HTMLElement {
   const entry = entryOf(page, i);
@@ -22,6 +30,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     { class: "facts" },
     html("dt", {}, "isovalue"),
     html("dd", {}, value(entry.tau), reason ? html("span", { class: "why" }, ` (${reason})`) : null),
+    ...alsoAt(page, i),
     html("dt", {}, "exists"),
     html("dd", {}, rangeOf(branchOf(page, entry.branch))),
     html("dt", {}, "size"),

@@ -1,5 +1,5 @@
 // Which objects are shown, and in which order: the state of the controls.
-import { orders } from "../shared/orders";
+import { byRank, orders } from "../shared/orders";
 import { branchOf, entryOf, type Page, type Side } from "../shared/page";
 
 export interface Choice {
@@ -14,10 +14,9 @@ export interface Choice {
 /** Branches by rank: those with a picture before those without, each by hypervolume (contrast x size); the main branch first. */
 export function ranked(page: Page): number[] {
   const pictured = new Set(page.entries.map((entry) => entry.branch));
-  const size = (b: number): number => (branchOf(page, b).merges === null ? Infinity : branchOf(page, b).hypervolume);
   return page.branches
     .map((_, b) => b)
-    .sort((p, q) => Number(pictured.has(q)) - Number(pictured.has(p)) || (size(q) > size(p) ? 1 : size(q) < size(p) ? -1 : p - q));
+    .sort((p, q) => Number(pictured.has(q)) - Number(pictured.has(p)) || byRank(branchOf(page, p), branchOf(page, q)) || p - q);
 }
 
 /** Number of branches with a picture: those shown initially. */

@@ -9,7 +9,6 @@ import { html } from "../shared/dom";
 import { count, value } from "../shared/format";
 import { glossary } from "./glossary";
 import { hiddenSentences } from "../shared/hidden_counts";
-import { isCavity } from "../shared/names";
 import { others } from "./others";
 import { overview } from "../shared/overview";
 import { readPage, type Page } from "../shared/page";
@@ -48,24 +47,26 @@ function verdict(page: Page): string[] {
     : [...hiddenSentences(page), "Only the largest object is significant: the pictures show it at several isovalues."];
 }
 
+function hasCavities(page: Page): boolean {
+  return page.entries.some((entry) => page.branches[entry.branch]?.side === "cavity");
+}
+
+function heading(page: Page): string {
+  return hasCavities(page) ? "Objects and cavities" : "Objects";
+}
+
+/** What the order of the cards means. */
+function explanation(page: Page): string {
+  const cavities = hasCavities(page) ? " Cavities are enclosed regions of lower values, drawn as the surface around them." : "";
+  return `Most important first, by contrast × size: how much its values differ from those around it, summed over its volume.${cavities}`;
+}
+
 function start(page: Page, main: HTMLElement): void {
   document.title = `${page.volume.name} – atlas`;
   const detail = new Detail(page);
   const open = (i: number): void => detail.open(i);
   const items = page.entries.map((_, i) => card(page, i, open));
-  const objectList = html("ol", { class: "cards" });
-  const cavityList = html("ol", { class: "cards" });
-  const cavityPart = html(
-    "section",
-    { class: "cavity-part" },
-    html("h2", {}, "Cavities"),
-    html(
-      "p",
-      { class: "note" },
-      "Enclosed regions of lower values: voids and pores inside an object. Each is shown as the surface around it.",
-    ),
-    cavityList,
-  );
+  const cards = html("ol", { class: "cards" });
   const status = html("p", { class: "message", role: "status" });
   const lanes = html("div", {});
   const rest = html("div", {});
@@ -73,9 +74,7 @@ function start(page: Page, main: HTMLElement): void {
   const show = (choice: Choice): void => {
     const kept = chosenBranches(page, choice);
     const entries = chosenEntries(page, choice);
-    objectList.replaceChildren(...entries.filter((i) => !isCavity(page, i)).map((i) => items[i] as HTMLElement));
-    cavityList.replaceChildren(...entries.filter((i) => isCavity(page, i)).map((i) => items[i] as HTMLElement));
-    cavityPart.hidden = cavityList.children.length === 0;
+    cards.replaceChildren(...entries.map((i) => items[i] as HTMLElement));
     status.textContent = entries.length === items.length ? "" : `${count(entries.length)} of ${count(items.length)} pictures shown`;
     lanes.replaceChildren(overview(page, kept, open));
     const pictured = new Set(page.entries.map((entry) => entry.branch));
@@ -89,8 +88,7 @@ function start(page: Page, main: HTMLElement): void {
     const { keep, filter } = controls(page, show);
     main.append(
       html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, lanes),
-      html("section", {}, html("h2", {}, "Objects"), filter, status, objectList),
-      cavityPart,
+      html("section", {}, html("h2", {}, heading(page)), html("p", { class: "note" }, explanation(page)), filter, status, cards),
       rest,
     );
   }

@@ -1,6 +1,6 @@
 // Names and short descriptions of entries.
 import { plural, value, volume } from "./format";
-import { branchOf, entryOf, type Branch, type Page } from "./page";
+import { branchOf, entryOf, type Advice, type Branch, type Page } from "./page";
 
 export function isCavity(page: Page, i: number): boolean {
   return branchOf(page, entryOf(page, i).branch).side === "cavity";
@@ -75,6 +75,15 @@ export function contentsOf(page: Page, i: number): number[] {
 /** All entries of a branch: the same object at several isovalues. */
 export function entriesOf(page: Page, branch: number): number[] {
   return page.entries.flatMap((entry, k) => (entry.branch === branch ? [k] : []));
+}
+
+/** Further isovalues of its branch for which this entry is the closest one, ascending: at them it looks much the same. */
+export function furtherIsovalues(page: Page, i: number): Advice[] {
+  const { branch } = entryOf(page, i);
+  const rows = entriesOf(page, branch);
+  const distance = (k: number, tau: number): number => Math.abs(entryOf(page, k).tau - tau);
+  const closest = (tau: number): number => rows.reduce((best, k) => (distance(k, tau) < distance(best, tau) ? k : best), i);
+  return (branchOf(page, branch).isovalues ?? []).filter(({ tau }) => closest(tau) === i).sort((p, q) => p.tau - q.tau);
 }
 
 /** Name of a branch: that of its first entry. */

@@ -3,7 +3,7 @@
 import { Axis, axisName, drawingWidth, drawTicks, histogramPath } from "./axis";
 import { svg } from "./dom";
 import { value } from "./format";
-import { describe, entriesOf, isCavity, nameOf, numberOf } from "./names";
+import { describe, entriesOf, furtherIsovalues, isCavity, nameOf, numberOf } from "./names";
 import { branchOf, entryOf, type Page } from "./page";
 
 const head = 90;
@@ -143,6 +143,7 @@ export function rangeBar(page: Page, i: number): SVGSVGElement {
   };
   bar(branch.merges ?? page.axis.low, branch.appears, "whole", 33, 4);
   bar(entry.low, entry.high, "stable", 31, 8);
+  for (const { tau } of furtherIsovalues(page, i)) drawing.append(svg("path", { class: "further", d: `M${axis.x(tau)} 26V40` }));
   drawing.append(
     svg("title", {}, `${nameOf(page, i)} at ${value(entry.tau)}`),
     svg("path", { class: "needle", d: `M${axis.x(entry.tau)} 4V40` }),
