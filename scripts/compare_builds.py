@@ -201,13 +201,19 @@ def compare(path, options, builds, report):
     low, high = described["values"]["low"], described["values"]["high"]
     words = {"VOLUME": path, "SIGMA": repr(0.8 * min(described["volume"]["spacing"]))}
     words |= {f"T{i}": repr(low + part * (high - low)) for i, part in ((1, 0.15), (2, 0.4), (3, 0.7))}
-    words["BEST"] = str(ask(old.program, old.folder, "objects", path, *options)["objects"][0]["id"])
+    words["BEST"] = "BEST"
+
+    def output_of(build, verb, arguments, name):
+        first = ask(build.program, build.folder, "objects", path, *options)["objects"][0] if "BEST" in arguments else {}
+        best = str(first.get("number", first.get("id")))   # until 0.2 an object was called by its voxel
+        return build.output(verb, [best if word == "BEST" else word for word in arguments], name)
+
     smallest = ask(old.program, old.folder, "build", path, "-o", "x.atlas", "--dry-run", *options)["estimate"]
     words["LEAST"] = f"{(smallest.get('memory_least', smallest.get('min_memory')) >> 20) + 1}M"
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for verb, output, arguments in commands(words, options):
             name = output and (output if output.endswith(".atlas") or verb == "extract" else f"{verb}{output}")
-            (code, content), (new_code, new_content) = pool.map(lambda build: build.output(verb, arguments, name), builds)
+            (code, content), (new_code, new_content) = pool.map(lambda build: output_of(build, verb, arguments, name), builds)
             counts = report["counts"].setdefault(KINDS.get(verb, "others"), [0, 0])
             command = " ".join([verb, *arguments, *(["-o", name] if name else ["--json"])])
             if code != new_code:

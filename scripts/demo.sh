@@ -42,15 +42,15 @@ extension=ply
 if "$isoatlas" info "$volume" "${options[@]}" --json --quiet | tr -d ' \n' | grep -q '"rank":2'; then extension=vtp; fi
 say "writing a surface for each of the first $surfaces, and proving that it is closed, manifold and oriented"
 number=0
-while read -r id tau; do
-    number=$((number + 1))
+while read -r object; do
+    number=$object
     file=$out/object_$number.$extension
-    "$isoatlas" extract "$volume" "${options[@]}" --tau="$tau" --object "$id" --quiet -o "$file"
+    "$isoatlas" extract "$volume" "${options[@]}" --object "$number" --quiet -o "$file"
     [[ $extension == ply ]] || continue
     # The file is read back and every guarantee checked; the details matter only when one does not hold.
     proof=$("$isoatlas" verify "$file" --quiet) || { code=$?; echo "$proof" >&2; exit "$code"; }
     echo "  verified: ${proof##*: }"
-done < <(sed -nE 's/.*"id": ?([0-9]+),.*"best_tau": ?([^,]+),.*/\1 \2/p' "$out/objects.json")
+done < <(sed -nE 's/.*"number": ?([0-9]+),.*"best_tau".*/\1/p' "$out/objects.json")
 if [[ $number == 0 ]]; then
     echo "nothing in this volume rises above the noise; $isoatlas objects $volume --all lists everything"
 fi

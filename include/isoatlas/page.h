@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "isoatlas/atlas.h"
+#include "isoatlas/object_names.h"
 
 namespace isoatlas {
 
@@ -13,6 +15,7 @@ struct PageOptions {
     std::int64_t top_cavities = 12;   ///< and of cavities
     std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
     std::int64_t frames = 12;         ///< of a turntable, 1 to 64
+    std::vector<ObjectName> names{};  ///< that users have given
     std::string source{};             ///< the file in commands on the page: the volume or the store; empty: the store
 };
 

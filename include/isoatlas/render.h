@@ -29,6 +29,9 @@ struct Colour {
 };
 /// Colours distinguishable by any kind of colour vision (after Okabe and Ito, 2008), the first one that of bone; repeats after 7.
 [[nodiscard]] Colour palette(std::int64_t i);
+/// Of an object or a cavity by its number in the table, from 1: on the page, in the viewer, in label volumes and files of several surfaces.
+[[nodiscard]] Colour colour_of_object(std::int64_t number);
+[[nodiscard]] Colour colour_of_cavity(std::int64_t number);
 
 /// One thing to be drawn.
 struct SceneObject {

@@ -12,12 +12,14 @@
 namespace isoatlas {
 
 struct ServerOptions {
-    int port = 0;             ///< 1 to 65535; 0: any that is free
-    std::string token{};      ///< what requests of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
-    std::int64_t memory = 0;  ///< bytes for responses in progress at a time; 0: a quarter of the memory available
+    int port = 0;               ///< 1 to 65535; 0: any that is free
+    std::string token{};        ///< what requests of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
+    std::int64_t memory = 0;    ///< bytes for responses in progress at a time; 0: a quarter of the memory available
+    bool is_read_only = false;  ///< names of objects cannot be changed
 };
 
-/// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does.
+/// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does, and names
+/// that authorised clients give to objects, beside the store (isoatlas/object_names.h).
 class Server {
 public:
     /// There is no store yet: see open(). Throws Error: resource (the port is taken), usage (no such token can be used).

@@ -91,6 +91,17 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
 /// The same into a sink (isoatlas/sink.h).
 std::vector<std::string> write_surface(Sink& sink, const Surface& surface);
 
+/// A surface with a name and a colour.
+struct NamedSurface {
+    Surface surface;
+    std::string name;
+    std::array<std::uint8_t, 3> colour;
+};
+/// Several surfaces in one file: .glb (a node with a name and a material each), .obj (groups), .ply .stl .vtp (one mesh; vtp: an array
+/// object, names in the field data).
+std::vector<std::string> write_surfaces(const std::string& path, std::span<const NamedSurface> surfaces);
+std::vector<std::string> write_surfaces(Sink& sink, std::span<const NamedSurface> surfaces);
+
 /// Reads back what write_surface writes, and the usual variants of the same formats from other tools. STL points are merged when
 /// bit-equal. Throws Error: input, unsupported.
 struct Mesh {

@@ -50,11 +50,18 @@ public:
         stop_if_cancelled(context_);
         contents_.histogram = make_histogram(atlas_, contents_.scale, context_);
         contents_.curve = thin_curve(hierarchy_.curves().front(), kCurvePoints);
-        for (std::size_t i = 0; i < contents_.entries.size(); ++i) contents_.entries[i].colour = palette(static_cast<std::int64_t>(i));
+        for (PageEntry& entry : contents_.entries) finish(entry);
         return std::move(contents_);
     }
 
 private:
+    void finish(PageEntry& entry) const {
+        const bool is_cavity = contents_.branches[entry.branch].is_cavity;
+        entry.colour = is_cavity ? colour_of_cavity(entry.number) : colour_of_object(entry.number);
+        const ObjectName* name = find_object_name(options_.names, is_cavity, entry.id, atlas_.info().calibration.reported(entry.tau));
+        if (name != nullptr) entry.name = name->name;
+    }
+
     /// Branches of the table, and the first ones by rank.
     void add_object_branches(const ObjectTable& table) {
         const std::span<const BranchInfo> all = hierarchy_.branches();
@@ -62,6 +69,9 @@ private:
         for (const BranchId i : hierarchy_.significant()) is_significant[i.index()] = true;
         std::unordered_map<EventId, std::size_t> of_top;
         for (std::size_t i = 0; i < all.size(); ++i) of_top.emplace(all[i].top, i);
+        std::unordered_map<EventId, std::int64_t> number_of_top;  // of the first entry
+        for (const ObjectEntry& entry : found_.objects.entries)
+            number_of_top.emplace(entry.branch_top, &entry - found_.objects.entries.data() + 1);
         for (const ObjectEntry& entry : table.entries) is_shown[of_top.at(entry.branch_top)] = true;
         std::vector<std::int64_t> joined(all.size(), 0);
         for (const BranchInfo& b : all) {
@@ -74,7 +84,9 @@ private:
             const BranchInfo& b = all[i];
             place[i] = static_cast<std::int64_t>(contents_.branches.size());
             place_of_top_.emplace(b.top, place[i]);
+            const auto number = number_of_top.find(b.top);
             contents_.branches.push_back({.id = b.id,
+                                          .number = number == number_of_top.end() ? 0 : number->second,
                                           .rank = static_cast<std::int64_t>(i),
                                           .appears = b.appears,
                                           .merges = b.merges,
@@ -102,6 +114,7 @@ private:
     void add_object_entries(const ObjectTable& table) {
         for (const ObjectEntry& entry : table.entries) {
             contents_.entries.push_back({.branch = place_of_top_.at(entry.branch_top),
+                                         .number = std::ssize(contents_.entries) + 1,
                                          .id = entry.id,
                                          .tau = entry.best_tau,
                                          .tau_low = std::max(entry.tau_low, atlas_.range()[0]),
@@ -134,6 +147,7 @@ private:
             const auto branch = static_cast<std::int64_t>(contents_.branches.size());
             contents_.branches.push_back({.is_cavity = true,
                                           .id = entry.id,
+                                          .number = branch - first_branch + 1,
                                           .rank = branch - first_branch,
                                           .appears = entry.appears,
                                           .merges = entry.merges,
@@ -146,6 +160,7 @@ private:
             std::erase_if(contents_.branches.back().isovalues,
                           [&](const RecommendedIsovalue& isovalue) { return isovalue.tau == entry.best_tau; });
             contents_.entries.push_back({.branch = branch,
+                                         .number = branch - first_branch + 1,
                                          .id = entry.id,
                                          .tau = entry.best_tau,
                                          .tau_low = entry.tau_low,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "atlas/overview.h"
@@ -25,6 +26,7 @@ struct PageTunnel {
 struct PageBranch {
     bool is_cavity = false;
     std::int64_t id = 0;
+    std::int64_t number = 0;         ///< of its first entry in the table, from 1; 0: the table has none
     std::int64_t rank = 0;           ///< among all of its side, from 0: BranchHierarchy::branches(), CavityTable::entries
     double appears = 0, merges = 0;  ///< merges of the main branch: -infinity
     std::int64_t parent = -1;        ///< position of the branch it merges into, or of its closest ancestor on the page
@@ -43,7 +45,9 @@ struct PageBranch {
 /// A branch at one of its recommended isovalues.
 struct PageEntry {
     std::int64_t branch = 0;
-    std::int64_t id = 0;  ///< of the object, or of the contour around the cavity
+    std::int64_t number = 0;  ///< in the table of its side, from 1
+    std::string name{};       ///< that a user gave it
+    std::int64_t id = 0;      ///< of the object, or of the contour around the cavity
     double tau = 0, tau_low = 0, tau_high = 0;
     std::int64_t voxels = 0;
     double measure = 0;

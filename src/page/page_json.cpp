@@ -62,6 +62,15 @@ public:
     }
 
 private:
+    /// In the table; null: it does not list it.
+    void put_number(std::int64_t number) {
+        json_.key("number");
+        if (number > 0) {
+            json_.value(number);
+        } else {
+            json_.null();
+        }
+    }
     JsonStream& put_value(const char* name, double stored) { return json_.key(name).value(scale_.reported(stored)); }
 
     void write_volume() {
@@ -172,6 +181,7 @@ private:
 
     void write_branch(const PageBranch& branch) {
         json_.line().begin_object().key("side").value(branch.is_cavity ? "cavity" : "object").key("id").value(branch.id);
+        put_number(branch.number);
         json_.key("rank").value(branch.rank);
         put_value("appears", branch.appears);
         put_value("merges", branch.merges);  // null: never
@@ -220,7 +230,10 @@ private:
 
     void write_entry(std::size_t i) {
         const PageEntry& entry = contents_.entries[i];
-        json_.line().begin_object().key("branch").value(entry.branch).key("id").value(entry.id);
+        json_.line().begin_object().key("branch").value(entry.branch);
+        put_number(entry.number);
+        put_text(json_.key("name"), entry.name);
+        json_.key("id").value(entry.id);
         put_value("tau", entry.tau);
         put_value("low", entry.tau_low);
         put_value("high", entry.tau_high);
@@ -242,20 +255,22 @@ private:
 
     void write_commands(std::size_t i) {
         const PageEntry& entry = contents_.entries[i];
-        const std::string id = std::to_string(entry.id), tau = number_text(scale_.reported(entry.tau));
+        const std::string number = std::to_string(entry.number), tau = number_text(scale_.reported(entry.tau));
         const auto put = [&](const char* name, const std::string& verb, const std::string& options) {
             json_.begin_object().key("name").value(name).key("line").value("isoatlas " + verb + " " + source_ + options).end_object();
         };
         if (contents_.branches[entry.branch].is_cavity) {
-            const std::string name = " -o cavity-" + std::to_string(i + 1);
-            put("its wall as a surface", "extract", " --contour " + id + " --tau " + tau + name + ".ply");
-            put("labels of all cavities there", "label", " --cavities --tau " + tau + name + ".nrrd");
+            const std::string object = " --object c" + number, name = " -o cavity-" + number;
+            put("its wall as a surface", "extract", object + name + ".ply");
+            put("its label", "label", object + name + ".nrrd");
+            put("labels of all cavities there", "label", " --cavities --tau " + tau + " -o cavities-" + number + ".nrrd");
             return;
         }
-        const std::string name = " -o object-" + std::to_string(i + 1);
-        put("surface", "extract", " --object " + id + " --tau " + tau + name + ".ply");
-        put("labels of all objects there", "label", " --tau " + tau + name + ".nrrd");
-        put("picture", "render", " --object " + id + "@" + tau + name + ".png");
+        const std::string object = " --object " + number, name = " -o object-" + number;
+        put("surface", "extract", object + name + ".ply");
+        put("its label", "label", object + name + ".nrrd");
+        put("labels of all objects there", "label", " --tau " + tau + " -o objects-" + number + ".nrrd");
+        put("picture", "render", object + name + ".png");
     }
 
     JsonStream& json_;

@@ -9,6 +9,9 @@ Colour palette(std::int64_t i) {
     return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
 }
 
+Colour colour_of_object(std::int64_t number) { return palette(number - 1); }
+Colour colour_of_cavity(std::int64_t number) { return palette(number + 2); }  // mostly not that of the object around it
+
 Vec3 background_light(Background background, double down) {
     if (background == Background::transparent) return {0, 0, 0};
     const bool light = background == Background::light;

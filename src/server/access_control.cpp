@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::string_view kHtml = "text/html; charset=utf-8", kOnce = "/open?once=", kEnter = "/enter";
+constexpr std::string_view kHtml = "text/html; charset=utf-8", kOnce = "/open?once=", kEnter = "/enter", kChange = "/api/name?";
 
 std::string_view bearer_of(const RequestHead& head) {
     constexpr std::string_view scheme = "Bearer ";
@@ -43,7 +43,7 @@ ErrorText details_of(int status) {
             return {.what = "the token is missing or wrong",
                     .next = "open the address that the server has given",
                     .reason = Reason::token_wrong};
-        case 405: return {.what = "method not allowed", .expected = "GET or HEAD"};
+        case 405: return {.what = "method not allowed", .expected = "GET or HEAD; PUT of /api/name"};
         case 413: return {.what = "a request must not have a body", .expected = "a request without one"};
         case 421: return {.what = "wrong Host header", .expected = "127.0.0.1 or localhost, with the port"};
         case 431:
@@ -119,7 +119,8 @@ std::optional<std::string> AccessControl::answer(const RequestHead& head) {
 
 std::optional<std::string> AccessControl::whole_answer(const RequestHead& head) {
     if (!is_ours(head)) return refusal(421);  // DNS rebinding
-    if (head.method != "GET" && head.method != "HEAD") return refusal(405);
+    const bool is_change = head.method == "PUT" && std::string_view(head.target).starts_with(kChange);
+    if (head.method != "GET" && head.method != "HEAD" && !is_change) return refusal(405);
     if (head.has_body) return refusal(413);
     if (!head.origin.empty() && head.origin != "http://" + head.host) return refusal(403);
     const std::string_view target = head.target, path = target.substr(0, target.find('?'));

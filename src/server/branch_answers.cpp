@@ -62,7 +62,8 @@ PageEntry branch_entry(const Atlas& atlas, const BranchHierarchy& hierarchy, std
     return entry_of(atlas, all[static_cast<std::size_t>(rank)]);
 }
 
-std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, const BranchesWanted& wanted, const Context& context) {
+std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, std::span<const std::int64_t> number_of_rank,
+                          const BranchesWanted& wanted, const Context& context) {
     const Calibration scale = atlas.info().calibration;
     const std::span<const BranchInfo> all = hierarchy.branches();
     const std::vector<BranchId> kept = hierarchy.kept(wanted.selection);
@@ -82,6 +83,7 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
         using Branch = const BranchInfo&;
         using Entry = const PageEntry&;
         put("rank", [&](Branch branch, Entry) { return &branch - all.data(); });
+        put("number", [&](Branch branch, Entry) { return number_of_rank[static_cast<std::size_t>(&branch - all.data())]; });
         put("id", [](Branch branch, Entry) { return branch.id; });
         put("voxel", [](Branch, Entry entry) { return entry.id; });
         put("tau", [&](Branch, Entry entry) { return scale.reported(entry.tau); });

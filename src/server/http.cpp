@@ -57,7 +57,7 @@ struct Server::Data {
 
     Data(const ServerOptions& options, const Context& context)
         : token(checked_token(options.token)),
-          service(token, context, options.memory),
+          service(token, context, {.memory = options.memory, .is_read_only = options.is_read_only}),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
           network(options.port, {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },
                                  .refusal = AccessControl::refusal,
@@ -68,7 +68,8 @@ struct Server::Data {
     bool answer(const RequestHead& head, const Peer& peer) {
         Target target = target_of(head.target);
         if (target.path == "/") target.words.clear();
-        const Request request{target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }};
+        const Request request{target.path, std::move(target.words),           token,
+                              head.client, [peer] { return peer.is_gone(); }, head.method == "PUT"};
         try {
             Response answer = on_its_way > most_on_its_way     ? too_much()
                               : request.path == "/api/address" ? new_address(request)

@@ -75,6 +75,11 @@ std::optional<std::string> QueryParameters::choice(std::string_view name, const 
     return std::string(*text);
 }
 
+std::optional<std::string> QueryParameters::text(std::string_view name) {
+    const std::optional<std::string_view> text = take(name);
+    return text ? std::optional<std::string>(*text) : std::nullopt;
+}
+
 std::vector<std::string_view> QueryParameters::items(std::string_view name, std::size_t count) {
     std::vector<std::string_view> items;
     const std::optional<std::string_view> text = take(name);
@@ -91,17 +96,6 @@ std::vector<std::string_view> QueryParameters::items(std::string_view name, std:
 std::vector<std::int64_t> QueryParameters::list(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count) {
     std::vector<std::int64_t> numbers;
     for (const std::string_view item : items(name, count)) numbers.push_back(whole_in(name, item, min, max));
-    return numbers;
-}
-
-std::vector<NumberAt> QueryParameters::list_at(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count) {
-    std::vector<NumberAt> numbers;
-    for (const std::string_view item : items(name, count)) {
-        const std::size_t mark = std::min(item.find('@'), item.size());
-        const std::optional<double> value = read<double>(item.substr(std::min(mark + 1, item.size())));
-        if (!value || !std::isfinite(*value)) refuse(name, item, "NUMBER@VALUE with a finite value");
-        numbers.push_back({whole_in(name, item.substr(0, mark), min, max), *value});
-    }
     return numbers;
 }
 

@@ -10,12 +10,6 @@
 
 namespace isoatlas {
 
-/// "NUMBER@VALUE", as `isoatlas render --object ID@TAU`.
-struct NumberAt {
-    std::int64_t number;
-    double at;
-};
-
 class QueryParameters {
 public:
     explicit QueryParameters(const std::multimap<std::string, std::string>& words) : words_(words) {}
@@ -27,15 +21,15 @@ public:
     [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
     /// Numbers between commas, at most `count`.
     [[nodiscard]] std::vector<std::int64_t> list(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count);
-    /// The same for "NUMBER@VALUE"; values are finite.
-    [[nodiscard]] std::vector<NumberAt> list_at(std::string_view name, std::int64_t min, std::int64_t max, std::size_t count);
+    /// Any text.
+    [[nodiscard]] std::optional<std::string> text(std::string_view name);
+    /// The items between the commas of a parameter, at most `count`; empty when it is missing.
+    [[nodiscard]] std::vector<std::string_view> items(std::string_view name, std::size_t count);
     /// Throws Error{usage} for a parameter that was not read.
     void reject_unknown() const;
 
 private:
     [[nodiscard]] std::optional<std::string_view> take(std::string_view name);
-    /// The items between the commas of a parameter, at most `count`; empty when it is missing.
-    [[nodiscard]] std::vector<std::string_view> items(std::string_view name, std::size_t count);
 
     const std::multimap<std::string, std::string>& words_;
     std::vector<std::string_view> known_;

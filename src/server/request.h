@@ -17,6 +17,7 @@ struct Request {
     std::string token;                              ///< empty: none was sent
     std::string client;                             ///< a newer surface request of a client supersedes its older one
     IsDisconnected is_disconnected{};               ///< has the client disconnected?
+    bool is_change = false;                         ///< PUT: may change something
 };
 
 struct Response {

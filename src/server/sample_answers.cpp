@@ -28,10 +28,18 @@ void require_volume(const Atlas& atlas) {
 }
 
 /// Does the object of one voxel contain another voxel at an isovalue?
-bool holds(const Atlas& atlas, const Locator& sample, const NumberAt& object, const Context& context) {
-    const double tau = stored_isovalue(atlas.info(), object.at);
-    const std::optional<std::int64_t> own = sample.object(tau);
-    return own && (*own == object.number || own == Locator(atlas, object.number, context).object(tau));
+bool holds(const Atlas& atlas, const Locator& sample, const NamedPart& object, const Context& context) {
+    const std::optional<std::int64_t> own = sample.object(*object.tau);
+    return own && (*own == object.voxel || own == Locator(atlas, object.voxel, context).object(*object.tau));
+}
+
+/// Every one with an isovalue.
+std::vector<NamedPart> parts_at(QueryParameters& words, std::string_view name, const Atlas& atlas, const NumberedLines& lines) {
+    std::vector<NamedPart> parts = named_parts(words, name, atlas, lines, kMaxLocated);
+    for (const NamedPart& part : parts) {
+        if (!part.tau) missing(std::string(name), "v" + std::to_string(part.voxel) + "@T, with an isovalue");
+    }
+    return parts;
 }
 
 }  // namespace
@@ -66,7 +74,8 @@ Response volume_answer(const Atlas& atlas, const Request& request, const Context
     return {200, kBytes, wire_volume(atlas.coarse(max, context), atlas.range(), atlas.info().calibration), {}};
 }
 
-Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Request& request, const Context& context) {
+Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const NumberedLines& lines, const Request& request,
+                   const Context& context) {
     const VolumeInfo& info = atlas.info();
     const Extent& extent = info.extent;
     QueryParameters words(request.words);
@@ -75,14 +84,13 @@ Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, c
     for (std::size_t a = 0; a < 3; ++a) {
         if (at[a] >= extent.size[a]) missing("voxel", "less than " + std::to_string(extent.size[a]) + " along axis " + std::to_string(a));
     }
-    const std::vector<NumberAt> objects = words.list_at("object", 0, extent.voxels() - 1, kMaxLocated);
-    const std::vector<NumberAt> contours = words.list_at("contour", 0, extent.voxels() - 1, kMaxLocated);
+    const std::vector<NamedPart> objects = parts_at(words, "object", atlas, lines), contours = parts_at(words, "contour", atlas, lines);
     words.reject_unknown();
     const Locator sample(atlas, extent.index(at[0], at[1], at[2]), context);
     AtVoxel found{.voxel = {at[0], at[1], at[2]}, .position = {}, .value = info.calibration.reported(sample.value())};
     found.position = to_physical(info.geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
-    for (const NumberAt& object : objects) found.objects.push_back(holds(atlas, sample, object, context));
-    for (const NumberAt& contour : contours) found.contours.push_back(sample.cavity(stored_isovalue(info, contour.at)) == contour.number);
+    for (const NamedPart& object : objects) found.objects.push_back(holds(atlas, sample, object, context));
+    for (const NamedPart& contour : contours) found.contours.push_back(sample.cavity(*contour.tau) == contour.voxel);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const NamedEntry& entry = entries[i];
         const std::optional<std::int64_t> holder = entry.is_cavity ? sample.cavity(entry.tau) : sample.object(entry.tau);

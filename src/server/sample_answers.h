@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "isoatlas/atlas.h"
+#include "server/object_words.h"
 #include "server/request.h"
 
 namespace isoatlas {
@@ -20,7 +21,7 @@ struct NamedEntry {
 /// /api/atlas.
 [[nodiscard]] Response slice_answer(const Atlas& atlas, const Request& request, const Context& context);
 [[nodiscard]] Response volume_answer(const Atlas& atlas, const Request& request, const Context& context);
-[[nodiscard]] Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const Request& request,
-                                 const Context& context);
+[[nodiscard]] Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const NumberedLines& lines,
+                                 const Request& request, const Context& context);
 
 }  // namespace isoatlas

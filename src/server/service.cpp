@@ -16,6 +16,7 @@
 #include "server/download.h"
 #include "server/sample_answers.h"
 #include "server/secret.h"
+#include "server/several_objects.h"
 #include "server/wire_mesh.h"
 
 namespace isoatlas {
@@ -53,17 +54,28 @@ double required_tau(QueryParameters& words) {
     return *tau;
 }
 
+/// "v1,v2"
+bool only_voxels(std::string_view text) {
+    while (text.starts_with('v')) {
+        const std::size_t comma = text.find(',');
+        if (comma == std::string_view::npos) return true;
+        text.remove_prefix(comma + 1);
+    }
+    return false;
+}
+
 double stored_tau(const Atlas& atlas, double reported) { return stored_isovalue(atlas.info(), reported); }
 
 }  // namespace
 
-Service::Service(std::string token, const Context& context, std::int64_t memory)
+Service::Service(std::string token, const Context& context, const ServiceOptions& options)
     : token_(std::move(token)),
       context_(context),
-      memory_((memory > 0 ? memory : available_memory() / 4) / kAtOnce),
+      memory_((options.memory > 0 ? options.memory : available_memory() / 4) / kAtOnce),
       store_state_(changes_),
       queues_(changes_),
-      events_(store_state_, queues_, changes_) {
+      events_(store_state_, queues_, changes_),
+      naming_(options.is_read_only) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
 }
@@ -118,12 +130,15 @@ Response Service::answer_known(const Request& request) {
         QueryParameters(request.words).reject_unknown();
         return json_answer(known(request).transfer);
     }
+    if (request.path == "/api/surfaces" || request.path == "/api/segmentation") return several_answer(request);
+    if (request.path == "/api/names") return naming_.names(atlas(), request);
+    if (request.path == "/api/name") return naming_.change(atlas(), known(request).lines, request);
     if (request.path == "/api/slice") return samples_answer(request, slice_answer);
     if (request.path == "/api/volume") return samples_answer(request, volume_answer);
     throw Error(ErrorKind::not_found, {.where = request.path.substr(0, 100),
                                        .what = "no such path",
                                        .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
-                                                   "label, slice, volume, at, transfer, address",
+                                                   "surfaces, label, segmentation, slice, volume, at, transfer, names, name, address",
                                        .next = "docs/server.md lists the requests"});
 }
 
@@ -135,7 +150,7 @@ Response Service::samples_answer(const Request& request, Response (*make)(const 
 Response Service::at_answer(const Request& request) {
     const StoreCatalogue& known = this->known(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
-    return isoatlas::at_answer(atlas(), known.entries, request, context_of(*job));
+    return isoatlas::at_answer(atlas(), known.entries, known.lines, request, context_of(*job));
 }
 
 std::unique_ptr<JobQueue::Job> Service::acquire_job(QueueClass line, const Request& request) {
@@ -182,15 +197,17 @@ Response Service::events_answer(const Request& request) {
 Response Service::preview_answer(const Request& request) {
     QueryParameters words(request.words);
     const double tau = required_tau(words);
-    NamedObject named{words.whole("object", 0, atlas().info().extent.voxels() - 1)};
+    const std::vector<std::int64_t> objects = voxels(words, "object", request);
     words.reject_unknown();
+    if (objects.size() > 1) throw Error(ErrorKind::usage, {.where = "object", .what = "more than one", .expected = "one object"});
+    NamedObject named{objects.empty() ? std::nullopt : std::optional(objects[0])};
     (void)known(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
     const double stored = stored_tau(atlas(), tau);
     if (named.id) {
-        const std::vector<ActiveObject> objects = atlas().active(stored, false, context_of(*job)).objects;
-        const auto found = std::ranges::find(objects, *named.id, &ActiveObject::id);
-        if (found != objects.end()) named.object = *found;
+        const std::vector<ActiveObject> there = atlas().active(stored, false, context_of(*job)).objects;
+        const auto found = std::ranges::find(there, *named.id, &ActiveObject::id);
+        if (found != there.end()) named.object = *found;
     }
     return json_answer(preview_json(atlas().preview(stored, context_of(*job)), tau, named));
 }
@@ -209,9 +226,9 @@ Response Service::measures_answer(const Request& request) {
     const Atlas& atlas = atlas_of_volume();
     QueryParameters words(request.words);
     const double tau = required_tau(words);
-    const std::vector<std::int64_t> objects = voxels(words, "object");
+    const std::vector<std::int64_t> objects = voxels(words, "object", request);
     words.reject_unknown();
-    if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=ID,..."});
+    if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=REF,..."});
     (void)known(request);  // loads the trees
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     const AtlasMeasureOptions options{.objects = objects, .max_triangles = max_triangles()};
@@ -223,7 +240,7 @@ Response Service::branches_answer(const Request& request) {
     const BranchesWanted wanted = branches_wanted(words, atlas().info().calibration);
     const StoreCatalogue& known = this->known(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
-    return json_answer(branches_json(atlas(), known.hierarchy, wanted, context_of(*job)));
+    return json_answer(branches_json(atlas(), known.hierarchy, known.number_of_rank, wanted, context_of(*job)));
 }
 
 CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& known) const {
@@ -259,8 +276,8 @@ Response Service::surface_answer(const Request& request) {
     QueryParameters words(request.words);
     const double tau = required_tau(words);
     SurfaceOptions options;
-    options.objects = voxels(words, "object");
-    options.contours = voxels(words, "contour");
+    options.objects = voxels(words, "object", request);
+    options.contours = voxels(words, "contour", request);
     const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
@@ -289,14 +306,10 @@ Response Service::label_answer(const Request& request) {
     const Atlas& atlas = this->atlas();
     QueryParameters words(request.words);
     const double tau = required_tau(words);
-    const std::vector<std::int64_t> objects = voxels(words, "object");
+    const std::vector<std::int64_t> objects = voxels(words, "object", request);
     const std::string format = words.choice("format", {"nrrd", "nii", "nii.gz", "tif"}).value_or("nrrd");
     words.reject_unknown();
-    if (atlas.info().extent.voxels() > memory_ / kLabelBytes) {
-        throw Error(ErrorKind::resource, {.what = "the label volume exceeds the memory budget of this server",
-                                          .next = "write them into a file without the server, or give it more memory",
-                                          .reason = Reason::labels_too_large});
-    }
+    check_labels_fit();
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     const Context context = context_of(*job);
     const Cut cut = atlas.cut(stored_tau(atlas, tau), {.label = true}, context);
@@ -317,8 +330,29 @@ const Atlas& Service::atlas_of_volume() const {
                                          .reason = Reason::not_in_space});
 }
 
-std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name) const {
-    return words.list(name, 0, atlas().info().extent.voxels() - 1, kMaxObjects);
+std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name, const Request& request) {
+    static const NumberedLines none;
+    const auto [first, end] = request.words.equal_range(std::string(name));
+    // Voxels alone need no tables: the first surface of a page does not wait for them.
+    const bool has_numbers = first != end && !only_voxels(first->second);
+    return voxels_of(named_parts(words, name, atlas(), has_numbers ? known(request).lines : none, kMaxObjects));
+}
+
+Response Service::several_answer(const Request& request) {
+    const Atlas& atlas = atlas_of_volume();
+    const bool has_labels = request.path == "/api/segmentation";
+    if (has_labels) check_labels_fit();
+    const StoreCatalogue& known = this->known(request);
+    const SeveralObjects all{atlas, known.lines, Naming::usable_names(atlas), std::min(memory_ / kTriangleBytes, kMaxTriangles)};
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
+    return has_labels ? segmentation_answer(all, request, context_of(*job)) : surfaces_answer(all, request, context_of(*job));
+}
+
+void Service::check_labels_fit() const {
+    if (atlas().info().extent.voxels() <= memory_ / kLabelBytes) return;
+    throw Error(ErrorKind::resource, {.what = "the label volume exceeds the memory budget of this server",
+                                      .next = "write them into a file without the server, or give it more memory",
+                                      .reason = Reason::labels_too_large});
 }
 
 Context Service::context_of(JobQueue::Job& job) const {

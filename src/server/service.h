@@ -1,4 +1,5 @@
-// Responses to the requests of a viewer, from a store. Any request is safe; errors are responses too.
+// Responses to the requests of a viewer, from a store. Any request but PUT is safe; errors are responses too. Objects:
+// server/object_words.h.
 //
 //   /api/events                             state of the server, progress of the requests of this client: an endless stream
 //   /api/atlas                              the data of the page, without pictures: docs/schema/page.schema.json
@@ -14,6 +15,10 @@
 //   /api/volume[?max=N]                     the volume in one byte a value (server/wire_samples.h)
 //   /api/at?voxel=X,Y,Z[&object=ID@T,...][&contour=ID@T,...]   a sample, and the objects that contain it
 //   /api/transfer                           the transfer function that the tree proposes
+//   /api/surfaces?object=REF,...[&contour=REF,...][&format=glb]        several objects, each at its isovalue (server/several_objects.h)
+//   /api/segmentation?object=REF,...[&contour=REF,...][&format=...]    their labels
+//   /api/names                              names of objects (server/naming.h)
+//   PUT /api/name?object=REF&name=N         gives one
 //
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; authorisation: server/access_control.h,
 // which answers /open and /enter; server/http.cpp answers /api/address.
@@ -27,6 +32,7 @@
 #include "server/cards.h"
 #include "server/event_stream.h"
 #include "server/job_queues.h"
+#include "server/naming.h"
 #include "server/query_parameters.h"
 #include "server/request.h"
 #include "server/shared_once.h"
@@ -37,10 +43,14 @@
 
 namespace isoatlas {
 
+struct ServiceOptions {
+    std::int64_t memory = 0;    ///< bytes for responses in progress; 0: a quarter of the available memory
+    bool is_read_only = false;  ///< names cannot be changed
+};
+
 class Service {
 public:
-    /// memory: bytes for responses in progress; 0: a quarter of the available memory.
-    Service(std::string token, const Context& context, std::int64_t memory = 0);
+    Service(std::string token, const Context& context, const ServiceOptions& options = {});
 
     /// The store of the responses, or its state; nothing is answered before.
     [[nodiscard]] StoreState& store_state() { return store_state_; }
@@ -63,6 +73,7 @@ private:
     [[nodiscard]] Response card_answer(const Request& request);
     [[nodiscard]] Response surface_answer(const Request& request);
     [[nodiscard]] Response label_answer(const Request& request);
+    [[nodiscard]] Response several_answer(const Request& request);
     /// Blocks until it is computed, without a queue: all wait for the same.
     [[nodiscard]] const StoreCatalogue& known(const Request& request);
     [[nodiscard]] const StoreCatalogue& known(const Context& context);
@@ -73,9 +84,12 @@ private:
     [[nodiscard]] Response samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&));
 
     [[nodiscard]] const Atlas& atlas() const { return store_state_.atlas(); }
+    /// Throws Error{resource} where labels would exceed the memory of a response.
+    void check_labels_fit() const;
     /// Throws Error{unsupported} for an image.
     [[nodiscard]] const Atlas& atlas_of_volume() const;
-    [[nodiscard]] std::vector<std::int64_t> voxels(QueryParameters& words, std::string_view name) const;
+    /// Of objects or contours of a request with one isovalue.
+    [[nodiscard]] std::vector<std::int64_t> voxels(QueryParameters& words, std::string_view name, const Request& request);
     /// Context of a long call of a job.
     [[nodiscard]] Context context_of(JobQueue::Job& job) const;
     /// Throws where a response would exceed its memory budget.
@@ -93,6 +107,7 @@ private:
     JobQueues queues_;
     EventStreams events_;
     Cards cards_;
+    Naming naming_;
     SharedOnce<StoreCatalogue> known_;
     SharedOnce<WireMesh> first_;  ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;

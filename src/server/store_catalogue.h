@@ -6,6 +6,7 @@
 
 #include "catalogue/page_contents.h"
 #include "isoatlas/atlas.h"
+#include "server/object_words.h"
 #include "server/sample_answers.h"
 
 namespace isoatlas {
@@ -14,7 +15,9 @@ struct StoreCatalogue {
     PageContents contents;
     BranchHierarchy hierarchy;
     std::vector<NamedEntry> entries;
-    std::string atlas, transfer;  ///< the responses to these requests
+    NumberedLines lines;
+    std::vector<std::int64_t> number_of_rank;  ///< of the first line of an object in the table, from 1; 0: none
+    std::string atlas, transfer;               ///< the responses to these requests
 };
 
 /// Throws Error: input (damaged store), cancelled. Cost: overview_of() (atlas/overview.h) and page_contents(); of noise some seconds for

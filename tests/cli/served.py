@@ -60,6 +60,16 @@ class Viewer:
         except urllib.error.HTTPError as error:
             return error.code, dict(error.headers), error.read()
 
+    def change(self, path, token=None, **headers):
+        """The same for PUT."""
+        request = self.request(path, token, **headers)
+        request.method = "PUT"
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return answer.status, json.loads(answer.read())
+        except urllib.error.HTTPError as error:
+            return error.code, json.loads(error.read())
+
     def states(self, client="listener"):
         """What it says of itself and of the requests of a client, for as long as one listens."""
         with urllib.request.urlopen(self.request("/api/events", **{"X-Client": client}), timeout=60) as answer:

@@ -16,7 +16,7 @@ class Dark(harness.CliTest):
         at = self.run_json("objects", "figure.nrrd", "--tau", str(cavity["best_tau"]))
         walls = [c["id"] for o in at["objects"] for c in o["contours"] if c["shell"] == "inner" and o["id"] == cavity["object"]]
         self.assertEqual(walls, [cavity["id"]])
-        self.run_ok("extract", "figure.nrrd", "--tau", str(cavity["best_tau"]), "--contour", str(cavity["id"]), "-o", "wall.ply")
+        self.run_ok("extract", "figure.nrrd", "--tau", str(cavity["best_tau"]), "--contour", f"v{cavity['id']}", "-o", "wall.ply")
         label = self.run_json("label", "figure.nrrd", "--tau", str(cavity["best_tau"]), "--cavities", "-o", "cavity.nii.gz")
         self.assertEqual((label["labels"], label["labels_are"]), (1, "cavities"))
         self.assertEqual(gzip.decompress((self.folder / "cavity.nii.gz").read_bytes())[352:].count(1), cavity["voxels"])
@@ -51,7 +51,7 @@ class Dark(harness.CliTest):
         for entry in table["objects"][:5]:
             self.assertEqual(entry["isovalues"][0]["tau"], entry["best_tau"])
             for isovalue in entry["isovalues"]:
-                self.run_ok("extract", "noise.nrrd", "--tau", repr(isovalue["tau"]), "--contour", str(isovalue["cavity"]), "-o", "wall.ply")
+                self.run_ok("extract", "noise.nrrd", "--tau", repr(isovalue["tau"]), "--contour", f"v{isovalue['cavity']}", "-o", "wall.ply")
 
     def test_no_cavities_and_errors(self):
         self.assertEqual(self.run_json("objects", "one.npy", "--cavities")["objects"], [])

@@ -149,7 +149,7 @@ class Errors(CliTest):
 
     def test_an_old_output_survives_a_failure(self):
         (self.folder / "old.ply").write_text("old")
-        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--object", "0", "-o", "old.ply")
+        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--object", "v0", "-o", "old.ply")
         self.assertEqual((self.folder / "old.ply").read_text(), "old")
         self.run_ok("extract", "v.nrrd", "--tau", "0.5", "-o", "old.ply")
         self.assertNotEqual((self.folder / "old.ply").read_bytes(), b"old")
@@ -163,10 +163,10 @@ class Errors(CliTest):
             self.run_error(6, verb[0], "v.nrrd", *verb[1:], "--tau", "-1e9", says="below every sample")
 
     def test_no_such_object_or_contour(self):
-        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--object", "0", "-o", "x.ply")
-        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--object", "123456789", "-o", "x.ply")
-        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--contour", "1", "-o", "x.ply")
-        self.run_error(6, "extract", "v.nrrd", "--object", "1", "-o", "x.ply", next_says="isoatlas objects")
+        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--object", "v0", "-o", "x.ply")
+        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--object", "v123456789", "-o", "x.ply")
+        self.run_error(6, "extract", "v.nrrd", "--tau", "0.5", "--contour", "v1", "-o", "x.ply")
+        self.run_error(6, "extract", "v.nrrd", "--object", "v1", "-o", "x.ply", next_says="isoatlas objects")
         self.run_ok("phantom", "checkerboard", "--size", "4", "-o", "board.nrrd")
         self.run_error(6, "extract", "board.nrrd", "--tau", "1", "--shell", "inner", "-o", "x.ply", says="nothing was written")
         self.assertFalse((self.folder / "x.ply").exists())

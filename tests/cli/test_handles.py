@@ -40,11 +40,11 @@ class Handles(harness.CliTest):
         self.assertEqual(self.run_json("handles", "flat.npy", "--exact")["handles"], [])
 
     def test_exact_pairs_of_one_object(self):
-        ids = {o["appears"]: o["id"] for o in self.run_json("objects", "figure.nrrd", "--all")["objects"]}
+        ids = {o["appears"]: f"v{o['id']}" for o in self.run_json("objects", "figure.nrrd", "--all")["objects"]}
         document = self.run_json("handles", "figure.nrrd", "--exact", "--object", ids[80])
         self.assert_schema(document, "handles")
         self.assertEqual([(h["opens"], h["closes"]) for h in document["handles"]], [(48, 46)])
-        self.run_error(6, "handles", "figure.nrrd", "--exact", "--object", "0", says="isoatlas objects")
+        self.run_error(6, "handles", "figure.nrrd", "--exact", "--object", "v0", says="isoatlas objects")
         self.run_error(2, "handles", "figure.nrrd", "--object", "0", says="--exact")
         self.run_error(2, "handles", "figure.nrrd", "--exact", "--object", "0", "--object", "1", says="once")
 

@@ -9,7 +9,7 @@ from harness import CLI, CliTest, main
 
 SOURCE = pathlib.Path(os.environ["ISOATLAS_SOURCE"])
 VERBS = ["atlas", "view", "ask", "info", "objects", "measure", "extract", "render", "animate", "tree", "label", "build", "convert", "handles", "spectrum", "table131", "dump", "phantom",
-         "verify", "completion"]
+         "verify", "completion", "name"]
 
 
 class Help(CliTest):

@@ -230,12 +230,12 @@ class Pictures(CliTest):
         self.run_ok("phantom", "demo", "--size", "40", "-o", "shells.nrrd", "--quiet")
         tau, there = next((t, o) for t in range(20, 240, 20) for o in cut(t) if o["b2"] > 0)
         walls = [c["id"] for c in there["contours"] if c["shell"] == "inner"]
-        objects = ["--object", str(there["id"]) + f"@{tau}", "--contour", f"{walls[0]}@{tau}", "--cavities", f"{there['id']}@{tau}"]
+        objects = ["--object", f"v{there['id']}@{tau}", "--contour", f"v{walls[0]}@{tau}", "--cavities", f"v{there['id']}@{tau}"]
         drawn = self.run_json("render", "shells.nrrd", *objects, "--size", "48", "--samples", "1", "-o", "p.png")["objects"]
         def triangles(*words):
             return self.run_json("extract", "shells.nrrd", "--tau", str(tau), *words, "-o", "p.ply")["triangles"]
-        self.assertEqual([o["triangles"] for o in drawn], [triangles("--object", str(there["id"])), triangles("--contour", str(walls[0])),
-                                                           triangles("--object", str(there["id"]), "--shell", "inner")])
+        self.assertEqual([o["triangles"] for o in drawn], [triangles("--object", f"v{there['id']}"), triangles("--contour", f"v{walls[0]}"),
+                                                           triangles("--object", f"v{there['id']}", "--shell", "inner")])
 
     def test_what_goes_wrong(self):
         self.run_error(2, "render", "figure.nrrd", "-o", "p.bmp", says=".bmp")
@@ -245,7 +245,7 @@ class Pictures(CliTest):
             self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--cut", cut, says="--cut")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--eye", "1,2,3", says="--target")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--eye", "1,2,3", "--target", "1,2,3", says="--eye")
-        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--contour", "12", says="--contour")
+        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--contour", "12", says="contour 12")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--colour", "red", says="--colour")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--up", "w", says="--up")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--size", "0x7", says="--size")

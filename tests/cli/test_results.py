@@ -90,7 +90,7 @@ class Results(CliTest):
         self.assertEqual(table["branches"], 4)
         self.assertGreaterEqual(len(table["objects"]), 4)
         for entry in table["objects"]:
-            keys = {"id", "event", "appears", "merges", "best_tau", "chi", "b1", "b2", "tunnels", "cavities", "voxels", "measure",
+            keys = {"id", "number", "name", "event", "appears", "merges", "best_tau", "chi", "b1", "b2", "tunnels", "cavities", "voxels", "measure",
                     "hypervolume", "position", "position_physical", "note", "reason", "isovalues"}
             self.assertEqual(set(entry), keys)
             at = self.run_json("objects", "figure.nrrd", "--tau", entry["best_tau"])["objects"]
@@ -149,11 +149,11 @@ class Results(CliTest):
         objects = self.run_json("objects", "shells.nrrd", "--tau", "0.5")["objects"]
         everything = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "-o", "s.ply")
         self.assertEqual((everything["objects"], everything["contours"]), (2, 4))
-        one = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--object", objects[1]["id"], "-o", "s.ply")
+        one = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--object", f"v{objects[1]['id']}", "-o", "s.ply")
         self.assertEqual((one["objects"], one["contours"]), (1, 2))
-        both = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--object", objects[0]["id"], objects[1]["id"], "-o", "s.ply")
+        both = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--object", f"v{objects[0]['id']}", f"v{objects[1]['id']}", "-o", "s.ply")
         self.assertEqual(both["triangles"], everything["triangles"])
-        wall = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--contour", objects[0]["contours"][1]["id"], "-o", "s.ply")
+        wall = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--contour", f"v{objects[0]['contours'][1]['id']}", "-o", "s.ply")
         self.assertEqual(wall["contours"], 1)
         outer = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--shell", "outer", "-o", "s.ply")
         inner = self.run_json("extract", "shells.nrrd", "--tau", "0.5", "--shell", "inner", "-o", "s.ply")
@@ -170,7 +170,7 @@ class Results(CliTest):
 
     def test_extract_best(self):
         best = self.run_json("objects", "figure.nrrd")["objects"][0]
-        for choice in (["--best"], ["--object", best["id"]]):
+        for choice in (["--best"], ["--object", "1"]):
             told = self.run_json("extract", "figure.nrrd", *choice, "-o", "best.ply")
             self.assertEqual((told["tau"], told["objects"]), (best["best_tau"], 1))
 

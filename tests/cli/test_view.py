@@ -60,33 +60,33 @@ class View(harness.CliTest):
         self.assertEqual([entry["id"] for entry in objects], [entry["id"] for entry in table["objects"]])
         for entry in objects[:3]:
             tau = entry["tau"]
-            extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x.ply")
-            status, headers, body = self.ask(f"/api/surface?tau={tau!r}&object={entry['id']}")
+            extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", f"v{entry['id']}", "-o", "x.ply")
+            status, headers, body = self.ask(f"/api/surface?tau={tau!r}&object=v{entry['id']}")
             self.assertEqual(status, 200, body)
             self.assertEqual(int(headers["X-Triangles"]), extracted["triangles"])
             self.assertEqual(body[:4], b"iam1")
             for format in ("ply", "stl", "obj", "vtp", "glb"):
-                self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x." + format)
-                status, _, body = self.ask(f"/api/surface?tau={tau!r}&object={entry['id']}&format={format}")
+                self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", f"v{entry['id']}", "-o", "x." + format)
+                status, _, body = self.ask(f"/api/surface?tau={tau!r}&object=v{entry['id']}&format={format}")
                 self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
             preview = self.json_of(f"/api/preview?tau={tau!r}")
             self.assert_schema(preview, "server-preview")
             objects = self.json_of(f"/api/objects?tau={tau!r}")
             self.assert_schema(objects, "server-objects")
             self.assertEqual(objects["count"], preview["objects"])
-            named = self.json_of(f"/api/preview?tau={tau!r}&object={entry['id']}")
+            named = self.json_of(f"/api/preview?tau={tau!r}&object=v{entry['id']}")
             self.assert_schema(named, "server-preview")
             self.assertEqual(named["object"], next(one for one in objects["objects"] if one["id"] == entry["id"]))
 
     def test_measures(self):
         tau = self.run_json("objects", "field.atlas")["objects"][0]["best_tau"]
         listed = self.run_json("objects", "field.atlas", "--tau", repr(tau))["objects"][:5]
-        measures = self.json_of(f"/api/measures?tau={tau!r}&object=" + ",".join(str(entry["id"]) for entry in listed))
+        measures = self.json_of(f"/api/measures?tau={tau!r}&object=" + ",".join(f"v{entry['id']}" for entry in listed))
         self.assert_schema(measures, "server-measures")
         self.assertEqual(sorted(one["id"] for one in measures["objects"]), sorted(entry["id"] for entry in listed))
         for entry in listed:
             one = next(one for one in measures["objects"] if one["id"] == entry["id"])
-            extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", str(entry["id"]), "-o", "x.ply")
+            extracted = self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", f"v{entry['id']}", "-o", "x.ply")
             self.assertEqual((one["triangles"], one["tunnels"], one["cavities"]), (extracted["triangles"], entry["b1"], entry["b2"]))
 
     def test_labels(self):
@@ -95,6 +95,50 @@ class View(harness.CliTest):
             self.run_json("label", "field.atlas", "--tau", repr(tau), "-o", "x." + format)
             status, _, body = self.ask(f"/api/label?tau={tau!r}&format={format}")
             self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
+
+    def test_numbers_are_those_of_the_command_line(self):
+        table = self.run_json("objects", "field.atlas", "--both")
+        atlas = self.json_of("/api/atlas")
+        for entry in atlas["entries"]:
+            side = "cavities" if atlas["branches"][entry["branch"]]["side"] == "cavity" else "objects"
+            same = table[side][entry["number"] - 1]
+            self.assertEqual((entry["id"], entry["tau"]), (same["id"], same["best_tau"]))
+        first = table["objects"][0]
+        tau = repr(first["best_tau"])
+        self.assertEqual(self.ask(f"/api/surface?tau={tau}&object=1")[2], self.ask(f"/api/surface?tau={tau}&object=v{first['id']}")[2])
+
+    def test_several_objects(self):
+        table = self.run_json("objects", "field.atlas")["objects"]
+        words = ["1", f"{len(table)}", f"v{table[0]['id']}@{table[0]['best_tau'] - 0.01!r}"]
+        for format in ("glb", "ply", "stl"):
+            self.run_json("extract", "field.atlas", "--object", *words, "-o", "x." + format)
+            status, _, body = self.ask(f"/api/surfaces?object={','.join(words)}&format={format}")
+            self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
+        for format in ("seg.nrrd", "nii.gz"):
+            self.run_json("label", "field.atlas", "--object", *words, "-o", "x." + format)
+            status, _, body = self.ask(f"/api/segmentation?object={','.join(words)}&format={format}")
+            self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
+
+    def test_names(self):
+        self.assertEqual(self.json_of("/api/names")["names"], [])
+        self.assertEqual(self.ask("/api/name?object=1&name=skull")[0], 400)   # GET changes nothing
+        self.assertEqual(self.viewer.change("/api/name?object=1&name=skull", token="")[0], 403)
+        self.assertEqual(self.viewer.change("/api/name?object=1&name=skull", Origin="http://evil.example")[0], 403)
+        self.assertEqual(self.viewer.change("/api/atlas")[0], 405)
+        self.assertEqual(self.json_of("/api/names")["names"], [])
+        status, told = self.viewer.change("/api/name?object=1&name=big%20skull")
+        self.assertEqual(status, 200, told)
+        self.assert_schema(told, "server-names")
+        self.assertEqual([n["name"] for n in self.run_json("name", "field.atlas")["names"]], ["big skull"])
+        for bad in ("object=2&name=big%20skull", "object=2&name=v3", "object=2", "name=x", "object=v1&name=x", "object=1,2&name=x"):
+            status, told = self.viewer.change("/api/name?" + bad)
+            self.assertEqual(status, 400, bad)
+            self.assert_schema(told, "server-error")
+        self.run_ok("name", "field.atlas", "2", "jaw")
+        self.assertEqual({n["name"] for n in self.json_of("/api/names")["names"]}, {"big skull", "jaw"})
+        for number in (1, 2):
+            self.assertEqual(self.viewer.change(f"/api/name?object={number}&name=")[0], 200)
+        self.assertFalse((self.folder / "field.atlas.names.json").exists())
 
     def test_choosing(self):
         everything = self.json_of("/api/branches")
@@ -136,7 +180,7 @@ class View(harness.CliTest):
         size = atlas["volume"]["size"]
         entry = atlas["entries"][0]
         x, y, z = entry["id"] % size[0], entry["id"] // size[0] % size[1], entry["id"] // size[0] // size[1]
-        found = self.json_of(f"/api/at?voxel={x},{y},{z}&object={entry['id']}@{entry['tau']!r},{entry['id']}@{atlas['volume']['high'] + 1!r}")
+        found = self.json_of(f"/api/at?voxel={x},{y},{z}&object=v{entry['id']}@{entry['tau']!r},v{entry['id']}@{atlas['volume']['high'] + 1!r}")
         self.assert_schema(found, "server-at")
         self.assertIn(0, found["entries"])
         self.assertEqual(found["objects"], [True, False])
@@ -310,8 +354,8 @@ class View(harness.CliTest):
         for path, status in (("/api/surface?tau=nan", 400), ("/api/surface", 400), ("/api/preview?tau=1&x=2", 400), ("/api/none", 404),
                              ("/api/measures?tau=0", 400), ("/api/label?tau=0&format=exe", 400), ("/api/events?x=1", 400),
                              ("/api/slice", 400), ("/api/slice?axis=3&index=0", 400), ("/api/slice?axis=0&index=24", 400), ("/api/volume?max=0", 400),
-                             ("/api/at?voxel=1,2", 400), ("/api/at?voxel=1,2,24", 400), ("/api/at?voxel=1,2,3&object=5", 400), ("/api/transfer?x=1", 400), ("/api/atlas?x=1", 400),
-                             ("/../../etc/passwd", 404), ("/%2e%2e/%2e%2e/etc/passwd", 404), ("/api/surface?tau=0&object=99999999999", 400),
+                             ("/api/at?voxel=1,2", 400), ("/api/at?voxel=1,2,24", 400), ("/api/at?voxel=1,2,3&object=v5", 400), ("/api/transfer?x=1", 400), ("/api/atlas?x=1", 400),
+                             ("/../../etc/passwd", 404), ("/%2e%2e/%2e%2e/etc/passwd", 404), ("/api/surface?tau=0&object=v99999999999", 400), ("/api/surface?tau=0&object=99999999999", 404),
                              ("/api/surface?tau=0&object=" + ",".join(["1"] * 257), 400)):
             got, _, body = self.ask(path)
             self.assertEqual(got, status, path[:60])

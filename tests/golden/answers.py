@@ -51,7 +51,7 @@ def at_isovalue(folder, store, tau):
               "preview": chosen(OF_PREVIEW, run("info", store, "--tau", tau)["preview"])}
     if found["volume"]["rank"] == 3:
         answer["surface"] = surface(folder, store, "--tau", tau)
-        answer["of_one_object"] = surface(folder, store, "--tau", tau, "--object", objects[-1]["id"])
+        answer["of_one_object"] = surface(folder, store, "--tau", tau, "--object", f"v{objects[-1]['id']}")
     return answer
 
 

@@ -104,7 +104,7 @@ describe("objects", () => {
     expect(contentsOf(scene, 0)).toEqual([1, 2, 3]);
     expect([placeOf(scene, 0), placeOf(scene, 3)]).toEqual(["", "a cavity of object 1"]);
     expect([reasonOf(scene, 0), reasonOf(scene, 1)]).toEqual(["", "sharp edge"]);
-    expect([branchName(scene, 0), branchName(scene, 2)]).toEqual(["Object 1", "object with id 9"]);
+    expect([branchName(scene, 0), branchName(scene, 2)]).toEqual(["Object 1", "object v9"]);
   });
   it("have labels with contrast to their colour", () => {
     expect(["#0072b2", "#56b4e9", "#f0e442", "#d55e00"].map(isDeep)).toEqual([true, false, false, false]);

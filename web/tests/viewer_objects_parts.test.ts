@@ -71,7 +71,7 @@ describe("a catalogue", () => {
     expect(nameOf(volume, 2)).toBe("Object 3");
     expect(titleOf(volume, 7)).toBe("Object of rank 4");
     expect(entryOf(volume, 7)).toMatchObject({ id: 203, tau: 53, tunnels: 0, cavities: 0 });
-    expect(entryOf(volume, 7).commands[0]?.line).toBe("isoatlas extract scan.atlas --object 203 --tau 53 -o object-4.ply");
+    expect(entryOf(volume, 7).commands[0]?.line).toBe("isoatlas extract scan.atlas --object v203@53 -o object-4.ply");
     expect(() => entryOf(volume, 10)).toThrow("no entry 10");
   });
   it("adds branches to the tree of the page", () => {
@@ -164,7 +164,8 @@ describe("the search", () => {
     expect(found("sharp")).toEqual([2]);
     expect(found("3")).toEqual([2]);
     expect(found("rank 4")).toEqual([7]);
-    expect(found("203")).toEqual([7]);
+    expect(found("v203")).toEqual([7]);
+    expect(found("203")).toEqual([]);
     expect(found("nothing of this")).toEqual([]);
   });
   it("sorts, with cavities and other objects of the scene apart", () => {

@@ -162,7 +162,7 @@ describe.skipIf(!canServe)("the scene", () => {
         "extract",
         served.store,
         "--object",
-        String(id),
+        `v${id}`,
         "--tau",
         String(best_tau),
         "--shell",

@@ -202,16 +202,16 @@ describe("measures", () => {
 describe("the command line of a scene", () => {
   it("has every object at its isovalue, its colour and its opacity, and the camera", () => {
     const command = renderCommand(page, two.shown, camera, [640, 480], false);
-    const [first, second] = page.entries;
+    const [first] = page.entries;
     const colours = `--colour '${first?.colour.toUpperCase()}' --colour '#12AB00'`;
-    expect(command).toContain(`--object ${first?.id}@10 --object ${second?.id}@20.5 ${colours} --opacity 1 --opacity 0.5`);
+    expect(command).toContain(`--object 1@10 --object 2@20.5 ${colours} --opacity 1 --opacity 0.5`);
     expect(command).toContain("--eye=-1,2,3 --target=0,0,0.5 --height 12.5 --perspective --size 640x480 --plain -o scene.png");
   });
   it("follows the order of the command line, omits hidden objects, and clips", () => {
     const all = add({ ...two, shown: two.shown.map((one, i) => ({ ...one, visible: i > 0 })) }, -1, 7);
     const cut = { normal: [-0.6, 0, 0.8], offset: -3 };
     expect(renderCommand(page, all.shown, { ...camera, flat: true, cut }, [9, 9], true)).toMatch(
-      /--tau 7 --object \d+@20.5 --colour '#999999' --colour '#12AB00' .*--height 12.5 --cut='-0.6x\+0.8z>-3' --size 9x9 --background dark/,
+      /--tau 7 --object 2@20.5 --colour '#999999' --colour '#12AB00' .*--height 12.5 --cut='-0.6x\+0.8z>-3' --size 9x9 --background dark/,
     );
   });
 });
@@ -262,7 +262,7 @@ describe("the table", () => {
   it("has a line for every object, and quotes where needed", () => {
     const lines = tableCsv(page, two).trimEnd().split("\r\n");
     expect(lines.length).toBe(page.entries.length + 1);
-    expect(lines[1]?.split(",").slice(0, 4)).toEqual(["Object 1", String(page.entries[0]?.id), "object", String(page.entries[0]?.tau)]);
+    expect(lines[1]?.split(",").slice(0, 5)).toEqual(["Object 1", "1", `v${page.entries[0]?.id}`, "object", String(page.entries[0]?.tau)]);
     expect(lines[2]?.endsWith(",20.5")).toBe(true);
     expect(['a"b', "a,b", null, 3].map(cell)).toEqual(['"a""b"', '"a,b"', "", "3"]);
   });

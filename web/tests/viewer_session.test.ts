@@ -136,7 +136,7 @@ for (const [volume, there, serve] of volumes) {
       await tab.screenshot({ path: join(pictures, `${volume}-${name}.png`) });
     };
     const extracted = (id: number, tau: number): number => {
-      const words = ["extract", served.store, "--object", String(id), "--tau", String(tau), "-o", "asked.stl", "--json"];
+      const words = ["extract", served.store, "--object", `v${id}`, "--tau", String(tau), "-o", "asked.stl", "--json"];
       return (JSON.parse(served.isoatlas(...words)) as { triangles: number }).triangles;
     };
 

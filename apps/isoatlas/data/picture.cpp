@@ -19,17 +19,6 @@ std::optional<T> number_in(const std::string& word, int base = 10) {
     return value;
 }
 
-ShownObject shown_object(const std::string& word, ShownPart part) {
-    const std::size_t at = word.find('@');
-    const std::optional<std::int64_t> id = number_in<std::int64_t>(word.substr(0, at));
-    ShownObject object{.id = id.value_or(0), .tau = {}, .part = part};
-    if (at != std::string::npos) object.tau = number_in<double>(word.substr(at + 1));
-    const bool needs_tau = at != std::string::npos || part != ShownPart::object;
-    if (id && (object.tau || !needs_tau)) return object;
-    if (part == ShownPart::object) bad("--object", word, "an id of the table, or an id with an isovalue: 81275@150");
-    bad(part == ShownPart::contour ? "--contour" : "--cavities", word, "an id with an isovalue: 81275@150");
-}
-
 std::optional<Colour> colour_in(const std::string& word) {
     const std::optional<std::uint32_t> bits =
         word.size() == 7 && word[0] == '#' ? number_in<std::uint32_t>(word.substr(1), 16) : std::nullopt;
@@ -123,9 +112,12 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     for (const double opacity : words.opacities) {
         if (!(opacity > 0 && opacity <= 1)) bad("--opacity", std::to_string(opacity), "above 0 and at most 1");
     }
-    for (const std::string& word : words.objects) picture.objects.push_back(shown_object(word, ShownPart::object));
-    for (const std::string& word : words.contours) picture.objects.push_back(shown_object(word, ShownPart::contour));
-    for (const std::string& word : words.cavities) picture.objects.push_back(shown_object(word, ShownPart::cavities));
+    const auto add = [&](const char* option, const std::vector<std::string>& typed, ShownPart part) {
+        for (ObjectReference& reference : parse_references(option, typed)) picture.objects.push_back({std::move(reference), part});
+    };
+    add("--object", words.objects, ShownPart::object);
+    add("--contour", words.contours, ShownPart::contour);
+    add("--cavities", words.cavities, ShownPart::cavities);
     for (const std::string& word : words.colours) picture.colours.push_back(colour_of(word));
     for (const std::string& word : words.slices) picture.slices.push_back(shown_slice(word));
     for (const std::string& word : words.materials) picture.materials.push_back(shown_material(word));

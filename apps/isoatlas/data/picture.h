@@ -7,6 +7,8 @@
 
 #include <isoatlas/isoatlas.h>
 
+#include "options/object_reference.h"
+
 namespace isoatlas::cli {
 
 /// As typed.
@@ -21,10 +23,9 @@ struct PictureWords {
 /// Part of an object: its whole surface, one contour, or the walls of its cavities.
 enum class ShownPart : std::uint8_t { object, contour, cavities };
 
-/// --object ID or ID@T, --contour ID@T, --cavities ID@T
+/// --object, --contour, --cavities
 struct ShownObject {
-    std::int64_t id = 0;
-    std::optional<double> tau;  ///< calibrated; none for an object: its best isovalue
+    ObjectReference reference;
     ShownPart part = ShownPart::object;
 };
 
@@ -90,8 +91,9 @@ void convert_picture(const PictureWords& words, PictureArguments& picture);
 
 /// The scene of the arguments, without the cut. Throws Error: usage, not_found.
 class Source;
+class Terminal;
 struct Arguments;
-[[nodiscard]] Scene scene_of(const Arguments& arguments, Source& source);
+[[nodiscard]] Scene scene_of(const Arguments& arguments, Source& source, Terminal& terminal);
 /// The part that --cut removes, seen from `view`; octants and halves are those of the volume.
 [[nodiscard]] std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view);
 

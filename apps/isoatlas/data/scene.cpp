@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "data/object_directory.h"
 #include "data/picture.h"
 #include "data/source.h"
 #include "text/terminal.h"
@@ -11,8 +12,7 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr double kGlass = 0.28;        // opacity of what would hide others
-constexpr std::int64_t kLines = 1000;  // max table lines searched for the id of --object
+constexpr double kGlass = 0.28;  // opacity of what would hide others
 
 [[noreturn]] void nothing_there(const Arguments& arguments, const std::string& what) {
     throw Error(ErrorKind::not_found, {.file = arguments.file,
@@ -29,71 +29,45 @@ struct Wanted {
     ShellChoice shell = ShellChoice::all;
 };
 
-Wanted wanted_entry(const ObjectEntry& entry, const Scale& scale) {
-    return {
-        entry.best_tau, {entry.id}, fmt::format("{}  at {}", entry.id, scale.text_within(entry.best_tau, entry.tau_low, entry.tau_high))};
-}
-
-/// Table lines searched by --object. Lines that may be noise are slow to compute where there are many.
-ObjectTable lines_by_id(Source& source) {
-    ObjectTable table = source.objects({.top = kLines});
-    return table.branches > kLines ? table : source.objects({.top = 0, .gate = false});
-}
-
-Wanted wanted_part(const ShownObject& shown, const Scale& scale) {
-    const std::string name = fmt::format("{}  at {}", shown.id, *shown.tau);
-    Wanted wanted{.tau = scale.stored(*shown.tau), .objects = {shown.id}, .name = name};
-    if (shown.part == ShownPart::contour) wanted = {.tau = wanted.tau, .objects = {}, .name = "wall of " + name, .contours = {shown.id}};
-    if (shown.part == ShownPart::cavities) wanted.name = "cavities of " + name, wanted.shell = ShellChoice::inner;
+Wanted wanted_object(const ChosenObject& object, ShownPart part = ShownPart::object) {
+    Wanted wanted{.tau = object.tau, .objects = {object.voxel}, .name = fmt::format("{}  at {}", title_of(object), object.tau_text)};
+    if (object.is_contour) wanted.objects.clear(), wanted.contours = {object.voxel};
+    if (part == ShownPart::cavities) wanted.name = "cavities of " + wanted.name, wanted.shell = ShellChoice::inner;
     return wanted;
 }
 
-void add_shown(const Arguments& arguments, Source& source, std::vector<Wanted>& wanted) {
-    const Scale scale(source.info());
-    std::optional<ObjectTable> table;
-    for (const ShownObject& shown : arguments.picture.objects) {
-        if (shown.id < 0 || shown.id >= source.info().extent.voxels())
-            nothing_there(arguments, fmt::format("there is no object {}", shown.id));
-        if (shown.tau) {
-            wanted.push_back(wanted_part(shown, scale));
-            continue;
+/// As typed: objects, contours, cavities of objects.
+void add_shown(const Arguments& arguments, ObjectDirectory& directory, std::vector<Wanted>& wanted) {
+    const auto of_part = [&](ShownPart part) {
+        std::vector<ObjectReference> references;
+        for (const ShownObject& shown : arguments.picture.objects) {
+            if (shown.part == part) references.push_back(shown.reference);
         }
-        if (!table) table = lines_by_id(source);
-        const auto entry =
-            std::find_if(table->entries.begin(), table->entries.end(), [&](const ObjectEntry& e) { return e.id == shown.id; });
-        if (entry == table->entries.end()) {
-            throw Error(ErrorKind::not_found,
-                        {.file = arguments.file,
-                         .what = fmt::format("no object of the table has the id {}", shown.id),
-                         .next = fmt::format("isoatlas objects {} lists them; --object {}@T shows any object that holds this voxel",
-                                             shell_word(arguments.file), shown.id)});
-        }
-        wanted.push_back(wanted_entry(*entry, scale));
+        return references;
+    };
+    for (const ChosenObject& object : directory.find(of_part(ShownPart::object))) wanted.push_back(wanted_object(object));
+    for (const ChosenObject& contour : directory.find_contours(of_part(ShownPart::contour))) wanted.push_back(wanted_object(contour));
+    for (const ChosenObject& object : directory.find(of_part(ShownPart::cavities))) {
+        if (object.is_contour)
+            throw Error(ErrorKind::usage, {.what = title_of(object) + " is a cavity, and not the object around one",
+                                           .next = "draw it as an object: " + reference_of(object, true)});
+        wanted.push_back(wanted_object(object, ShownPart::cavities));
     }
 }
 
-/// The first lines of the table that show more than background, if there are any.
-ObjectTable first_objects(Source& source, std::int64_t count) {
-    ObjectTable table = source.objects({.top = count + 1});
-    const Extent& extent = source.info().extent;
-    if (table.entries.size() > 1) std::erase_if(table.entries, [&](const ObjectEntry& e) { return is_background(e, extent); });
-    if (std::ssize(table.entries) > count) table.entries.resize(static_cast<std::size_t>(count));
-    return table;
-}
-
-std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source) {
-    const Scale scale(source.info());
+std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source, Terminal& terminal) {
     std::vector<Wanted> wanted;
     for (const double tau : arguments.picture.taus) {
         const double stored = source.stored(tau);
         wanted.push_back({stored, {}, fmt::format("isovalue {}", tau)});
     }
-    add_shown(arguments, source, wanted);
+    ObjectDirectory directory(arguments, source, terminal);
+    add_shown(arguments, directory, wanted);
     const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
     if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
-    const ObjectTable table = first_objects(source, std::max<std::int64_t>(1, arguments.top));
-    if (table.entries.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
-    for (const ObjectEntry& entry : table.entries) wanted.push_back(wanted_entry(entry, scale));
+    const std::vector<ChosenObject> first = directory.first(std::max<std::int64_t>(1, arguments.top));
+    if (first.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
+    for (const ChosenObject& object : first) wanted.push_back(wanted_object(object));
     return wanted;
 }
 
@@ -221,7 +195,7 @@ std::string length_unit(const VolumeInfo& info) {
     return voxels ? "voxels" : "units";
 }
 
-Scene scene_of(const Arguments& arguments, Source& source) {
+Scene scene_of(const Arguments& arguments, Source& source, Terminal& terminal) {
     const PictureArguments& picture = arguments.picture;
     if (source.info().extent.rank == 2)
         throw Error(ErrorKind::usage, {.file = arguments.file,
@@ -229,7 +203,9 @@ Scene scene_of(const Arguments& arguments, Source& source) {
                                        .next = "isoatlas extract " + shell_word(arguments.file) + " --tau T -o curves.vtp writes them"});
     Scene scene;
     scene.unit = length_unit(source.info());
-    for (const Wanted& wanted : wanted_of(arguments, source)) {
+    const std::vector<Wanted> all = wanted_of(arguments, source, terminal);
+    if (!picture.volume) source.release_trees();
+    for (const Wanted& wanted : all) {
         SurfaceOptions options;
         options.objects = wanted.objects;
         options.contours = wanted.contours;

@@ -85,7 +85,7 @@ Surface Source::extract(double tau, const SurfaceOptions& options) {
 }
 
 ObjectTable Source::objects(const RankOptions& options) {
-    if (!atlas_) return rank_objects(volume(), analysis(true), options, context());
+    if (!atlas_) return rank_objects(volume(), ranked(), options, context());
     ObjectTable table = atlas_->objects(options, context());
     for (ObjectEntry& entry : table.entries) {
         if (arguments_.voxel_units) entry.measure = static_cast<double>(entry.voxels);
@@ -94,12 +94,13 @@ ObjectTable Source::objects(const RankOptions& options) {
 }
 
 CavityTable Source::cavities(const RankOptions& options) {
-    if (!atlas_ || arguments_.voxel_units) return rank_cavities(volume(), analysis(false), options, context());
+    if (!atlas_) return rank_cavities(volume(), ranked(), options, context());
+    if (arguments_.voxel_units) return rank_cavities(volume(), analysis(false), options, context());
     return atlas_->cavities(options, context());
 }
 
 ObjectsAndCavities Source::objects_and_cavities(const RankOptions& options) {
-    if (!atlas_) return rank_both(volume(), analysis(true), options, context());
+    if (!atlas_) return rank_both(volume(), ranked(), options, context());
     return {objects(options), cavities(options)};
 }
 
@@ -145,6 +146,11 @@ Percolation Source::percolation() { return isoatlas::percolation(volume(), analy
 Analysis Source::analysis(bool with_zones) {
     if (atlas_ && !with_zones) return atlas_->analysis();
     return analyse(volume(), analysis_options(), context());
+}
+
+const Analysis& Source::ranked() {
+    if (!ranked_) ranked_ = analysis(true);
+    return *ranked_;
 }
 
 const Volume& Source::volume() {

@@ -57,6 +57,8 @@ public:
     [[nodiscard]] Analysis analysis(bool with_zones);
     /// All samples.
     [[nodiscard]] const Volume& volume();
+    /// Frees the trees that tables of a volume file were made from.
+    void release_trees() { ranked_.reset(); }
     /// A volume with at least these samples; no others are read from a store. Valid until the next call.
     [[nodiscard]] const Volume& volume(const SamplesWanted& wanted);
 
@@ -64,8 +66,12 @@ public:
     [[nodiscard]] std::optional<QueryCost> reads() const;
 
 private:
+    /// Of a volume file, for tables.
+    [[nodiscard]] const Analysis& ranked();
+
     const Arguments& arguments_;
     Session session_;
+    std::optional<Analysis> ranked_;
     std::optional<Atlas> atlas_;
     std::optional<Volume> volume_, part_;
     std::optional<ValueRange> range_;

@@ -33,6 +33,8 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     operand->type_name("");
     if (verb.name != "phantom") operand->required();
     if (verb.name == "dump") app->add_option("PART", arguments.part, "Part to print; default: a list of all parts")->type_name("");
+    if (verb.name == "name")
+        app->add_option("OBJECT", arguments.part, "An object (2, c3, v81275@150), then its name; nothing: list the names")->type_name("");
     if (verb.name == "ask")
         app->add_option("REQUEST", arguments.part, "Path, such as '/api/objects?tau=300' (docs/server.md)")->type_name("");
     add_options_of(verb.name, *app, arguments, typed);
@@ -71,6 +73,9 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
             usage("--gaussian is not above 0", "give the standard deviation in the unit of the spacing that `isoatlas info` prints");
         arguments.gaussian = typed.gaussian;
     }
+    arguments.objects = parse_references("--object", typed.objects);
+    arguments.contours = parse_references("--contour", typed.contours);
+    arguments.removed_names = parse_references("--remove", typed.removed_names);
     if (given("--time-step")) arguments.open.time_step = typed.time_step;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) arguments.missing.no_data = typed.no_data;

@@ -9,6 +9,7 @@
 #include <isoatlas/isoatlas.h>
 
 #include "data/picture.h"
+#include "options/object_reference.h"
 
 namespace isoatlas::cli {
 
@@ -40,9 +41,11 @@ struct Arguments {
 
     // Selection
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
-    std::vector<std::int64_t> objects, contours;
-    bool exact = false;           ///< handles: exact pairs
-    bool no_percolation = false;  ///< measure: leave it out
+    std::vector<ObjectReference> objects, contours;
+    bool exact = false;                          ///< handles: exact pairs
+    bool no_percolation = false;                 ///< measure: leave it out
+    bool split = false, for_print = false;       ///< extract
+    std::vector<ObjectReference> removed_names;  ///< name
     bool best = false, all = false, zones = false, list = false, cavities = false, both = false;
     std::int64_t top = 0;  ///< 0: not given
     Selection selection;   ///< as typed: reported units

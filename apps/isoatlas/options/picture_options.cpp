@@ -19,9 +19,9 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
         return add_word_or_number(app, name, value, meaning)->type_name(type);
     };
     add("--tau", words.taus, "Surface of everything at these isovalues (calibrated)", "T");
-    add("--object", words.objects, "Objects, each at an isovalue; default: its best isovalue", "ID[@T]");
-    add("--contour", words.contours, "Contours, such as the wall of a cavity, each at an isovalue", "ID@T");
-    add("--cavities", words.cavities, "Only the walls of the cavities of these objects, each at an isovalue", "ID@T");
+    add("--object", words.objects, "Objects (2, v81275, a name) and cavities (c3), each at an isovalue; default: its best one", "REF[@T]");
+    add("--contour", words.contours, "Contours: cavities (c3), or ids of `objects --tau`, each at an isovalue", "REF[@T]");
+    add("--cavities", words.cavities, "Only the walls of the cavities of these objects, each at an isovalue", "REF[@T]");
     add("--top", arguments.top, "The first N objects of the table, each at its best isovalue (1)", "N")->check(in_range(1, 1000));
     add("--opacity", words.opacities, "Opacity of each surface, 0 to 1; default: surfaces that occlude others are transparent", "P");
     add("--colour", words.colours, "Colour of each surface, #RRGGBB", "C");

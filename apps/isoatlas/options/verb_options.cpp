@@ -34,6 +34,11 @@ void add_shape(CLI::App& app, Typed& typed) {
     app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
 }
 
+/// References: options/object_reference.h.
+void add_objects(CLI::App& app, Typed& typed, const std::string& meaning) {
+    app.add_option("--object", typed.objects, meaning + ". 2: of the table, c3: cavity, v81275: voxel, or a name")->type_name("REF[@T]");
+}
+
 void tree_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
     add_selection(app, typed.selection, true);
@@ -68,8 +73,13 @@ void measure_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 
 void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_tau(app, typed, "Isovalue; default: the best isovalue of the object");
-    add_number(app, "--object", arguments.objects, "Only these objects: ids of the table, or any voxel index inside")->type_name("ID");
-    add_number(app, "--contour", arguments.contours, "Only these contours (ids of objects --tau)")->type_name("ID");
+    add_objects(app, typed, "Only these objects, each at an isovalue; default: its best one");
+    app.add_option("--contour", typed.contours, "Only these contours: cavities (c3), or ids of `objects --tau`")->type_name("REF[@T]");
+    add_number(app, "--top", arguments.top, "The first N objects of the table, each at its best isovalue")
+        ->check(in_range(1, 1000))
+        ->type_name("N");
+    app.add_flag("--split", arguments.split, "One file for each object, with its number and name behind that of FILE");
+    app.add_flag("--for-print", arguments.for_print, "For a 3D printer: outer shells alone, in mm, without specks");
     app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
     app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
     app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
@@ -94,8 +104,16 @@ void label_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_tau(app, typed, "Label the objects at this isovalue: 1 is the largest");
     app.add_flag("--cavities", arguments.cavities, "With --tau: label the cavities instead, 1 is the largest");
     app.add_flag("--zones", arguments.zones, "Label every voxel with its zone: event id + 1");
-    add_selection(app, typed.selection, true);
-    add_output(app, arguments, ".nrrd .nii .nii.gz .tif", true);
+    add_objects(app, typed, "Label these objects, each at an isovalue, by their numbers; default: its best one");
+    app.add_option("--top", typed.selection.top,
+                   "Label the first N objects of the table, each at its best isovalue; with --zones: keep the first P percent")
+        ->type_name("N|P%");
+    add_selection(app, typed.selection, false);
+    add_output(app, arguments, ".seg.nrrd .nrrd .nii .nii.gz .tif", true);
+}
+
+void name_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
+    app.add_option("--remove", typed.removed_names, "Take the names of these objects away")->type_name("REF");
 }
 
 void build_options(CLI::App& app, Arguments& arguments, Typed& typed) {
@@ -123,7 +141,7 @@ void ask_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) { add_ou
 
 void handles_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_flag("--exact", arguments.exact, "Exact pairs by persistent homology (slower)");
-    add_number(app, "--object", arguments.objects, "With --exact: only the largest object with this highest voxel")->type_name("ID");
+    app.add_option("--object", typed.objects, "With --exact: only the largest object with the highest voxel of this one")->type_name("REF");
     app.add_option("--top", typed.selection.top, "At most N tunnels (24)")->type_name("N");
     app.add_option("--persistence", typed.selection.persistence, "Only tunnels of at least this persistence, or P percent of the range")
         ->type_name("H|P%");
@@ -216,7 +234,7 @@ void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments
         {"extract", extract_options}, {"render", render_options},     {"animate", animate_options},   {"label", label_options},
         {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},         {"ask", ask_options},
         {"handles", handles_options}, {"spectrum", spectrum_options}, {"table131", table131_options}, {"convert", convert_options},
-        {"phantom", phantom_options}, {"verify", verify_options},
+        {"phantom", phantom_options}, {"verify", verify_options},     {"name", name_options},
     };
     if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
 }

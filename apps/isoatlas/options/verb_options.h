@@ -11,6 +11,7 @@ namespace isoatlas::cli {
 struct Typed {
     std::string box, dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all",
                                                                    style = "compact", boundary = "closed", detail = "events", memory;
+    std::vector<std::string> objects, contours, removed_names;
     TypedSelection selection;
     double no_data = 0;
     double tau = 0, gaussian = 0;

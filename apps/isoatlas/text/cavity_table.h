@@ -6,12 +6,13 @@
 
 namespace isoatlas::cli {
 
+class ObjectDirectory;
 class Source;
 class Terminal;
 
 /// Members "cavity_branches" and "cavities": [...].
-void add_cavities(Json& json, const CavityTable& table, const VolumeInfo& info);
+void add_cavities(Json& json, const CavityTable& table, const VolumeInfo& info, ObjectDirectory& directory);
 /// The table alone, or with --json its own document.
-void print_cavities(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table);
+void print_cavities(Terminal& terminal, const Arguments& arguments, Source& source, const CavityTable& table, ObjectDirectory& directory);
 
 }  // namespace isoatlas::cli

@@ -64,7 +64,8 @@ Json volume_json(const VolumeInfo& info) {
 }  // namespace
 
 Json document(const std::string& name) {
-    static const std::set<std::string> kSecond{"animate", "ask", "atlas", "build", "info", "objects", "spectrum"};  // CHANGES.md, 0.2.0
+    static const std::set<std::string> kSecond{"animate", "ask",  "atlas",   "build",
+                                               "extract", "info", "objects", "spectrum"};  // CHANGES.md, 0.2.0; extract: 0.3.0
     return {{"schema", "isoatlas/" + name + (kSecond.contains(name) ? "/2" : "/1")}, {"version", ISOATLAS_VERSION}};
 }
 

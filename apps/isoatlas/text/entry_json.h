@@ -1,9 +1,15 @@
 // Members that the tables of objects and cavities have in common. Entry: ObjectEntry, CavityEntry.
 #pragma once
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 #include <isoatlas/isoatlas.h>
 
+#include "data/object_directory.h"
+#include "options/object_reference.h"
 #include "text/document.h"
 #include "text/terminal.h"
 #include "text/values.h"
@@ -28,23 +34,63 @@ void add_isovalues(Json& json, const Entry& entry, const Scale& scale) {
 }
 
 /// Prints the other recommended isovalues of an entry; nothing if there are none.
-inline void tell_isovalues(Terminal& terminal, std::size_t entry, const std::vector<RecommendedIsovalue>& others, const Scale& scale) {
+/// entry: how it is called.
+inline void tell_isovalues(Terminal& terminal, const std::string& entry, const std::vector<RecommendedIsovalue>& others,
+                           const Scale& scale) {
     std::string text;
     for (const RecommendedIsovalue& isovalue : others) {
-        const std::string cavity = isovalue.cavity < 0 ? "" : fmt::format(", cavity {}", isovalue.cavity);
+        const std::string cavity = isovalue.cavity < 0 ? "" : ", cavity " + voxel_word(isovalue.cavity);
         text += fmt::format("{} {} ({}{})", text.empty() ? "" : ",", scale.brief(isovalue.tau), name_of(isovalue.reason), cavity);
     }
-    if (!text.empty()) terminal.say(fmt::format("{} also at{}", entry + 1, text));
+    if (!text.empty()) terminal.say(fmt::format("{} also at{}", entry, text));
+}
+
+/// Its number in the table of significant ones and the name that a user gave it; null: it has none.
+inline void add_number_and_name(Json& json, std::int64_t number, const std::string& name) {
+    json["number"] = number == 0 ? Json(nullptr) : Json(number);
+    json["name"] = name.empty() ? Json(nullptr) : Json(name);
+}
+
+/// "inside 3", where entries of the table are called so.
+template <class Entry>
+std::string note_of(const Entry& entry, const std::vector<std::string>& called) {
+    return entry.note.starts_with("inside ") ? "inside " + called[static_cast<std::size_t>(entry.inside)] : entry.note;
+}
+
+/// Number of every line of a table: "2", "c3"; "-": it has none.
+template <class Table>
+std::vector<std::string> numbers_of(const Table& table, ObjectDirectory& directory, const std::string& letter) {
+    std::vector<std::string> numbers;
+    for (const auto& entry : table.entries) {
+        const std::int64_t number = directory.number_of(entry);
+        numbers.push_back(number == 0 ? "-" : letter + std::to_string(number));
+    }
+    return numbers;
+}
+
+/// The same, or the voxel of a line without a number.
+template <class Table>
+std::vector<std::string> references_of(const Table& table, ObjectDirectory& directory, const std::string& letter) {
+    std::vector<std::string> called = numbers_of(table, directory, letter);
+    for (std::size_t i = 0; i < called.size(); ++i) {
+        if (called[i] == "-") called[i] = voxel_word(table.entries[i].id);
+    }
+    return called;
+}
+
+template <class Table>
+bool has_names(const Table& table, ObjectDirectory& directory) {
+    return std::ranges::any_of(table.entries, [&](const auto& entry) { return !directory.name_of(entry).empty(); });
 }
 
 template <class Entry>
-void add_size_and_place(Json& json, const Entry& entry, const VolumeInfo& info) {
+void add_size_and_place(Json& json, const Entry& entry, const VolumeInfo& info, const std::string& note) {
     json["voxels"] = entry.voxels;
     json["measure"] = entry.measure;
     json["hypervolume"] = entry.hypervolume * info.calibration.slope;
     json["position"] = entry.position;
     json["position_physical"] = to_physical(info.geometry, entry.position);
-    json["note"] = entry.note;
+    json["note"] = note;
 }
 
 }  // namespace isoatlas::cli

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "data/source.h"
+#include "options/object_reference.h"
 #include "text/interrupt.h"
 #include "text/table.h"
 #include "text/terminal.h"
@@ -25,7 +26,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarch
         stack.pop_back();
         const SimplifiedNode& node = simplified.nodes[static_cast<std::size_t>(i)];
         table.add({fmt::format("{}{} {}", std::string(2 * depth, ' '), node.is_maximum ? "maximum" : "merge", node.event.number()),
-                   fmt::format("{}", hierarchy.branches()[node.branch.index()].id), scale.brief(node.tau_high),
+                   voxel_word(hierarchy.branches()[node.branch.index()].id), scale.brief(node.tau_high),
                    node.parent < 0 ? "bottom" : scale.brief(node.tau_low), count_text(node.voxels), count_text(node.object_voxels)});
         const std::vector<std::int64_t>& children = above[i];
         // A chain without branches is not indented further.

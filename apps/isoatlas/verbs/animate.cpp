@@ -139,9 +139,9 @@ Made evolve(const Arguments& arguments, Source& source, RenderOptions options) {
     return made;
 }
 
-Made turntable(const Arguments& arguments, Source& source, const RenderOptions& options) {
+Made turntable(const Arguments& arguments, Source& source, Terminal& terminal, const RenderOptions& options) {
     const PictureArguments& picture = arguments.picture;
-    Scene scene = scene_of(arguments, source);
+    Scene scene = scene_of(arguments, source, terminal);
     const View view = picture.view ? *picture.view : best_view(scene, picture.up, source.context());
     scene.removed = removed_part(picture, source.info(), view);
     Camera camera = fit_turntable(scene, view, picture.up, options);
@@ -196,7 +196,7 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
                     {.what = "a selection applies to an evolution only", .next = "give --from and --to, or omit the selection"});
     Source source(arguments, terminal);
     RenderOptions options = options_of_picture(arguments.picture);
-    Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, source, options);
+    Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, source, terminal, options);
     made.animation.frames_per_second = wanted.frames_per_second;
     write_movie(arguments.output, made.animation);
     if (arguments.json) {

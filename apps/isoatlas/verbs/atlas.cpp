@@ -1,4 +1,5 @@
 // isoatlas FILE: writes the page of the objects of a volume. Builds the store beside the page when there is none.
+#include "data/object_directory.h"
 #include "data/session.h"
 #include "data/store_beside.h"
 #include "text/document.h"
@@ -20,7 +21,8 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         Session session(arguments, terminal);
         const WritingGuard guard;
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
-        report = write_page(page, atlas, {.top = top, .top_cavities = (top + 1) / 2, .source = store}, session.context());
+        const std::vector<ObjectName> names = names_in(object_names_path(store), atlas.info().extent, terminal);
+        report = write_page(page, atlas, {.top = top, .top_cavities = (top + 1) / 2, .names = names, .source = store}, session.context());
     }
     if (arguments.json) {
         Json json = document("atlas", atlas.info(), atlas.interpolant(), atlas.tunnel_height());

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "data/chosen_surfaces.h"
+#include "data/object_directory.h"
+#include "data/print_surface.h"
 #include "data/source.h"
 #include "text/document.h"
 #include "text/interrupt.h"
@@ -13,67 +16,68 @@
 namespace isoatlas::cli {
 namespace {
 
-const ObjectEntry* find(const ObjectTable& table, std::int64_t id) {
-    const auto found = std::find_if(table.entries.begin(), table.entries.end(), [&](const ObjectEntry& entry) { return entry.id == id; });
-    return found == table.entries.end() ? nullptr : &*found;
-}
-
-[[noreturn]] void no_such_entry(const Arguments& arguments, const std::string& what) {
-    throw Error(
-        ErrorKind::not_found,
-        {.file = arguments.file, .what = what, .next = "isoatlas objects " + shell_word(arguments.file) + " lists them; or give --tau"});
-}
-
-/// The best isovalue of the selected objects. With --best and no --object: the object of the first line of the table.
-double best_tau(const Arguments& arguments, Source& source, SurfaceOptions& options) {
-    ObjectTable table = source.objects({});
-    if (options.objects.empty()) {
-        if (table.entries.empty()) no_such_entry(arguments, "no object of this volume is above the noise level");
-        options.objects = {table.entries[0].id};
-    }
-    const auto known = [&](std::int64_t id) { return find(table, id) != nullptr; };
-    if (!std::all_of(options.objects.begin(), options.objects.end(), known)) {
-        table = source.objects({.top = 0, .gate = false});
-    }
-    double tau = 0;
-    for (std::size_t i = 0; i < options.objects.size(); ++i) {
-        const ObjectEntry* entry = find(table, options.objects[i]);
-        if (entry == nullptr) no_such_entry(arguments, fmt::format("no object of the table has the id {}", options.objects[i]));
-        if (i > 0 && entry->best_tau != tau) {
-            throw Error(ErrorKind::usage,
-                        {.what = fmt::format("objects {} and {} have different best isovalues", options.objects[0], options.objects[i]),
-                         .next = "give one isovalue for all with --tau, or extract them one by one"});
-        }
-        tau = entry->best_tau;
-    }
-    return tau;
-}
-
 void check_arguments(const Arguments& arguments) {
-    if (!arguments.tau && !arguments.best && arguments.objects.empty()) {
+    const bool chooses = !arguments.objects.empty() || arguments.best || arguments.top > 0;
+    const bool has_contours = std::ranges::any_of(arguments.contours, [](const ObjectReference& contour) {
+        return contour.tau || contour.kind == ObjectReference::Kind::cavity || contour.kind == ObjectReference::Kind::name;
+    });
+    if (!arguments.tau && !chooses && !has_contours) {
         throw Error(ErrorKind::usage,
                     {.what = "which isovalue?",
-                     .expected = "--tau T, --object ID or --best",
+                     .expected = "--tau T, --object REF, --top N or --best",
                      .next = "isoatlas objects " + shell_word(arguments.file) + " lists the isovalues that show something"});
     }
-    if (arguments.tau && arguments.best) {
-        throw Error(ErrorKind::usage, {.what = "--tau and --best contradict each other", .next = "omit one of them"});
+    if (arguments.tau && (arguments.best || arguments.top > 0)) {
+        const std::string option = arguments.best ? "--best" : "--top";
+        throw Error(ErrorKind::usage, {.what = "--tau and " + option + " contradict each other", .next = "omit one of them"});
     }
+    if (arguments.for_print && arguments.boundary == Boundary::open)
+        throw Error(ErrorKind::usage, {.what = "--for-print and --boundary open contradict each other", .next = "omit one of them"});
+    if (arguments.for_print && arguments.shell == ShellChoice::inner)
+        throw Error(ErrorKind::usage, {.what = "--for-print and --shell inner contradict each other", .next = "omit one of them"});
+    if (arguments.split && !chooses && !has_contours)
+        throw Error(ErrorKind::usage, {.what = "--split writes a file for each chosen object", .next = "add --top N or --object REF"});
     check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
 }
 
-/// Ids are voxel indices: one beyond the volume is not an object at any isovalue.
-void check_ids(const Arguments& arguments, const VolumeInfo& info) {
-    for (const std::vector<std::int64_t>* ids : {&arguments.objects, &arguments.contours}) {
-        for (const std::int64_t id : *ids) {
-            if (id >= 0 && id < info.extent.voxels()) continue;
-            throw Error(ErrorKind::not_found,
-                        {.file = arguments.file,
-                         .what = fmt::format("there is no {} {}", ids == &arguments.objects ? "object" : "contour", id),
-                         .expected = fmt::format("a voxel index, 0 to {}", info.extent.voxels() - 1),
-                         .next = "isoatlas objects " + shell_word(arguments.file) + " lists them"});
-        }
+/// The objects and contours of the command line; empty: everything at --tau.
+std::vector<ChosenObject> chosen_objects(const Arguments& arguments, ObjectDirectory& directory) {
+    std::vector<ChosenObject> chosen = directory.find(arguments.objects, arguments.tau);
+    for (ChosenObject& contour : directory.find_contours(arguments.contours, arguments.tau)) chosen.push_back(std::move(contour));
+    const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.best && arguments.objects.empty() ? 1 : 0;
+    if (top == 0) return chosen;
+    std::vector<ChosenObject> first = directory.first(top);
+    if (first.empty()) {
+        throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                           .what = "no object of this volume is above the noise level",
+                                           .next = "isoatlas objects " + shell_word(arguments.file) + " --all lists all; or give --tau"});
     }
+    const auto is_chosen = [&](const ChosenObject& object) {
+        return std::ranges::any_of(
+            chosen, [&](const ChosenObject& other) { return !other.is_contour && other.voxel == object.voxel && other.tau == object.tau; });
+    };
+    std::erase_if(first, is_chosen);
+    chosen.insert(chosen.end(), first.begin(), first.end());
+    return chosen;
+}
+
+/// One surface of all chosen objects at one isovalue: every vertex once, also where two references mean one object.
+bool is_one_surface(const Arguments& arguments, const std::vector<ChosenObject>& chosen) {
+    if (chosen.empty()) return true;
+    const bool same = std::ranges::all_of(chosen, [&](const ChosenObject& object) { return object.tau == chosen[0].tau; });
+    const bool mixed = chosen.size() > 1 && std::ranges::any_of(chosen, &ChosenObject::is_contour) && !arguments.tau;
+    return same && !mixed && !arguments.split && !arguments.output.ends_with(".glb");
+}
+
+SurfaceOptions options_of(const Arguments& arguments) {
+    const ShellChoice shell = arguments.for_print ? ShellChoice::outer : arguments.shell;
+    return {.boundary = arguments.boundary, .style = arguments.style, .objects = {}, .contours = {}, .shell = shell};
+}
+
+[[noreturn]] void nothing_written(const Arguments& arguments) {
+    throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                       .what = "there is no such surface at this isovalue; nothing was written",
+                                       .next = "isoatlas objects " + shell_word(arguments.file) + " --tau T lists the contours"});
 }
 
 struct Counts {
@@ -95,32 +99,145 @@ Counts count(const Surface& surface) {
             surface.closed};
 }
 
-Json to_json(const Arguments& arguments, const Source& source, const Surface& surface, const Counts& counts,
-             const std::vector<std::string>& warnings) {
-    Json json = document("extract", source.info(), surface.interpolant, surface.tunnel_height, arguments.boundary);
-    json["tau"] = surface.reported_tau;
+Counts& operator+=(Counts& sum, const Counts& one) {
+    sum.points += one.points, sum.triangles += one.triangles, sum.segments += one.segments;
+    sum.objects += one.objects, sum.contours += one.contours;
+    sum.closed = sum.closed && one.closed;
+    return sum;
+}
+
+/// What was written: one surface of everything that was asked for, or one for each object.
+struct Written {
+    double tau = 0, reported_tau = 0;  ///< of one isovalue
+    bool has_one_tau = true;
+    std::string space, unit;
+    Counts counts{};
+    std::vector<std::string> warnings{}, notes{};
+    struct Part {
+        ChosenObject object;
+        Counts counts;
+        double reported_tau;
+        std::string output;
+    };
+    std::vector<Part> parts{};
+    std::optional<PrintReport> print{};
+};
+
+Json part_json(const Written::Part& part) {
+    const ChosenObject& object = part.object;
+    Json json{{"reference", reference_of(object)}};
+    json["number"] = object.number == 0 ? Json(nullptr) : Json(object.number);
+    json["name"] = object.name.empty() ? Json(nullptr) : Json(object.name);
+    json["side"] = object.is_contour ? "cavity" : "object";
+    json["id"] = object.voxel;
+    json["tau"] = part.reported_tau;
+    json["points"] = part.counts.points;
+    json["triangles"] = part.counts.triangles;
+    json["segments"] = part.counts.segments;
+    json["closed"] = part.counts.closed;
+    json["output"] = part.output;
+    return json;
+}
+
+Json to_json(const Arguments& arguments, Source& source, const Written& written) {
+    Json json = document("extract", source.info(), source.interpolant(), source.tunnel_height(), arguments.boundary);
+    json["tau"] = written.has_one_tau ? Json(written.reported_tau) : Json(nullptr);
     json["style"] = arguments.style == SurfaceStyle::compact ? "compact" : "full";
     json["output"] = arguments.output;
-    json["points"] = counts.points;
-    json["triangles"] = counts.triangles;
-    json["segments"] = counts.segments;
-    json["objects"] = counts.objects;
-    json["contours"] = counts.contours;
-    json["closed"] = counts.closed;
-    json["space"] = surface.space;
-    json["warnings"] = warnings;
+    json["points"] = written.counts.points;
+    json["triangles"] = written.counts.triangles;
+    json["segments"] = written.counts.segments;
+    json["objects"] = written.counts.objects;
+    json["contours"] = written.counts.contours;
+    json["closed"] = written.counts.closed;
+    json["space"] = written.space;
+    json["warnings"] = written.warnings;
+    json["notes"] = written.notes;
+    json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
+    Json& parts = json["surfaces"] = Json::array();
+    for (const Written::Part& part : written.parts) parts.push_back(part_json(part));
     add_reads(json, source.reads());
     return json;
 }
 
-void print_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const Surface& surface, const Counts& counts) {
-    terminal.out() << shown_name(arguments.output) << ": "
-                   << (counts.segments > 0 ? counted(counts.segments, "segment") : counted(counts.triangles, "triangle")) << ", "
-                   << counted(counts.objects, "object") << ", " << counted(counts.contours, "contour") << ", "
-                   << (counts.closed ? "closed" : "open at the border of the volume") << ", isovalue " << Scale(info).text(surface.tau)
-                   << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
-                   << interpolant_text(info, surface.interpolant, surface.tunnel_height) << '\n';
-    if (counts.triangles > 0 && counts.closed) terminal.next("isoatlas verify " + shell_word(arguments.output));
+std::string size_text(const Counts& counts) {
+    return (counts.segments > 0 ? counted(counts.segments, "segment") : counted(counts.triangles, "triangle")) + ", ";
+}
+
+void print_text(const Arguments& arguments, Terminal& terminal, Source& source, const Written& written) {
+    const std::string closed = written.counts.closed ? "closed" : "open at the border of the volume";
+    const std::string unit = written.unit.empty() ? "" : ", in " + written.unit;
+    const std::string connectivity = interpolant_text(source.info(), source.interpolant(), source.tunnel_height());
+    if (written.has_one_tau && !arguments.split) {
+        terminal.out() << shown_name(arguments.output) << ": " << size_text(written.counts) << counted(written.counts.objects, "object")
+                       << ", " << counted(written.counts.contours, "contour") << ", " << closed << ", isovalue "
+                       << Scale(source.info()).text(written.tau) << unit << ", " << connectivity << '\n';
+    } else {
+        for (const Written::Part& part : written.parts)
+            terminal.out() << (arguments.split ? shown_name(part.output) + ": " : "  ") << title_of(part.object) << " at "
+                           << part.object.tau_text << ", " << size_text(part.counts)
+                           << (part.counts.closed ? "closed" : "open at the border of the volume") << '\n';
+        if (!arguments.split)
+            terminal.out() << shown_name(arguments.output) << ": " << size_text(written.counts)
+                           << counted(static_cast<std::int64_t>(written.parts.size()), "object") << ", " << closed << unit << ", "
+                           << connectivity << '\n';
+    }
+    if (written.print) terminal.out() << printing_text(*written.print) << '\n';
+    const std::string file = arguments.split ? written.parts[0].output : arguments.output;
+    if (written.counts.triangles > 0 && written.counts.closed) terminal.next("isoatlas verify " + shell_word(file));
+}
+
+/// Everything at one isovalue.
+Written write_one(const Arguments& arguments, Source& source, const std::vector<ChosenObject>& chosen) {
+    SurfaceOptions options = options_of(arguments);
+    for (const ChosenObject& object : chosen) (object.is_contour ? options.contours : options.objects).push_back(object.voxel);
+    Surface surface = source.extract(chosen.empty() ? source.tau() : chosen[0].tau, options);
+    if (surface.points.empty()) nothing_written(arguments);
+    std::optional<PrintReport> print;
+    std::vector<std::string> notes;
+    if (arguments.for_print) print_surface(surface, print.emplace(), notes);
+    Written written{.tau = surface.tau, .reported_tau = surface.reported_tau, .space = surface.space, .unit = surface.unit};
+    written.print = print, written.notes = std::move(notes);
+    written.counts = count(surface);
+    if (chosen.size() == 1) written.parts.push_back({chosen[0], written.counts, surface.reported_tau, arguments.output});
+    const WritingGuard guard;
+    written.warnings = write_surface(arguments.output, surface);
+    return written;
+}
+
+/// Each object at its isovalue, in one file or in one file each.
+Written write_several(const Arguments& arguments, Source& source, const std::vector<ChosenObject>& chosen) {
+    Written written;
+    std::vector<ChosenSurface> surfaces = chosen_surfaces(source, chosen, options_of(arguments), written.notes);
+    if (surfaces.empty()) nothing_written(arguments);
+    const Surface& first = surfaces[0].named.surface;
+    written.tau = first.tau, written.reported_tau = first.reported_tau, written.space = first.space;
+    written.unit = arguments.for_print ? "mm" : first.unit;
+    written.counts.closed = true;
+    std::vector<NamedSurface> together;
+    const auto keep = [&](const std::vector<std::string>& warnings) {
+        for (const std::string& warning : warnings) {
+            if (std::ranges::find(written.warnings, warning) == written.warnings.end()) written.warnings.push_back(warning);
+        }
+    };
+    if (arguments.for_print) written.print.emplace();
+    for (ChosenSurface& one : surfaces) {
+        if (written.print) print_surface(one.named.surface, *written.print, written.notes);
+        const std::string output = arguments.split ? split_name(arguments.output, one.object) : arguments.output;
+        const Counts counts = count(one.named.surface);
+        written.counts += counts;
+        written.has_one_tau = written.has_one_tau && one.object.tau == written.tau;
+        written.parts.push_back({one.object, counts, one.named.surface.reported_tau, output});
+        together.push_back(std::move(one.named));
+        if (!arguments.split) continue;
+        const WritingGuard guard;
+        keep(write_surfaces(output, together));
+        together.clear();
+    }
+    if (arguments.split) return written;
+    const WritingGuard guard;
+    keep(write_surfaces(arguments.output, together));
+    return written;
 }
 
 }  // namespace
@@ -128,30 +245,20 @@ void print_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo
 int run_extract(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Source source(arguments, terminal);
-    check_ids(arguments, source.info());
-    SurfaceOptions options{.boundary = arguments.boundary,
-                           .style = arguments.style,
-                           .objects = arguments.objects,
-                           .contours = arguments.contours,
-                           .shell = arguments.shell};
-    const double tau = arguments.tau ? source.tau() : best_tau(arguments, source, options);
-    const Surface surface = source.extract(tau, options);
-    if (surface.points.empty()) {
-        throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                           .what = "there is no such surface at this isovalue; nothing was written",
-                                           .next = "isoatlas objects " + shell_word(arguments.file) + " --tau T lists the contours"});
-    }
-    const Counts counts = count(surface);
-    std::vector<std::string> warnings;
+    std::vector<ChosenObject> chosen;
     {
-        const WritingGuard guard;
-        warnings = write_surface(arguments.output, surface);
+        ObjectDirectory directory(arguments, source, terminal);
+        chosen = chosen_objects(arguments, directory);
+        source.release_trees();
     }
-    for (const std::string& warning : warnings) terminal.warn(warning);
+    const Written written =
+        is_one_surface(arguments, chosen) ? write_one(arguments, source, chosen) : write_several(arguments, source, chosen);
+    for (const std::string& warning : written.warnings) terminal.warn(warning);
+    for (const std::string& note : written.notes) terminal.say("note: " + note);
     if (arguments.json) {
-        print(terminal, to_json(arguments, source, surface, counts, warnings));
+        print(terminal, to_json(arguments, source, written));
     } else {
-        print_text(arguments, terminal, source.info(), surface, counts);
+        print_text(arguments, terminal, source, written);
     }
     return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "data/object_directory.h"
 #include "data/source.h"
 #include "text/document.h"
 #include "text/table.h"
@@ -42,29 +43,42 @@ void print_text(Terminal& terminal, Source& source, const std::vector<Handle>& h
         terminal.say(fmt::format("and {} more", count_text(static_cast<std::int64_t>(handles.size()) - shown)));
 }
 
-/// The event of --object; none: all of them.
-EventId wanted_event(const Arguments& arguments, const Analysis& analysis) {
-    if (arguments.objects.empty()) return EventId::none();
-    const EventId event = event_of_highest(analysis, VoxelId(arguments.objects[0]));
-    if (event.exists()) return event;
-    throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                       .what = fmt::format("voxel {} is not the highest voxel of an object", arguments.objects[0]),
-                                       .expected = "an id of the table of objects",
-                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists ids"});
+/// The highest voxel of --object.
+VoxelId wanted_voxel(const Arguments& arguments, Source& source, Terminal& terminal) {
+    const ObjectReference& reference = arguments.objects[0];
+    if (reference.kind == ObjectReference::Kind::voxel) return VoxelId(reference.number);
+    ObjectDirectory directory(arguments, source, terminal);
+    const ChosenObject object = directory.find(arguments.objects).front();
+    source.release_trees();
+    if (!object.is_contour) return VoxelId(object.voxel);
+    throw Error(ErrorKind::usage, {.what = title_of(object) + " is a cavity, and tunnels are those of objects", .next = "give an object"});
 }
 
-std::vector<Handle> find_handles(const Arguments& arguments, Source& source) {
+EventId wanted_event(const Arguments& arguments, VoxelId voxel, const Analysis& analysis) {
+    const bool is_voxel = voxel.number() >= 0 && voxel.number() < analysis.extent().voxels();
+    const EventId event = is_voxel ? event_of_highest(analysis, voxel) : EventId::none();
+    if (event.exists()) return event;
+    throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                       .what = fmt::format("{} is not the highest voxel of an object", voxel_word(voxel.number())),
+                                       .expected = "an object of the table",
+                                       .next = "isoatlas objects " + shell_word(arguments.file) + " lists objects"});
+}
+
+std::vector<Handle> find_handles(const Arguments& arguments, Source& source, Terminal& terminal) {
     const double min = source.selection().min_persistence;
+    const VoxelId voxel = arguments.objects.empty() ? VoxelId::none() : wanted_voxel(arguments, source, terminal);
     const Analysis analysis = source.analysis(false);
     if (!arguments.exact) return pair_handles(analysis, min);
-    return pair_handles_exactly(source.volume(), analysis, {.min_persistence = min, .event = wanted_event(arguments, analysis)},
-                                source.context());
+    const EventId event = arguments.objects.empty() ? EventId::none() : wanted_event(arguments, voxel, analysis);
+    return pair_handles_exactly(source.volume(), analysis, {.min_persistence = min, .event = event}, source.context());
 }
 
 void check_arguments(const Arguments& arguments) {
     if (!arguments.exact && !arguments.objects.empty())
         throw Error(ErrorKind::usage, {.what = "--object applies to exact pairs only", .next = "add --exact"});
     if (arguments.objects.size() > 1) throw Error(ErrorKind::usage, {.what = "one object at a time", .next = "give --object once"});
+    if (!arguments.objects.empty() && arguments.objects[0].tau)
+        throw Error(ErrorKind::usage, {.what = "tunnels are those of an object at all its isovalues", .next = "omit @ and the isovalue"});
 }
 
 }  // namespace
@@ -72,7 +86,7 @@ void check_arguments(const Arguments& arguments) {
 int run_handles(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     Source source(arguments, terminal);
-    const std::vector<Handle> handles = find_handles(arguments, source);
+    const std::vector<Handle> handles = find_handles(arguments, source, terminal);
     const auto all = static_cast<std::int64_t>(handles.size());
     const std::int64_t top = arguments.top > 0 ? arguments.top : kDefaultTop, shown = std::min(all, top);
     if (!arguments.json) {

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "data/chosen_labels.h"
 #include "data/source.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/simplified.h"
+#include "text/table.h"
 #include "text/terminal.h"
 #include "text/values.h"
 #include "verbs/verbs.h"
@@ -74,23 +76,107 @@ Labels label_zones(const Arguments& arguments, Source& source, Terminal& termina
     return labels;
 }
 
+bool chooses(const Arguments& arguments) { return !arguments.objects.empty() || arguments.top > 0; }
+
 void check_arguments(const Arguments& arguments) {
-    if (arguments.tau.has_value() == arguments.zones) {
-        throw Error(ErrorKind::usage, {.what = arguments.zones ? "--tau and --zones contradict each other" : "nothing to label",
-                                       .expected = "--tau T for the objects at an isovalue, or --zones",
-                                       .next = "isoatlas label --help"});
+    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
+    const auto contradict = [](const std::string& one, const std::string& other) {
+        throw Error(ErrorKind::usage, {.what = one + " and " + other + " contradict each other", .next = "isoatlas label --help"});
+    };
+    if (chooses(arguments)) {
+        const std::string option = arguments.top > 0 ? "--top" : "--object";
+        if (arguments.zones) contradict("--zones", option);
+        if (arguments.cavities) contradict("--cavities", option);
+        if (arguments.tau && arguments.top > 0) contradict("--tau", option);
+        if (arguments.selects)
+            throw Error(ErrorKind::usage, {.what = "a selection applies to --zones only", .next = "isoatlas label --help"});
+        return;
     }
-    if (arguments.cavities && arguments.zones)
-        throw Error(ErrorKind::usage, {.what = "--cavities and --zones contradict each other", .next = "isoatlas label --help"});
+    if (arguments.tau.has_value() == arguments.zones) {
+        throw Error(ErrorKind::usage,
+                    {.what = arguments.zones ? "--tau and --zones contradict each other" : "nothing to label",
+                     .expected = "--top N or --object REF for objects of the table, --tau T for the objects at an isovalue, "
+                                 "or --zones",
+                     .next = "isoatlas label --help"});
+    }
+    if (arguments.cavities && arguments.zones) contradict("--cavities", "--zones");
     if (arguments.selects && !arguments.zones)
         throw Error(ErrorKind::usage, {.what = "a selection applies to --zones only", .next = "isoatlas label --help"});
-    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
+}
+
+Json segment_json(const LabelledObject& one) {
+    const ChosenObject& object = one.object;
+    Json json{{"label", one.segment.number}, {"reference", reference_of(object)}};
+    json["number"] = object.number == 0 ? Json(nullptr) : Json(object.number);
+    json["name"] = object.name.empty() ? Json(nullptr) : Json(object.name);
+    json["side"] = object.is_contour ? "cavity" : "object";
+    json["id"] = object.voxel;
+    json["tau"] = one.segment.isovalue;
+    json["voxels"] = one.segment.voxels;
+    json["colour"] = one.segment.colour;
+    return json;
+}
+
+ChosenLabels make_chosen_labels(const Arguments& arguments, Source& source, Terminal& terminal) {
+    ObjectDirectory directory(arguments, source, terminal);
+    std::vector<ChosenObject> chosen = directory.find(arguments.objects, arguments.tau);
+    if (arguments.top > 0) {
+        for (const ChosenObject& object : directory.first(arguments.top)) chosen.push_back(object);
+    }
+    if (chosen.empty()) {
+        throw Error(ErrorKind::not_found, {.file = arguments.file,
+                                           .what = "no object of this volume is above the noise level",
+                                           .next = "isoatlas objects " + shell_word(arguments.file) + " --all lists all; or give --tau"});
+    }
+    const std::int64_t table = directory.object_count();
+    source.release_trees();
+    return chosen_labels(arguments, source, table, chosen);
+}
+
+/// Objects of the table, each at its own isovalue.
+int label_chosen(const Arguments& arguments, Terminal& terminal) {
+    Source source(arguments, terminal);
+    const ChosenLabels labels = make_chosen_labels(arguments, source, terminal);
+    std::vector<Segment> segments;
+    for (const LabelledObject& one : labels.objects) {
+        segments.push_back(one.segment);
+        if (one.segment.voxels == 0)
+            terminal.say(
+                fmt::format("note: label {} ({}) has no voxel: other objects hold all of them", one.segment.number, one.segment.name));
+    }
+    std::vector<std::string> warnings;
+    {
+        const WritingGuard guard;
+        warnings = write_segmentation(arguments.output, labels.of_voxel, segments, source.info());
+    }
+    for (const std::string& warning : warnings) terminal.warn(warning);
+    const auto count = static_cast<std::int64_t>(segments.size());
+    if (arguments.json) {
+        Json json = document("label", source.info(), source.interpolant(), source.tunnel_height());
+        json["output"] = arguments.output;
+        json["labels_are"] = "chosen objects";
+        json["tau"] = nullptr;
+        json["labels"] = segments.back().number;
+        Json& list = json["segments"] = Json::array();
+        for (const LabelledObject& one : labels.objects) list.push_back(segment_json(one));
+        add_reads(json, source.reads());
+        print(terminal, json);
+        return 0;
+    }
+    Table table({{"label"}, {"object", true}, {"isovalue"}, {"voxels"}});
+    for (const LabelledObject& one : labels.objects)
+        table.add({fmt::format("{}", one.segment.number), one.segment.name, one.object.tau_text, count_text(one.segment.voxels)});
+    table.print(terminal);
+    terminal.out() << shown_name(arguments.output) << ": " << counted(count, "object") << ", each at its isovalue (0 is background), "
+                   << interpolant_text(source.info(), source.interpolant(), source.tunnel_height()) << '\n';
+    return 0;
 }
 
 }  // namespace
 
 int run_label(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
+    if (chooses(arguments)) return label_chosen(arguments, terminal);
     Source source(arguments, terminal);
     const Labels labels = arguments.zones      ? label_zones(arguments, source, terminal)
                           : arguments.cavities ? label_cavity_voxels(source)

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/object_directory.h"
 #include "data/source.h"
 #include "text/cavity_table.h"
 #include "text/document.h"
@@ -22,15 +23,19 @@ namespace {
 
 constexpr std::int64_t kDefaultTop = 24;
 
-std::string extract_command(const Arguments& arguments, std::int64_t id, const std::string& tau) {
-    return fmt::format("isoatlas extract {}{} --tau {} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
-                       tau, id);
+std::string extract_command(const Arguments& arguments, const std::string& reference) {
+    return fmt::format("isoatlas extract {}{} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
+                       reference);
 }
 
 // The table: objects at their best isovalues.
 
-Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const VolumeInfo& info, const Scale& scale) {
+Json entry_json(const ObjectTable& table, std::size_t i, const VolumeInfo& info, ObjectDirectory& directory,
+                const std::vector<std::string>& called) {
+    const ObjectEntry& entry = table.entries[i];
+    const Scale scale(info);
     Json json{{"id", entry.id}, {"event", entry.event.number()}};
+    add_number_and_name(json, directory.number_of(entry), directory.name_of(entry));
     add_isovalues(json, entry, scale);
     const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
     json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
@@ -40,7 +45,7 @@ Json entry_json(const ObjectTable& table, const ObjectEntry& entry, const Volume
     json["b2"] = entry.cavities;
     json["tunnels"] = entry.tunnels;
     json["cavities"] = entry.cavities;
-    add_size_and_place(json, entry, info);
+    add_size_and_place(json, entry, info, note_of(entry, called));
     return json;
 }
 
@@ -55,18 +60,19 @@ std::int64_t shown_objects(const ObjectTable& table) {
 }
 
 /// cavities: listed too; may be null.
-void print_table_json(Terminal& terminal, Source& source, const ObjectTable& table, const CavityTable* cavities = nullptr) {
+void print_table_json(Terminal& terminal, Source& source, ObjectDirectory& directory, const ObjectTable& table,
+                      const CavityTable* cavities = nullptr) {
     const VolumeInfo& info = source.info();
-    const Scale scale(info);
+    const std::vector<std::string> called = references_of(table, directory, "");
     Json head = document("objects", info, source.interpolant(), source.tunnel_height());
     head["tau"] = nullptr;
     head["branches"] = table.branches;
     head["hidden"] = table.branches - shown_objects(table);
     head["noise"] = table.noise * info.calibration.slope;
-    if (cavities != nullptr) add_cavities(head, *cavities, info);
+    if (cavities != nullptr) add_cavities(head, *cavities, info, directory);
     add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
-          [&](std::int64_t i) { return entry_json(table, table.entries[static_cast<std::size_t>(i)], info, scale); });
+          [&](std::int64_t i) { return entry_json(table, static_cast<std::size_t>(i), info, directory, called); });
 }
 
 std::string best_tau_text(const ObjectEntry& entry, const Scale& scale) {
@@ -83,56 +89,68 @@ void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
 }
 
 /// Recommended isovalues without a line of their own.
-void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const Scale& scale) {
+void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const std::vector<std::string>& called, const Scale& scale) {
     std::set<std::pair<std::int64_t, double>> told;
     for (const ObjectEntry& entry : table.entries) told.emplace(entry.branch_top.number(), entry.best_tau);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         std::vector<RecommendedIsovalue> others = isovalues_of(table.isovalues, table.entries[i].branch_top.number());
         std::erase_if(others, [&](const RecommendedIsovalue& isovalue) { return !told.emplace(isovalue.branch_top, isovalue.tau).second; });
-        tell_isovalues(terminal, i, others, scale);
+        tell_isovalues(terminal, called[i], others, scale);
     }
 }
 
-void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, const ObjectTable& table) {
+void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, ObjectDirectory& directory,
+                      const ObjectTable& table) {
     const Scale scale(source.info());
     const Sizes sizes(source.info(), largest_measure(table.entries));
-    std::vector<Table::Column> columns{{"#"}, {"id"}, {"appears"}, {"merges"}, {"best tau"}};
+    const std::vector<std::string> numbers = numbers_of(table, directory, ""), called = references_of(table, directory, "");
+    const bool has_name = has_names(table, directory);
+    std::vector<Table::Column> columns{{"#"}};
+    if (has_name) columns.push_back({"name", true});
+    columns.insert(columns.end(), {{"id"}, {"appears"}, {"merges"}, {"best tau"}});
     sizes.add_titles(columns);
     columns.insert(columns.end(), {{"reason", true}, {"note", true}});
     Table text(columns);
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
-        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", entry.id), scale.brief(entry.appears),
-                                     scale.brief(entry.merges), best_tau_text(entry, scale)};
+        std::vector<std::string> row{numbers[i]};
+        if (has_name) row.push_back(directory.name_of(entry));
+        row.insert(row.end(), {voxel_word(entry.id), scale.brief(entry.appears), scale.brief(entry.merges), best_tau_text(entry, scale)});
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
         const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
-        row.insert(row.end(), {best ? name_of(best->reason) : "", entry.note});
+        row.insert(row.end(), {best ? name_of(best->reason) : "", note_of(entry, called)});
         text.add(row);
     }
     tell_table(terminal, source, table);
     text.print(terminal);
-    tell_other_isovalues(terminal, table, scale);
+    tell_other_isovalues(terminal, table, called, scale);
     if (table.entries.empty()) {
         terminal.say("no object is above the noise level; --all lists all objects");
         return;
     }
-    terminal.next(extract_command(arguments, table.entries[0].id, best_tau_text(table.entries[0], scale)));
+    const bool has_number = numbers[0] != "-";
+    terminal.next(extract_command(arguments, has_number ? numbers[0] : called[0] + "@" + best_tau_text(table.entries[0], scale)));
 }
 
 /// Cavities; with --both after the objects.
 int list_cavities(const Arguments& arguments, Terminal& terminal, Source& source, const RankOptions& options) {
+    ObjectDirectory directory(arguments, source, terminal);
+    const bool is_numbered = !arguments.all && !arguments.selects;
     if (!arguments.both) {
-        print_cavities(terminal, arguments, source, source.cavities(options));
+        const CavityTable cavities = source.cavities(options);
+        if (is_numbered) directory.know(cavities);
+        print_cavities(terminal, arguments, source, cavities, directory);
         return 0;
     }
     const auto [table, cavities] = source.objects_and_cavities(options);
+    if (is_numbered) directory.know(table), directory.know(cavities);
     if (arguments.json) {
-        print_table_json(terminal, source, table, &cavities);
+        print_table_json(terminal, source, directory, table, &cavities);
         return 0;
     }
-    print_table_text(terminal, arguments, source, table);
+    print_table_text(terminal, arguments, source, directory, table);
     terminal.out() << '\n';
-    print_cavities(terminal, arguments, source, cavities);
+    print_cavities(terminal, arguments, source, cavities, directory);
     return 0;
 }
 
@@ -150,10 +168,12 @@ int list_best(const Arguments& arguments, Terminal& terminal) {
     if (!arguments.curve.empty()) write_curves(arguments, source);
     if (arguments.cavities || arguments.both) return list_cavities(arguments, terminal, source, options);
     const ObjectTable table = source.objects(options);
+    ObjectDirectory directory(arguments, source, terminal);
+    if (!arguments.all && !arguments.selects) directory.know(table);
     if (arguments.json) {
-        print_table_json(terminal, source, table);
+        print_table_json(terminal, source, directory, table);
     } else {
-        print_table_text(terminal, arguments, source, table);
+        print_table_text(terminal, arguments, source, directory, table);
     }
     return 0;
 }
@@ -196,13 +216,13 @@ std::string box_text(const CutObject& object, int rank) {
 
 void print_cut_text(Terminal& terminal, const Arguments& arguments, const VolumeInfo& info, const Cut& cut, std::int64_t shown) {
     const Sizes sizes(info, largest_measure(cut.objects));
-    std::vector<Table::Column> columns{{"#"}, {"id"}};
+    std::vector<Table::Column> columns{{"label"}, {"id"}};  // no numbers of the table
     sizes.add_titles(columns);
     columns.insert(columns.end(), {{"contours"}, {"box", true}});
     Table text(columns);
     for (std::int64_t i = 0; i < shown; ++i) {
         const CutObject& object = cut.objects[static_cast<std::size_t>(i)];
-        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
+        std::vector<std::string> row{fmt::format("{}", i + 1), voxel_word(object.id)};
         sizes.add(row, object.voxels, object.measure, object.b1, object.b2);
         row.insert(row.end(), {count_text(object.contour_count), box_text(object, info.extent.rank)});
         text.add(row);
@@ -213,7 +233,7 @@ void print_cut_text(Terminal& terminal, const Arguments& arguments, const Volume
                              interpolant_text(info, cut.interpolant, cut.tunnel_height)));
     text.print(terminal);
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
-    terminal.next(extract_command(arguments, cut.objects[0].id, fmt::format("{}", *arguments.tau)));
+    terminal.next(extract_command(arguments, fmt::format("{}@{}", voxel_word(cut.objects[0].id), *arguments.tau)));
 }
 
 int list_at(const Arguments& arguments, Terminal& terminal) {

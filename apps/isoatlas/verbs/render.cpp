@@ -84,7 +84,7 @@ int run_render(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".png", ".webp"});
     Source source(arguments, terminal);
     const PictureArguments& picture = arguments.picture;
-    Scene scene = scene_of(arguments, source);
+    Scene scene = scene_of(arguments, source, terminal);
     const RenderOptions options = options_of_picture(picture);
     Camera camera;
     Image image;

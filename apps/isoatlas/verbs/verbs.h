@@ -26,6 +26,7 @@ int run_animate(const Arguments& arguments, Terminal& terminal);
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
                         const std::function<void(const Progress&)>& watch = {});
 int run_build(const Arguments& arguments, Terminal& terminal);
+int run_name(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);
 int run_phantom(const Arguments& arguments, Terminal& terminal);

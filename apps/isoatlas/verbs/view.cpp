@@ -82,7 +82,8 @@ void prepare(Server& server) {
 /// The token of the environment; else a random one, stored for other commands of this user.
 ServerOptions server_options(const Arguments& arguments) {
     const char* token = std::getenv("ISOATLAS_TOKEN");
-    return {.port = arguments.port, .token = token == nullptr ? "" : token, .memory = arguments.memory};
+    return {
+        .port = arguments.port, .token = token == nullptr ? "" : token, .memory = arguments.memory, .is_read_only = arguments.read_only};
 }
 
 void keep_token(Server& server, Terminal& terminal) {

@@ -61,6 +61,33 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
     return warnings;
 }
 
+namespace {
+
+Surface joined(std::span<const NamedSurface> surfaces) {
+    Surface all = surfaces.front().surface;
+    for (const NamedSurface& named : surfaces.subspan(1)) {
+        const Surface& s = named.surface;
+        const auto shift = static_cast<std::int64_t>(all.points.size());
+        all.points.insert(all.points.end(), s.points.begin(), s.points.end());
+        all.normals.insert(all.normals.end(), s.normals.begin(), s.normals.end());
+        all.object.insert(all.object.end(), s.object.begin(), s.object.end());
+        all.contour.insert(all.contour.end(), s.contour.begin(), s.contour.end());
+        for (const auto& t : s.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+        for (const auto& t : s.segments) all.segments.push_back({t[0] + shift, t[1] + shift});
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string> write_surfaces(const std::string& path, std::span<const NamedSurface> surfaces) {
+    return write_surface(path, joined(surfaces));
+}
+
+std::vector<std::string> write_surfaces(Sink& sink, std::span<const NamedSurface> surfaces) {
+    return write_surface(sink, joined(surfaces));
+}
+
 Mesh read_mesh(const std::string& path) {
     const MeshFormat& format = format_of(path);
     std::string bytes;

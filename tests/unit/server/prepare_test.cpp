@@ -36,7 +36,8 @@ TEST_F(ServiceTest, WhatIsPreparedIsThere) {
 TEST_F(ServiceTest, TheFirstSurfaceIsPrepared) {
     const auto first = nlohmann::json::parse(ask("/api/atlas").bytes)["entries"][0];
     const auto surface = [&](Service& service, const char* max) {
-        return service.answer({"/api/surface", {{"object", first["id"].dump()}, {"tau", first["tau"].dump()}, {"max", max}}, "secret", ""})
+        return service
+            .answer({"/api/surface", {{"object", "v" + first["id"].dump()}, {"tau", first["tau"].dump()}, {"max", max}}, "secret", ""})
             .bytes;
     };
     Service prepared("secret", {});

@@ -26,7 +26,6 @@ void expect_refused(const Request& request, const std::string& what) {
         (void)words.number("tau");
         (void)words.whole("max", 1, 20);
         (void)words.list("object", 0, 4, 3);
-        (void)words.list_at("at", 0, 4, 3);
         (void)words.choice("side", {"object", "cavity"});
         words.reject_unknown();
         ADD_FAILURE() << what << " was taken";
@@ -41,8 +40,6 @@ TEST(QueryParameters, AreRefusedWithWhatWasExpected) {
     for (const char* bad : {"", " 1", "1 ", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "one"}) expect_refused({{"tau", bad}}, bad);
     for (const char* bad : {"", "0", "21", "-1", "1.0", "9223372036854775808", "1e1"}) expect_refused({{"max", bad}}, bad);
     for (const char* bad : {"", ",", "1,", ",1", "5", "-1", "1,2,3,4", "1;2"}) expect_refused({{"object", bad}}, bad);
-    for (const char* bad : {"", "1", "1@", "@1", "1@nan", "1@1e999", "5@1", "1@1@1", "1@1,", "1@1,1@1,1@1,1@1"})
-        expect_refused({{"at", bad}}, bad);
     expect_refused({{"side", "Dark"}}, "another choice");
     expect_refused({{"tau", "1"}, {"tau", "1"}}, "a word said twice");
     expect_refused({{"tauu", "1"}}, "an unknown word");

@@ -38,7 +38,7 @@ TEST_F(ServiceTest, AnswersAreThoseOfTheStore) {
     EXPECT_FALSE(preview.contains("object"));
     const std::int64_t id = objects["objects"][0]["id"];
     const auto of = [&](std::int64_t object) {
-        return nlohmann::json::parse(ask("/api/preview", {{"tau", std::to_string(tau)}, {"object", std::to_string(object)}}).bytes);
+        return nlohmann::json::parse(ask("/api/preview", {{"tau", std::to_string(tau)}, {"object", "v" + std::to_string(object)}}).bytes);
     };
     EXPECT_EQ(of(id)["object"], objects["objects"][0]);
     EXPECT_TRUE(of(id == 0 ? 1 : id - 1)["object"].is_null());
@@ -118,18 +118,30 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
     };
     const std::vector<Case> cases{{"/api/surface", {}, 400},
                                   {"/api/surface", {{"tau", "nan"}}, 400},
-                                  {"/api/surface", {{"tau", "0.5"}, {"object", std::to_string(atlas_->info().extent.voxels())}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"object", "v" + std::to_string(atlas_->info().extent.voxels())}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"object", "v0"}}, 404},
                                   {"/api/surface", {{"tau", "0.5"}, {"object", "0"}}, 404},
+                                  {"/api/surface", {{"tau", "0.5"}, {"object", "99999"}}, 404},
+                                  {"/api/surface", {{"tau", "0.5"}, {"object", "c1"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"object", "1@0.5"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"contour", "1"}}, 400},
+                                  {"/api/surfaces", {}, 400},
+                                  {"/api/surfaces", {{"object", "v3"}}, 400},
+                                  {"/api/surfaces", {{"object", "1"}, {"format", "seg.nrrd"}}, 400},
+                                  {"/api/segmentation", {{"object", "1"}, {"format", "glb"}}, 400},
+                                  {"/api/segmentation", {{"object", "v0@0.5"}}, 404},
+                                  {"/api/names", {{"x", "1"}}, 400},
+                                  {"/api/name", {{"object", "1"}, {"name", "skull"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"max", "0"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"shell", "all"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"x", "1"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"object", "-1"}}, 400},
-                                  {"/api/preview", {{"tau", "0.5"}, {"object", "99999999999"}}, 400},
+                                  {"/api/preview", {{"tau", "0.5"}, {"object", "v99999999999"}}, 400},
                                   {"/api/objects", {{"tau", "0.5"}, {"top", "1e9"}}, 400},
                                   {"/api/measures", {{"tau", "0.5"}}, 400},
-                                  {"/api/measures", {{"tau", "0.5"}, {"object", "0"}}, 404},
+                                  {"/api/measures", {{"tau", "0.5"}, {"object", "v0"}}, 404},
                                   {"/api/label", {{"tau", "0.5"}, {"format", "stl"}}, 400},
-                                  {"/api/label", {{"tau", "0.5"}, {"object", "0"}}, 404},
+                                  {"/api/label", {{"tau", "0.5"}, {"object", "v0"}}, 404},
                                   {"/api/events", {{"tau", "0.5"}}, 400},
                                   {"/api/branches", {{"top", "20001"}}, 400},
                                   {"/api/branches", {{"persistence", "-1"}}, 400},
@@ -192,7 +204,7 @@ TEST_F(ServiceTest, WhatHoldsAVoxelIsWhatACutSays) {
     const ObjectEntry object = atlas_->objects().entries[0];
     const Index3 at = atlas_->info().extent.voxel(object.id);
     const std::string voxel = std::to_string(at[0]) + "," + std::to_string(at[1]) + "," + std::to_string(at[2]);
-    const std::string id = std::to_string(object.id), tau = nlohmann::json(object.best_tau).dump();
+    const std::string id = "v" + std::to_string(object.id), tau = nlohmann::json(object.best_tau).dump();
     const auto found = nlohmann::json::parse(
         ask("/api/at", {{"voxel", voxel}, {"object", id + "@" + tau + "," + id + "@1e9"}, {"contour", id + "@" + tau}}).bytes);
     EXPECT_EQ(found["objects"], nlohmann::json({true, false}));
@@ -217,12 +229,16 @@ TEST_F(ServiceTest, RandomRequestsAreAnswered) {
                                          "/api/volume",
                                          "/api/at",
                                          "/api/transfer",
+                                         "/api/surfaces",
+                                         "/api/segmentation",
+                                         "/api/names",
+                                         "/api/name",
                                          "/api/../api/atlas",
                                          "//"};
     const std::vector<std::string> names{"tau",  "object",      "max", "top", "entry", "branch", "keep",
                                          "axis", "persistence", "",    "TAU", "index", "voxel",  "contour"};
-    const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan",       "", "0", "1", "99999999999999999999",
-                                          "1,2,3", "\xff\0x", "0.5;",  "7@0.5,9@-1"};
+    const std::vector<std::string> values{"0.5",   "-1e308",  "1e308", "nan",        "",           "0", "1", "99999999999999999999",
+                                          "1,2,3", "\xff\0x", "0.5;",  "7@0.5,9@-1", "v7@0.5,c1,2"};
     for (int i = 0; i < 2000; ++i) {
         std::multimap<std::string, std::string> words;
         for (unsigned k = random() % 4; k > 0; --k) words.emplace(names[random() % names.size()], values[random() % values.size()]);
@@ -243,14 +259,14 @@ TEST_F(ServiceTest, LabelsAreThoseOfTheCommandLine) {
     EXPECT_EQ(all.bytes, std::string(std::istreambuf_iterator<char>(stream), {}));
     std::filesystem::remove(file);
     for (const char* format : {"nii", "nii.gz", "tif"})
-        EXPECT_EQ(ask("/api/label", {{"tau", "0.5"}, {"format", format}, {"object", std::to_string(cut.objects[0].id)}}).status, 200)
+        EXPECT_EQ(ask("/api/label", {{"tau", "0.5"}, {"format", format}, {"object", "v" + std::to_string(cut.objects[0].id)}}).status, 200)
             << format;
 }
 
 TEST_F(ServiceTest, MeasuresAreThoseOfTheSurface) {
     const Cut cut = atlas_->cut(0.5);
     const std::int64_t id = cut.objects[0].id;
-    const auto json = nlohmann::json::parse(ask("/api/measures", {{"tau", "0.5"}, {"object", std::to_string(id)}}).bytes);
+    const auto json = nlohmann::json::parse(ask("/api/measures", {{"tau", "0.5"}, {"object", "v" + std::to_string(id)}}).bytes);
     ASSERT_EQ(json["objects"].size(), 1U);
     const auto& object = json["objects"][0];
     EXPECT_EQ(object["id"], id);
@@ -295,7 +311,7 @@ TEST_F(ServiceTest, AnExtractionEndsWhenWhoAskedHasLeft) {
 }
 
 TEST_F(ServiceTest, AnyAnswerIsGivenUpWhenWhoAskedHasLeft) {
-    const std::string id = std::to_string(atlas_->objects().entries[0].id);
+    const std::string id = "v" + std::to_string(atlas_->objects().entries[0].id);
     const std::vector<std::pair<std::string, std::multimap<std::string, std::string>>> requests{
         {"/api/atlas", {}},
         {"/api/preview", {{"tau", "0.5"}}},
@@ -327,7 +343,7 @@ TEST_F(ServiceTest, AnyAnswerIsGivenUpWhenWhoAskedHasLeft) {
 }
 
 TEST_F(ServiceTest, MoreThanMayBeHeldIsRefusedWithWhatToDo) {
-    Service small("secret", {}, 1000);
+    Service small("secret", {}, {.memory = 1000});
     small.store_state().open(*atlas_);
     const std::pair<const char*, const char*> refused[] = {{"/api/surface", "too_many_triangles"}, {"/api/label", "labels_too_large"}};
     for (const auto& [path, reason] : refused) {

@@ -4,7 +4,7 @@ import { drawCounts, Scale, type Line } from "./columns";
 import { commandList } from "../shared/commands";
 import { html, svg } from "../shared/dom";
 import { count, plural, value, volume } from "../shared/format";
-import { anchorOf, branchName, contentsOf, describe, entriesOf, isCavity, nameOf, rangeOf, shapeOf } from "../shared/names";
+import { anchorOf, branchName, contentsOf, describe, entriesOf, isCavity, nameOf, rangeOf, shapeOf, voxelWord } from "../shared/names";
 import { rangeBar } from "../shared/overview";
 import { branchOf, entryOf, type Advice, type Page } from "../shared/page";
 import { legend } from "./spectrum";
@@ -135,7 +135,7 @@ export class Detail {
       ["exists", [rangeOf(branch)]],
       ["size", [volume(entry.measure, page.volume.unit), page.volume.unit === null ? "" : `, ${count(entry.voxels)} voxels`]],
       ["contrast × size", [value(branch.hypervolume)]],
-      ["id", [String(entry.id)]],
+      ["id", [voxelWord(entry.id)]],
     );
     if (entry.inside >= 0) facts.push(["inside", this.links([entry.inside])]);
     if (entry.around >= 0) facts.push(["a cavity of", this.links([entry.around])]);

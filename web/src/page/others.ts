@@ -2,7 +2,7 @@
 import { commandList } from "../shared/commands";
 import { html } from "../shared/dom";
 import { count, plural, value, volume } from "../shared/format";
-import { rangeOf } from "../shared/names";
+import { rangeOf, voxelWord } from "../shared/names";
 import { branchOf, type Branch, type Page } from "../shared/page";
 
 const maxRows = 100;
@@ -17,7 +17,7 @@ function row(page: Page, branch: Branch): HTMLElement {
   return html(
     "tr",
     {},
-    html("th", { scope: "row" }, String(branch.id)),
+    html("th", { scope: "row" }, branch.number ? String(branch.number) : voxelWord(branch.id)),
     html("td", {}, rangeOf(branch)),
     html("td", {}, volume(branch.measure, page.volume.unit)),
     html("td", {}, value(branch.hypervolume)),
@@ -30,8 +30,8 @@ function row(page: Page, branch: Branch): HTMLElement {
 export function others(page: Page, branches: number[]): HTMLElement | null {
   if (branches.length === 0) return null;
   const rows = branches.slice(0, maxRows).map((b) => row(page, branchOf(page, b)));
-  const heads = ["id", "exists", "size", "contrast × size", "rating", "largest at"].map((head) => html("th", { scope: "col" }, head));
-  const line = `isoatlas extract ${page.volume.name}.atlas --object ID --tau LARGEST -o object.ply`;
+  const heads = ["object", "exists", "size", "contrast × size", "rating", "largest at"].map((head) => html("th", { scope: "col" }, head));
+  const line = `isoatlas extract ${page.volume.name}.atlas --object OBJECT@LARGEST -o object.ply`;
   return html(
     "details",
     { class: "panel others" },

@@ -6,15 +6,32 @@ export function isCavity(page: Page, i: number): boolean {
   return branchOf(page, entryOf(page, i).branch).side === "cavity";
 }
 
-/** Number among the entries of its side; of an object without an entry on the page: rank + 1. */
+/** Number in the table of its side, as on the command line; of an object that the table does not list: rank + 1. */
 export function numberOf(page: Page, i: number): number {
-  if (i >= page.entries.length) return branchOf(page, entryOf(page, i).branch).rank + 1;
+  const { number, branch } = entryOf(page, i);
+  if (number) return number;
+  if (i >= page.entries.length) return branchOf(page, branch).number ?? branchOf(page, branch).rank + 1;
   const cavity = isCavity(page, i);
   return page.entries.filter((_, k) => k <= i && isCavity(page, k) === cavity).length;
 }
 
+/** "2", "c1"; of an object that the table does not list "v218663": its voxel. */
+export function referenceOf(page: Page, i: number): string {
+  const { branch, id } = entryOf(page, i);
+  if (i >= page.entries.length && !branchOf(page, branch).number) return voxelWord(id);
+  return `${isCavity(page, i) ? "c" : ""}${numberOf(page, i)}`;
+}
+
+/** A voxel as the command line writes it. */
+export function voxelWord(id: number): string {
+  return `v${id}`;
+}
+
+/** The name that a user gave it, or its number. */
 export function nameOf(page: Page, i: number): string {
-  if (i >= page.entries.length) return `Object of rank ${numberOf(page, i)}`;
+  const { name, branch } = entryOf(page, i);
+  if (name) return name;
+  if (i >= page.entries.length && !branchOf(page, branch).number) return `Object of rank ${numberOf(page, i)}`;
   return `${isCavity(page, i) ? "Cavity" : "Object"} ${numberOf(page, i)}`;
 }
 
@@ -59,11 +76,16 @@ export function reasonOf(page: Page, i: number): string {
   return isCavity(page, i) && reason === "outline" ? reasons.merge! : (reasons[reason] ?? "");
 }
 
+/** nameOf() within a sentence. */
+function mentionOf(page: Page, i: number): string {
+  return entryOf(page, i).name ? nameOf(page, i) : nameOf(page, i).toLowerCase();
+}
+
 /** What contains it, in a few words; empty: no entry of this page. */
 export function placeOf(page: Page, i: number): string {
   const entry = entryOf(page, i);
-  if (entry.inside >= 0) return `inside ${nameOf(page, entry.inside).toLowerCase()}`;
-  if (entry.around >= 0) return `a cavity of ${nameOf(page, entry.around).toLowerCase()}`;
+  if (entry.inside >= 0) return `inside ${mentionOf(page, entry.inside)}`;
+  if (entry.around >= 0) return `a cavity of ${mentionOf(page, entry.around)}`;
   return "";
 }
 
@@ -89,5 +111,5 @@ export function furtherIsovalues(page: Page, i: number): Advice[] {
 /** Name of a branch: that of its first entry. */
 export function branchName(page: Page, branch: number): string {
   const [first] = entriesOf(page, branch);
-  return first === undefined ? `object with id ${branchOf(page, branch).id}` : nameOf(page, first);
+  return first === undefined ? `object ${voxelWord(branchOf(page, branch).id)}` : nameOf(page, first);
 }

@@ -60,6 +60,8 @@ export interface Advice {
 export interface Branch {
   side: Side;
   id: number;
+  /** of its first entry in the table of its side, from 1; null: the table has none */
+  number?: number | null;
   /** within its side, from 0 */
   rank: number;
   appears: number;
@@ -84,6 +86,10 @@ export interface Branch {
 /** A branch at a recommended isovalue. */
 export interface Entry {
   branch: number;
+  /** in the table of its side, from 1 */
+  number?: number | null;
+  /** that a user gave it */
+  name?: string | null;
   id: number;
   tau: number;
   /** isovalues between which its tunnels and cavities stay the same */

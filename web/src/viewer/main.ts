@@ -11,6 +11,7 @@ import { ObjectListPanel } from "./panels/object_list_panel";
 import { onClick, placeOn } from "./context/clicks";
 import type { ViewerContext } from "./context/viewer_context";
 import { Editor } from "./context/editor";
+import { ObjectNames } from "./api/object_names";
 import { History } from "./state/history";
 import { addTools } from "./tools/tools";
 import { help, menus } from "./menus";
@@ -35,6 +36,7 @@ class Viewer implements ViewerContext {
   readonly overlay = html("div", { class: "viewport" });
   readonly editor: Editor;
   readonly scene: Scene;
+  readonly names: ObjectNames;
   private readonly message = html("p", { class: "message", role: "status" });
   private readonly axis: IsovaluePanel;
   private readonly objectList: ObjectListPanel;
@@ -51,6 +53,7 @@ class Viewer implements ViewerContext {
     this.history = new History(linked ?? NOTHING);
     this.editor = new Editor(page, this.history);
     this.scene = new Scene(this);
+    this.names = new ObjectNames(api, page);
     this.objectList = new ObjectListPanel(this);
     addIsovalueSteps(this);
     this.axis = new IsovaluePanel(this);
@@ -66,6 +69,7 @@ class Viewer implements ViewerContext {
     this.overlay.prepend(this.viewport.canvas, menus(this.actions));
     this.overlay.append(this.message, tour.element);
     main.append(side, this.overlay, inspector, this.axis.element, new ExportDialog(this).element, help(this.actions));
+    this.names.onChange(() => this.renewTitles());
     this.history.listen((state, before, dragging) => this.show(state, before, dragging));
     this.actions.listen(document);
     this.listenToClicks();
@@ -80,6 +84,7 @@ class Viewer implements ViewerContext {
 
   /** Loads what the first image does not need. */
   async loadCatalogue(): Promise<void> {
+    void this.names.load().catch((error: unknown) => this.reportError(error));
     try {
       await this.api.idle();
       if (!this.catalogue.isLoaded) this.catalogue.load(await this.api.branches(MAX_LISTED));
@@ -87,6 +92,10 @@ class Viewer implements ViewerContext {
     } catch (error) {
       this.reportError(error);
     }
+  }
+
+  private renewTitles(): void {
+    for (const panel of [this.objectList, this.shown, this.objectPanel]) panel.renew(this.history.now);
   }
 
   notify(text: string): void {

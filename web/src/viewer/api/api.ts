@@ -1,4 +1,5 @@
 // Requests to `isoatlas view`: docs/server.md. A request supersedes the earlier one of the same channel.
+import { voxelWord } from "../../shared/names";
 import { readPage, type Page, type Picture } from "../../shared/page";
 import type { BranchList } from "./catalogue";
 import { messages, type ServerState } from "./server_state";
@@ -40,6 +41,14 @@ export interface Measures extends ObjectAtIsovalue {
   values: { mean: number; min: number; max: number; sum: number; deviation: number };
   /** the volume ends before the object does */
   touches_border: boolean;
+}
+
+/** A name of an object or cavity: docs/schema/server-names.schema.json */
+export interface GivenName {
+  name: string;
+  side: "object" | "cavity";
+  id: number;
+  tau: number;
 }
 
 /** between polls for pending requests, in milliseconds */
@@ -100,7 +109,8 @@ export class Api {
 
   /** Of the objects that contain these voxels. */
   async measures(tau: number, objects: number[]): Promise<Measures[]> {
-    const response = (await (await this.request(`/api/measures?tau=${tau}&object=${objects.join(",")}`, "measures")).json()) as {
+    const path = `/api/measures?tau=${tau}&object=${objects.map(voxelWord).join(",")}`;
+    const response = (await (await this.request(path, "measures")).json()) as {
       objects: Measures[];
     };
     return response.objects;
@@ -124,7 +134,27 @@ export class Api {
 
   /** The file that `isoatlas label` writes: of one object, or of all. */
   async labels(tau: number, object: number | null, format: string): Promise<Blob> {
-    return (await this.request(`/api/label?tau=${tau}${object === null ? "" : `&object=${object}`}&format=${format}`, "file")).blob();
+    const of = parameters(object === null ? null : { object });
+    return (await this.request(`/api/label?tau=${tau}${of}&format=${format}`, "file")).blob();
+  }
+
+  /** One file of several objects and contours, such as "2@1367", "v81275@40", "c1@20": "surfaces" or "segmentation". */
+  async several(kind: "surfaces" | "segmentation", objects: string[], contours: string[], format: string): Promise<Blob> {
+    const words = { object: objects.join(","), contour: contours.join(","), format };
+    const given = Object.entries(words).filter(([, word]) => word !== "");
+    const query = given.map(([name, word]) => `${name}=${encodeURIComponent(word)}`).join("&");
+    return (await this.request(`/api/${kind}?${query}`, "file")).blob();
+  }
+
+  /** Names of objects and cavities. */
+  async names(): Promise<GivenName[]> {
+    return ((await (await this.request("/api/names", "names")).json()) as { names: GivenName[] }).names;
+  }
+
+  /** An empty name is taken away. Returns all names. */
+  async rename(side: "object" | "contour", reference: string, name: string): Promise<GivenName[]> {
+    const path = `/api/name?${side}=${encodeURIComponent(reference)}&name=${encodeURIComponent(name)}`;
+    return ((await (await this.request(path, "rename", "PUT")).json()) as { names: GivenName[] }).names;
   }
 
   /** The state of the server and the pending requests of this page, on every change, until the connection ends. */
@@ -147,13 +177,13 @@ export class Api {
     this.channels.delete(channel);
   }
 
-  async request(path: string, channel: string): Promise<Response> {
+  async request(path: string, channel: string, method = "GET"): Promise<Response> {
     this.abort(channel);
     const controller = new AbortController();
     this.channels.set(channel, controller);
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": `${this.client}/${channel}` };
     const priority = channel === PREVIEW_CHANNEL ? "high" : "auto"; // browsers limit the number of parallel requests to a server
-    const response = await fetch(this.base + path, { headers, signal: controller.signal, priority });
+    const response = await fetch(this.base + path, { method, headers, signal: controller.signal, priority });
     if (!response.ok) throw new ServerError(response.status, await messageOf(response));
     return response;
   }
@@ -164,8 +194,9 @@ function shell(walls: ShellFilter): string {
 }
 
 function parameters(target: SurfaceTarget | { entry: number } | { branch: number }): string {
+  const word = (name: string, id: number): string => (name === "object" || name === "contour" ? voxelWord(id) : String(id));
   return Object.entries(target ?? {})
-    .map(([name, id]) => `&${name}=${id}`)
+    .map(([name, id]) => `&${name}=${word(name, id as number)}`)
     .join("");
 }
 

@@ -1,5 +1,6 @@
 // All objects of a volume, including those without an entry on the page. Each has a number like that of an entry:
 // the object of rank r without an entry has the number entries.length + r.
+import { voxelWord } from "../../shared/names";
 import { entryOf, type Branch, type Entry, type Page } from "../../shared/page";
 import { CHOICE, isChosen, type Choice, type Sizes } from "../state/selection";
 import type { State } from "../state/state";
@@ -10,6 +11,8 @@ export interface BranchList {
   source: string;
   /** objects of the volume */
   all: number;
+  /** in the table of objects, 0: not there */
+  number?: number[];
   id: number[];
   voxel: number[];
   tau: number[];
@@ -122,6 +125,7 @@ export class Catalogue {
     return {
       side: "object",
       id: listed.id[rank] ?? -1,
+      number: listed.number?.[rank] ?? null,
       rank,
       appears: listed.appears[rank] ?? 0,
       merges: listed.merges[rank] ?? null,
@@ -145,7 +149,8 @@ export class Catalogue {
   private entryOfRank(rank: number): Entry {
     const { listed } = this;
     const [id, tau] = [listed.voxel[rank] ?? 0, listed.tau[rank] ?? 0];
-    const what = `${listed.source} --object ${id} --tau ${tau}`;
+    const what = `${listed.source} --object ${listed.number?.[rank] || voxelWord(id)}@${tau}`;
+    const name = listed.number?.[rank] || rank + 1;
     return {
       branch: this.positionOfRank[rank] ?? 0,
       id,
@@ -163,8 +168,8 @@ export class Catalogue {
       colour: COLOURS[rank % COLOURS.length] ?? "#999999",
       picture: null,
       commands: [
-        { name: "surface", line: `isoatlas extract ${what} -o object-${rank + 1}.ply` },
-        { name: "picture", line: `isoatlas render ${listed.source} --object ${id}@${tau} -o object-${rank + 1}.png` },
+        { name: "surface", line: `isoatlas extract ${what} -o object-${name}.ply` },
+        { name: "picture", line: `isoatlas render ${what} -o object-${name}.png` },
       ],
     };
   }

@@ -1,4 +1,5 @@
 // Locates a sample: the objects that contain it, by the trees of the server.
+import { voxelWord } from "../../shared/names";
 import { entryOf, type Page } from "../../shared/page";
 import type { Api } from "./api";
 import type { Triple } from "../state/grid";
@@ -35,8 +36,8 @@ export async function locate(api: Api, page: Page, state: State, voxel: Triple):
   for (const { entry, tau, visible } of state.shown) {
     const target = targetOf(page, entry);
     if (!target || !visible) continue;
-    if ("object" in target) parameters.object.push(`${target.object}@${tau}`), objects.push(entry);
-    else parameters.contour.push(`${target.contour}@${tau}`), contours.push(entry);
+    if ("object" in target) parameters.object.push(`${voxelWord(target.object)}@${tau}`), objects.push(entry);
+    else parameters.contour.push(`${voxelWord(target.contour)}@${tau}`), contours.push(entry);
   }
   const query = Object.entries(parameters).map(([name, items]) => (items.length > 0 ? `&${name}=${items.join(",")}` : ""));
   const response = (await (await api.request(`/api/at?voxel=${voxel.join(",")}${query.join("")}`, "at")).json()) as LocateResponse;

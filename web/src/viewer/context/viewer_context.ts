@@ -3,6 +3,7 @@ import type { Page } from "../../shared/page";
 import type { Actions } from "./actions";
 import type { Api } from "../api/api";
 import type { Catalogue } from "../api/catalogue";
+import type { ObjectNames } from "../api/object_names";
 import type { Editor } from "./editor";
 import type { Scene } from "../scene/scene";
 import type { Viewport } from "../scene/viewport";
@@ -17,6 +18,7 @@ export interface ViewerContext {
   readonly history: History;
   readonly actions: Actions;
   readonly editor: Editor;
+  readonly names: ObjectNames;
   readonly scene: Scene;
   /** element over the canvas, for overlays */
   readonly overlay: HTMLElement;

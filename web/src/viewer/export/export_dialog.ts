@@ -3,7 +3,7 @@ import { html } from "../../shared/dom";
 import { animate } from "./animation";
 import { downloadBlob, selectedOf, type ViewerContext } from "../context/viewer_context";
 import type { PictureOptions } from "./picture";
-import { LABELS, Exporter, SURFACES } from "./exporter";
+import { LABELS, Exporter, SEGMENTATIONS, SURFACES } from "./exporter";
 import { ownRange, titleOf } from "../api/entries";
 import { isDarkPage } from "../context/theme";
 
@@ -56,6 +56,8 @@ export class ExportDialog {
     const { exporter } = this;
     const surface = choice("format of the surface", SURFACES);
     const labels = choice("format of the labels", LABELS);
+    const surfaces = choice("format of all surfaces", ["glb", ...SURFACES.filter((format) => format !== "glb")]);
+    const segmentation = choice("format of all labels", SEGMENTATIONS);
     const file = html("input", { type: "file", accept: ".json,application/json", "aria-label": "scene file to load" });
     file.addEventListener("change", () => void this.load(file));
     const button = (name: string, run: () => unknown): HTMLElement => html("button", { type: "button", click: () => void run() }, name);
@@ -77,6 +79,17 @@ export class ExportDialog {
         line(
           labels,
           button("Save the labels", () => exporter.labels(labels.value)),
+        ),
+      ),
+      part(
+        "Everything shown, each at its isovalue",
+        line(
+          surfaces,
+          button("Save all surfaces", () => exporter.everything("surfaces", surfaces.value)),
+        ),
+        line(
+          segmentation,
+          button("Save all labels", () => exporter.everything("segmentation", segmentation.value)),
         ),
       ),
       part(
@@ -117,6 +130,7 @@ export class ExportDialog {
       { group: "Export", name: "Export...", keys: ["s", "Ctrl+s"], run: () => this.open() },
       { group: "Export", name: "Copy link to this view", keys: ["l"], run: () => void exporter.link() },
       ...SURFACES.slice(0, 2).map(surface),
+      { group: "Export", name: "Everything shown as GLB", run: () => void exporter.everything("surfaces", "glb") },
       {
         group: "Export",
         name: "Image of this view",

@@ -1,5 +1,5 @@
 // Exports to files and to the clipboard.
-import { isCavity } from "../../shared/names";
+import { isCavity, referenceOf } from "../../shared/names";
 import { entryOf } from "../../shared/page";
 import { renderOptions } from "../state/render_options";
 import { downloadBlob, selectedOf, type ViewerContext } from "../context/viewer_context";
@@ -12,6 +12,8 @@ import { isDarkPage } from "../context/theme";
 
 export const SURFACES = ["stl", "ply", "obj", "glb", "vtp"];
 export const LABELS = ["nrrd", "nii.gz", "nii", "tif"];
+/** of all that is shown */
+export const SEGMENTATIONS = ["seg.nrrd", ...LABELS];
 
 export class Exporter {
   constructor(private readonly context: ViewerContext) {}
@@ -34,6 +36,19 @@ export class Exporter {
     const all = shown.entry === EVERYTHING || isCavity(page, shown.entry);
     return this.file(`${this.name}.${format}`, "writing the labels", () =>
       api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format),
+    );
+  }
+
+  /** Every visible object at its isovalue, in one file: "surfaces" or "segmentation". */
+  everything(kind: "surfaces" | "segmentation", format: string): Promise<void> {
+    const { api, page, history } = this.context;
+    const visible = history.now.shown.filter(({ visible, entry }) => visible && entry !== EVERYTHING);
+    const words = (cavities: boolean): string[] =>
+      visible.filter(({ entry }) => isCavity(page, entry) === cavities).map(({ entry, tau }) => `${referenceOf(page, entry)}@${tau}`);
+    if (visible.length === 0) return this.nothingSelected("show an object first; the whole isosurface has a file of its own");
+    const name = `${page.volume.name}-${kind === "surfaces" ? "objects" : "labels"}.${format}`;
+    return this.file(name, kind === "surfaces" ? "writing the surfaces" : "writing the labels", () =>
+      api.several(kind, words(false), words(true), format),
     );
   }
 
@@ -82,8 +97,8 @@ export class Exporter {
     return shown ? titleOf(this.context.page, shown.entry).toLowerCase().replaceAll(" ", "-") : "";
   }
 
-  private nothingSelected(): Promise<void> {
-    this.context.notify("select an object first");
+  private nothingSelected(next = "select an object first"): Promise<void> {
+    this.context.notify(next);
     return Promise.resolve();
   }
 

@@ -1,6 +1,6 @@
 // The `isoatlas render` command that draws the same view.
-import { isCavity } from "../../shared/names";
-import { entryOf, type Page } from "../../shared/page";
+import { isCavity, referenceOf } from "../../shared/names";
+import type { Page } from "../../shared/page";
 import { colourOfShown, EVERYTHING } from "../api/entries";
 import type { Shown } from "../state/state";
 
@@ -46,7 +46,7 @@ export function renderCommand(
 
 function itemOf(page: Page, { entry, tau, walls }: Shown): [option: string, what: string] {
   if (entry === EVERYTHING) return ["--tau", String(tau)];
-  const what = `${entryOf(page, entry).id}@${tau}`;
+  const what = `${referenceOf(page, entry)}@${tau}`;
   if (isCavity(page, entry)) return ["--contour", what];
   return [walls === "cavities" ? "--cavities" : "--object", what];
 }

@@ -1,10 +1,11 @@
 // CSV table of the listed objects, one line each, with the isovalues in the scene.
-import { nameOf } from "../../shared/names";
+import { nameOf, referenceOf, voxelWord } from "../../shared/names";
 import { branchOf, entryOf, type Page } from "../../shared/page";
 import type { State } from "../state/state";
 
 const COLUMNS = [
   "name",
+  "object",
   "id",
   "side",
   "best_tau",
@@ -31,7 +32,8 @@ export function tableCsv(page: Page, state: State): string {
     const unit = page.volume.unit ? `${page.volume.unit}3` : "voxel";
     return [
       nameOf(page, i),
-      entry.id,
+      referenceOf(page, i),
+      voxelWord(entry.id),
       branch.side,
       entry.tau,
       branch.appears,

@@ -29,6 +29,11 @@ export class ItemsTab {
     );
   }
 
+  /** Items are made anew by the next fill(). */
+  forget(): void {
+    this.items.clear();
+  }
+
   mark(state: State): void {
     const selected = state.shown[state.selected]?.entry;
     const before = this.state?.shown[this.state.selected]?.entry;

@@ -73,6 +73,14 @@ export class ObjectListPanel {
     this.refresh(this.context.history.now);
   }
 
+  /** Titles have changed. */
+  renew(state: State): void {
+    for (const tab of [this.cards, this.list]) tab.forget();
+    for (const name of ["cards", "list", "tree"] as const) this.stale.add(name);
+    this.sought = "";
+    this.refresh(state);
+  }
+
   private recount(state: State): void {
     this.chosen = this.context.catalogue.chosen(CHOICE.of(state));
     void this.countKept(CHOICE.of(state));

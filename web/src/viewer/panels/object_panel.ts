@@ -8,6 +8,7 @@ import { Latest } from "../api/latest";
 import { measuredFacts, isMeasuredAtEntry } from "./object_measures";
 import { branchOfShown, EVERYTHING, titleOf } from "../api/entries";
 import type { Shown, State } from "../state/state";
+import { TitleEditor } from "./title_editor";
 
 type Fact = [name: string, what: (Node | string)[]];
 
@@ -15,7 +16,7 @@ const MAX_LINKS = 8;
 
 export class ObjectPanel {
   readonly element: HTMLElement;
-  private readonly title = html("h2", {});
+  private readonly title: TitleEditor;
   private readonly facts = html("dl", {});
   private readonly here = html("dl", { class: "here" });
   private readonly measured: Latest<Shown>;
@@ -24,7 +25,15 @@ export class ObjectPanel {
 
   constructor(private readonly context: ViewerContext) {
     this.measured = new Latest((shown) => this.measure(shown));
-    this.element = html("section", { class: "object", "aria-label": "selected object", hidden: true }, this.title, this.here, this.facts);
+    this.title = new TitleEditor(context);
+    const parts = [this.title.element, this.here, this.facts];
+    this.element = html("section", { class: "object", "aria-label": "selected object", hidden: true }, ...parts);
+  }
+
+  /** Titles have changed. */
+  renew(state: State): void {
+    const shown = state.shown[state.selected];
+    if (shown) this.describe(shown.entry, this.isMeasured);
   }
 
   show(state: State, dragging: boolean): void {
@@ -41,7 +50,7 @@ export class ObjectPanel {
 
   /** isMeasured: the measures already show the object at its recommended isovalue. */
   private describe(i: number, isMeasured: boolean): void {
-    this.title.textContent = titleOf(this.context.page, i);
+    this.title.show(i);
     fill(
       this.facts,
       i === EVERYTHING

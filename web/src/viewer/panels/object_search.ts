@@ -1,6 +1,6 @@
 // Filters and sorts the chosen objects. Numbers are those of entries (api/catalogue.ts).
 import { orders } from "../../shared/orders";
-import { isCavity, placeOf, reasonOf } from "../../shared/names";
+import { isCavity, numberOf, placeOf, reasonOf, voxelWord } from "../../shared/names";
 import { entryOf, type Page } from "../../shared/page";
 import { EVERYTHING, titleOf } from "../api/entries";
 import type { State } from "../state/state";
@@ -31,10 +31,11 @@ export function find(page: Page, chosen: number[], shown: State["shown"], wanted
   return { objects: sorted(chosen), cavities: sorted(cavities), others: matching(others) };
 }
 
-/** A number matches titles that contain it and the id of the command line; other words match as substrings. */
+/** A number matches that of the object, v and a number its voxel, as on the command line; other words match as substrings. */
 function isAbout(page: Page, i: number, word: string): boolean {
   const texts = [titleOf(page, i), reasonOf(page, i), placeOf(page, i)].map((text) => text.toLowerCase());
-  if (/^\d+$/.test(word)) return texts[0]?.split(" ").includes(word) === true || entryOf(page, i).id === Number(word);
+  if (/^\d+$/.test(word)) return i !== EVERYTHING && numberOf(page, i) === Number(word);
+  if (/^v\d+$/.test(word)) return i !== EVERYTHING && voxelWord(entryOf(page, i).id) === word;
   return texts.some((text) => text.includes(word));
 }
 

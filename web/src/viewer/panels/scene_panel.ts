@@ -47,6 +47,12 @@ export class ScenePanel {
     this.refresh(state);
   }
 
+  /** Titles have changed. */
+  renew(state: State): void {
+    this.made = "";
+    this.refresh(state);
+  }
+
   /** Rows are rebuilt only when the list or the selection changes: controls must survive a drag. */
   private refresh(state: State): void {
     const made = `${state.shown.map(({ entry }) => entry).join()} ${state.selected}`;

@@ -1,0 +1,107 @@
+#include "server/object_words.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "isoatlas/atlas.h"
+#include "isoatlas/error.h"
+#include "isoatlas/isovalue.h"
+#include "server/query_parameters.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::size_t kLongestShown = 60;
+
+[[noreturn]] void refuse(std::string_view name, std::string_view item) {
+    const char* expected = name == "contour" ? "c and the number of a cavity, or v and a voxel; with an isovalue: c3, v218663@150"
+                                             : "a number of the table, or v and a voxel; with an isovalue: 2, v218663, 2@150";
+    throw Error(
+        ErrorKind::usage,
+        {.where = std::string(name), .what = "'" + std::string(item.substr(0, kLongestShown)) + "' is not valid", .expected = expected});
+}
+
+template <class Number>
+std::optional<Number> read(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+const NumberedLines::Line& line_of(std::string_view name, std::int64_t number, const std::vector<NumberedLines::Line>& lines,
+                                   const std::string& what) {
+    if (number >= 1 && number <= std::ssize(lines)) return lines[static_cast<std::size_t>(number - 1)];
+    throw Error(ErrorKind::not_found, {.where = std::string(name),
+                                       .what = "there is no " + what + " " + std::to_string(number),
+                                       .expected = lines.empty() ? "none: the table is empty" : "1 to " + std::to_string(lines.size()),
+                                       .next = "/api/atlas lists the first ones"});
+}
+
+NamedPart part_of(std::string_view name, std::string_view item, const Atlas& atlas, const NumberedLines& lines) {
+    const std::size_t mark = std::min(item.find('@'), item.size());
+    std::string_view word = item.substr(0, mark);
+    NamedPart part{.is_contour = name == "contour"};
+    if (mark < item.size()) {
+        const std::optional<double> tau = read<double>(item.substr(mark + 1));
+        if (!tau || !std::isfinite(*tau)) refuse(name, item);
+        part.tau = stored_isovalue(atlas.info(), *tau), part.has_own_tau = true;
+    }
+    const char letter = word.empty() || (word[0] >= '0' && word[0] <= '9') ? '\0' : word[0];
+    if (letter != '\0') word.remove_prefix(1);
+    const std::optional<std::int64_t> number = read<std::int64_t>(word);
+    if (!number || *number < 0 || letter == (part.is_contour ? '\0' : 'c') || (letter != '\0' && letter != 'v' && letter != 'c'))
+        refuse(name, item);
+    if (letter == 'v') {
+        if (*number >= atlas.info().extent.voxels()) refuse(name, item);
+        part.voxel = *number;
+        return part;
+    }
+    const NumberedLines::Line& line =
+        part.is_contour ? line_of(name, *number, lines.cavities, "cavity") : line_of(name, *number, lines.objects, "object");
+    part.number = *number, part.voxel = line.voxel;
+    if (!part.tau) part.tau = line.tau;
+    return part;
+}
+
+}  // namespace
+
+NumberedLines numbered_lines(const ObjectTable& objects, const CavityTable& cavities) {
+    NumberedLines lines;
+    for (const ObjectEntry& entry : objects.entries) lines.objects.push_back({entry.id, entry.best_tau});
+    for (const CavityEntry& entry : cavities.entries) lines.cavities.push_back({entry.id, entry.best_tau});
+    return lines;
+}
+
+std::string title_of(const NamedPart& part) {
+    if (part.number == 0) return (part.is_contour ? "contour v" : "v") + std::to_string(part.voxel);
+    return (part.is_contour ? "cavity " : "object ") + std::to_string(part.number);
+}
+
+std::vector<NamedPart> named_parts(QueryParameters& words, std::string_view name, const Atlas& atlas, const NumberedLines& lines,
+                                   std::size_t max) {
+    std::vector<NamedPart> parts;
+    for (const std::string_view item : words.items(name, max)) parts.push_back(part_of(name, item, atlas, lines));
+    return parts;
+}
+
+std::vector<NamedPart> named_parts(QueryParameters& words, const Atlas& atlas, const NumberedLines& lines, std::size_t max) {
+    std::vector<NamedPart> parts = named_parts(words, "object", atlas, lines, max);
+    for (const NamedPart& part : named_parts(words, "contour", atlas, lines, max)) parts.push_back(part);
+    return parts;
+}
+
+std::vector<std::int64_t> voxels_of(const std::vector<NamedPart>& parts) {
+    std::vector<std::int64_t> voxels;
+    for (const NamedPart& part : parts) {
+        if (part.has_own_tau)
+            throw Error(ErrorKind::usage, {.where = part.is_contour ? "contour" : "object",
+                                           .what = "this request has one isovalue for all",
+                                           .expected = "no isovalue behind @",
+                                           .next = "/api/surfaces takes an isovalue for each"});
+        voxels.push_back(part.voxel);
+    }
+    return voxels;
+}
+
+}  // namespace isoatlas
