@@ -39,7 +39,8 @@ void write_labels(Sink& sink, const VolumeInfo& info, std::span<const std::uint3
 /// these voxels, with the same labels; empty: all. Throws Error{not_found} for a voxel in no object.
 [[nodiscard]] std::vector<std::uint32_t> object_labels(const Cut& cut, std::span<const std::int64_t> objects = {});
 
-/// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .nii.
+/// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .vti,
+/// .nii, .nii.gz, .tif.
 void write_volume(const std::string& path, const Volume& volume);
 /// The same into a sink; of .raw the samples alone.
 void write_volume(Sink& sink, const Volume& volume);
@@ -51,7 +52,7 @@ enum class TreeDetail : std::uint8_t { events, levels, elements, contours };
 
 struct TreeOutput {
     TreeDetail detail = TreeDetail::events;
-    std::int64_t max_listed_contours = 20'000'000;  ///< of more numbers the file omits the per-object genus lists and says so
+    bool all = false;  ///< events as JSON: also what follows from other events (children, tau_low, chi, ...), and genera
 };
 
 /// The tree as a file; the format follows the name: .json (docs/schema), .graphml, .csv, .vtu (points and lines, TTK array names).

@@ -1,4 +1,4 @@
-// Segmentations: label volumes with what each label is, as other programs read them.
+// Segmentations: label volumes with what each label is: a number, a name, a colour, the isovalue that it was made at.
 #pragma once
 
 #include <array>
@@ -13,20 +13,22 @@ namespace isoatlas {
 
 class Sink;
 
-/// What a label is.
 struct Segment {
-    std::int64_t number;  ///< its label
-    std::string name;
-    std::array<std::uint8_t, 3> colour;
-    double isovalue;  ///< reported
+    std::int64_t number;                 ///< its label: 1 to 2^32 - 1
+    std::string name;                    ///< UTF-8; empty: "object N"
+    std::array<std::uint8_t, 3> colour;  ///< red, green, blue: sRGB
+    double isovalue;                     ///< reported
     std::int64_t voxels;
 };
 
-/// Labels of a volume with what each label is: .seg.nrrd (segments with name, colour, isovalue as Slicer reads them); .nrrd, .nii.gz, ...:
-/// labels and beside them a table NAME.csv. labels: per voxel, 0: none, else Segment::number. Returns warnings for the user.
+/// Labels of a volume with what each label is: .seg.nrrd (segments with name, colour, isovalue as 3D Slicer reads them); .nrrd, .nii,
+/// .nii.gz, .tif: labels and beside them a table NAME.csv (docs/formats.md#segmentations). labels: per voxel, 0: none, else
+/// Segment::number. The smallest unsigned type is used. Returns warnings for the user. Throws Error: usage (unknown extension, wrong number
+/// of labels, a label without a segment, numbers that are not from 1 to 2^32 - 1 or not distinct), resource (also: NAME.csv is there and is
+/// no such table).
 std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
                                             std::span<const Segment> segments, const VolumeInfo& info);
-/// The labels alone into a sink (isoatlas/sink.h), without the table.
+/// The labels alone into a sink (isoatlas/sink.h), without a table.
 std::vector<std::string> write_segmentation(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments,
                                             const VolumeInfo& info);
 

@@ -79,12 +79,16 @@ struct SpectrumOptions {
 /// The counts at an isovalue: zeros above everything. Cost: O(log intervals).
 [[nodiscard]] SpectrumInterval counts_at(const Spectrum& spectrum, double tau);
 
+struct SpectrumOutput {
+    std::int64_t max_intervals = 512;  ///< in JSON: of more, neighbouring ones are merged and have the range of each count; 0: any number
+};
+
 /// The format follows the name: .csv (a row for each interval, then the sizes in their own columns), .svg (a plot), .json
 /// (docs/schema/spectrum). Values are reported values. Written to a temporary name and renamed. Throws Error: usage (unknown extension),
 /// resource.
-void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum);
-void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum);
+void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options = {});
+void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options = {});
 /// The same JSON document on a stream.
-void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum);
+void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options = {});
 
 }  // namespace isoatlas

@@ -13,25 +13,17 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The largest distance of two vertices. Vertices far from the middle come first, so that most pairs are not looked at unless the hull is
-/// nearly a ball.
+void keep_larger(FeretDiameters& feret, const Vec3& p, const Vec3& q) {
+    const Vec3 along = minus(p, q);
+    const double distance = norm(along);
+    if (distance > feret.max) feret.max = distance, feret.max_direction = times(1 / distance, along);
+}
+
+/// The largest distance of two vertices, of all pairs.
 void find_max(const std::vector<Vec3>& vertices, FeretDiameters& feret) {
-    Vec3 middle{};
-    for (const Vec3& v : vertices) middle = plus(middle, times(1 / static_cast<double>(vertices.size()), v));
-    std::vector<std::pair<double, Vec3>> far;
-    for (const Vec3& v : vertices) far.emplace_back(norm(minus(v, middle)), v);
-    std::ranges::stable_sort(far, [](const auto& p, const auto& q) { return p.first > q.first; });
-    double best = 0;
-    Vec3 along{1, 0, 0};
-    for (std::size_t i = 0; i < far.size() && 2 * far[i].first * (1 + 1e-12) >= best; ++i) {
-        for (std::size_t j = i + 1; j < far.size() && (far[i].first + far[j].first) * (1 + 1e-12) >= best; ++j) {
-            const Vec3 difference = minus(far[j].second, far[i].second);
-            const double distance = norm(difference);
-            if (distance > best) best = distance, along = difference;
-        }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) keep_larger(feret, vertices[i], vertices[j]);
     }
-    feret.max = best;
-    feret.max_direction = best > 0 ? unit(along) : along;
 }
 
 void keep_smaller(FeretDiameters& feret, double width, const Vec3& direction) {
@@ -89,11 +81,40 @@ private:
     std::vector<std::vector<std::int32_t>> neighbours_;
 };
 
+/// The vertex farthest against each facet; from facet to facet across edges, as those of neighbours are near each other.
+std::vector<std::int32_t> vertices_against(const ConvexHull& hull, const std::vector<HullEdge>& edges, const HullWalk& walk) {
+    std::vector<std::vector<std::int32_t>> beside(hull.facets.size());
+    for (const HullEdge& edge : edges) {
+        beside[static_cast<std::size_t>(edge.facet)].push_back(edge.other);
+        beside[static_cast<std::size_t>(edge.other)].push_back(edge.facet);
+    }
+    std::vector<std::int32_t> against(hull.facets.size(), -1), waiting;
+    const auto visit = [&](std::int32_t f, std::int32_t near) {
+        const auto i = static_cast<std::size_t>(f);
+        if (against[i] >= 0) return;
+        against[i] = walk.farthest_against(hull.facets[i].normal, near);
+        waiting.push_back(f);
+    };
+    for (std::int32_t first = 0; first < std::ssize(hull.facets); ++first) {  // one is enough where every edge has two facets
+        visit(first, 0);
+        while (!waiting.empty()) {
+            const auto f = static_cast<std::size_t>(waiting.back());
+            waiting.pop_back();
+            for (const std::int32_t other : beside[f]) visit(other, against[f]);
+        }
+    }
+    return against;
+}
+
 /// The directions between the normals of two facets all touch their common edge. Against them lie, one after the other, vertices whose
-/// edges are crossed: there two edges face each other, and the width may be least.
+/// edges are crossed: there two edges face each other, and the width may be least. The two vertices farthest from each other are those that
+/// touch the planes of all directions near the one between them: one of them is an end of an edge that is walked along, with the other one
+/// against it.
 void along_edge(const HullWalk& walk, const HullEdge& edge, const Vec3& from, const Vec3& to, std::int32_t against, FeretDiameters& feret) {
     const Vec3 turn = minus(to, from), corner = walk.at(edge.a);
     for (double t = 0;;) {
+        keep_larger(feret, corner, walk.at(against));
+        keep_larger(feret, walk.at(edge.b), walk.at(against));
         double next = 2;
         std::int32_t next_against = -1;
         for (const std::int32_t w : walk.around(against)) {
@@ -114,15 +135,13 @@ void along_edge(const HullWalk& walk, const HullEdge& edge, const Vec3& from, co
 
 /// The least width is between a facet and a vertex or between two edges (Houle, Toussaint: Computing the width of a set, IEEE Transactions
 /// on Pattern Analysis and Machine Intelligence 10, 1988).
-void find_min_and_mean(const ConvexHull& hull, FeretDiameters& feret) {
+void find_all(const ConvexHull& hull, FeretDiameters& feret) {
     const std::vector<HullEdge> edges = edges_of(hull);
     const HullWalk walk(hull, edges);
-    std::vector<std::int32_t> against(hull.facets.size());
-    std::int32_t near = 0;
+    const std::vector<std::int32_t> against = vertices_against(hull, edges, walk);
     for (std::size_t f = 0; f < hull.facets.size(); ++f) {
         const HullFacet& facet = hull.facets[f];
-        near = against[f] = walk.farthest_against(facet.normal, near);
-        keep_smaller(feret, dot(facet.normal, minus(walk.at(facet.vertex[0]), walk.at(near))), facet.normal);
+        keep_smaller(feret, dot(facet.normal, minus(walk.at(facet.vertex[0]), walk.at(against[f]))), facet.normal);
     }
     double bend = 0;
     for (const HullEdge& edge : edges) {
@@ -151,13 +170,14 @@ void find_min_and_mean_2d(const ConvexHull& hull, FeretDiameters& feret) {
 
 FeretDiameters feret_diameters(const ConvexHull& hull, int rank) {
     FeretDiameters feret;
-    find_max(hull.vertices, feret);
+    feret.max_direction = {1, 0, 0};
+    if (rank == 2 || hull.facets.empty()) find_max(hull.vertices, feret);
     if (hull.facets.empty()) {
         feret.min = feret.mean = kNone;
         return feret;
     }
     feret.min = std::numeric_limits<double>::infinity();
-    rank == 3 ? find_min_and_mean(hull, feret) : find_min_and_mean_2d(hull, feret);
+    rank == 3 ? find_all(hull, feret) : find_min_and_mean_2d(hull, feret);
     return feret;
 }
 

@@ -6,7 +6,7 @@
 
 namespace isoatlas {
 
-/// docs/measures.md#feret-diameters. Cost: the maximum O(vertices^2) comparisons at most; the minimum about O(facets).
+/// docs/measures.md#feret-diameters. Cost: about O(facets); in the plane, and of flat points, O(vertices^2).
 [[nodiscard]] FeretDiameters feret_diameters(const ConvexHull& hull, int rank);
 
 }  // namespace isoatlas

@@ -157,8 +157,8 @@ void set_sizes(ObjectMeasures& object, const Sums& sums, int rank) {
 void set_extent(ObjectMeasures& object, std::span<const Vec3> candidates, const Frame& frame, int rank) {
     const ConvexHull hull = convex_hull(candidates, rank);
     object.feret = feret_diameters(hull, rank);
-    object.feret.max_direction = frame.direction(object.feret.max_direction);
-    object.feret.min_direction = frame.direction(object.feret.min_direction);
+    object.feret.max_direction = pointed(frame.direction(object.feret.max_direction));
+    object.feret.min_direction = pointed(frame.direction(object.feret.min_direction));
     Vec3 middle{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(rank); ++k) {
         const Vec3 axis = times(frame.axes, object.axes.direction[k]);

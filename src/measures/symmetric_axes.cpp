@@ -33,15 +33,6 @@ void rotate(Mat3& matrix, Mat3& vectors, std::size_t p, std::size_t q) {
     matrix[p][q] = matrix[q][p] = 0;
 }
 
-/// The largest component becomes positive.
-Vec3 pointed(const Vec3& axis) {
-    std::size_t largest = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-        if (std::abs(axis[k]) > std::abs(axis[largest]) * (1 + 1e-12)) largest = k;
-    }
-    return axis[largest] < 0 ? times(-1, axis) : axis;
-}
-
 }  // namespace
 
 SymmetricAxes symmetric_axes(Mat3 matrix) {

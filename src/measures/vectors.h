@@ -22,4 +22,13 @@ namespace isoatlas {
 }
 [[nodiscard]] inline double determinant(const Mat3& m) { return dot(m[0], cross(m[1], m[2])); }
 
+/// A direction or its opposite: that whose largest component is positive. No component is -0.
+[[nodiscard]] inline Vec3 pointed(const Vec3& axis) {
+    std::size_t largest = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+        if (std::abs(axis[k]) > std::abs(axis[largest]) * (1 + 1e-12)) largest = k;
+    }
+    return plus(axis[largest] < 0 ? times(-1, axis) : axis, {0, 0, 0});
+}
+
 }  // namespace isoatlas

@@ -3,9 +3,7 @@
 namespace isoatlas {
 
 Colour palette(std::int64_t i) {
-    static constexpr std::array<std::array<int, 3>, 7> kColours{
-        {{230, 216, 186}, {86, 180, 233}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {0, 114, 178}}};
-    const auto& c = kColours[(i % 7 + 7) % 7];
+    const SrgbBytes c = object_colour(i);
     return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
 }
 

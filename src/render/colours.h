@@ -5,13 +5,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/srgb.h"
 #include "isoatlas/render.h"
 #include "render/vectors.h"
 
 namespace isoatlas {
 
-inline double to_linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
-inline double to_srgb(double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
 inline Vec3 linear(const Colour& c) { return {to_linear(c.red), to_linear(c.green), to_linear(c.blue)}; }
 inline std::uint8_t byte_of(double s) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0))); }
 /// One channel of linear light, encoded as sRGB.

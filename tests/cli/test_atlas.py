@@ -58,12 +58,12 @@ class Atlas(harness.CliTest):
     def test_counts_of_the_page_are_those_of_the_spectrum(self):
         self.run_ok("demo.nrrd", "-o", "counts.html", "--top", "1")
         page = self.page("counts.html")[1]
-        intervals = self.run_json("spectrum", "counts.atlas", "--samples", "0")["intervals"]
+        intervals = self.run_json("spectrum", "counts.atlas", "--samples", "0", "--all")["intervals"]
         for which in ("all", "significant"):
             for name in ("objects", "contours", "tunnels", "cavities"):
                 count = page["spectrum"][which][name]
                 for k, (low, high) in enumerate(zip(page["spectrum"]["edges"], page["spectrum"]["edges"][1:])):
-                    there = [i[which][name] for i in intervals if i["high"] > low and (i["low"] is None or i["low"] < high)]
+                    there = [i[which][name][0] for i in intervals if i["high"] > low and (i["low"] is None or i["low"] < high)]
                     self.assertEqual(max(there), count["max"][k])
                     self.assertEqual(min(there), count.get("min", count["max"])[k])
 

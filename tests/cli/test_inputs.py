@@ -57,7 +57,7 @@ class Inputs(CliTest):
         """The harness decodes what is printed: anything but UTF-8 would raise."""
         stem = os.fsdecode(b"\xe4us")
         outputs = {"extract": ([".ply", ".stl", ".obj", ".vtp", ".glb"], ["--best"]), "label": ([".nrrd", ".nii", ".tif"], ["--zones"]),
-                   "tree": ([".json", ".graphml", ".csv", ".vtu"], []), "convert": ([".nrrd", ".npy", ".raw", ".mha", ".nii"], []),
+                   "tree": ([".json", ".graphml", ".csv", ".vtu"], []), "convert": ([".nrrd", ".npy", ".raw", ".mha", ".nii", ".vti", ".tif"], []),
                    "spectrum": ([".svg", ".csv", ".json"], []), "render": ([".png"], ["--tau", "100", "--size", "32x32", "--samples", "1"])}
         for verb in ("objects", "handles", "spectrum", "tree", "verify"):
             self.run_ok(verb, NAME)

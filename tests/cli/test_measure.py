@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import unittest
@@ -35,6 +36,7 @@ def skimage_python():
 
 
 PYTHON = skimage_python()
+DATA = pathlib.Path(os.environ["ISOATLAS_SOURCE"]).resolve().parent / "shared" / "data"
 
 
 class Measure(harness.CliTest):
@@ -138,7 +140,7 @@ class Measure(harness.CliTest):
         spacing, origin = document["volume"]["spacing"], document["volume"]["origin"]
         self.assertEqual(len(recorded), len(document["objects"]))
         for one, other in zip(document["objects"], recorded):
-            self.assertEqual(one["voxels"], other["voxels"])
+            self.assertEqual((one["voxels"], one["euler"]), (other["voxels"], other["euler"]))
             for axis in range(3):
                 place = origin[axis] + spacing[axis] * other["centroid"][2 - axis]
                 self.assertAlmostEqual(one["centroid"][axis], place, delta=1e-9 * max(1, abs(place)))
@@ -155,6 +157,37 @@ class Measure(harness.CliTest):
         done = subprocess.run([PYTHON, "-c", REGIONPROPS, *self.labels_and_samples()], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.compare(json.loads(done.stdout))
+
+
+@unittest.skipUnless(DATA.is_dir(), "no shared data beside the checkout")
+class SharedVolumes(harness.CliTest):
+    def test_a_head_is_the_same_in_any_orientation_of_its_axes(self):
+        heads = [self.run_json("measure", DATA / "nifti_orientations" / f"{axes}.nii.gz", "--top", "1")
+                 for axes in ("RAS", "LPI", "AIL", "SRP")]
+        first = heads[0]["objects"][0]
+        for head in heads:
+            one = head["objects"][0]
+            self.assertEqual((one["voxels"], one["euler"], one["tau"], one["values"]["max"]),
+                             (first["voxels"], first["euler"], first["tau"], first["values"]["max"]))
+            self.assertAlmostEqual(one["volume"] / first["volume"], 1, delta=1e-4)  # other diagonals cut its faces
+            self.assertAlmostEqual(one["area"] / first["area"], 1, delta=1e-3)
+            for name in ("max", "min", "mean"):
+                self.assertAlmostEqual(one["feret"][name] / first["feret"][name], 1, delta=1e-5)
+            for one_number, number in zip(one["centroid"] + one["axes"]["length"], first["centroid"] + first["axes"]["length"]):
+                self.assertAlmostEqual(one_number, number, delta=1e-4)
+            for side in ("high", "low"):
+                for tau, other in zip(sorted(head["percolation"][side]), sorted(heads[0]["percolation"][side])):
+                    self.assertAlmostEqual(tau, other, delta=1e-9)
+
+    def test_a_rock_and_a_tooth(self):
+        rock = self.run_json("measure", DATA / "berea" / "berea.nrrd", "--tau", "0.5")
+        self.assertEqual(rock["below_tau"], 6410278)
+        self.assertEqual(rock["percolation"], {"high": [1, 1, 1], "low": [0, 0, 0]})
+        self.assertEqual(sum(one["voxels"] for one in rock["objects"]), 8000000 - 6410278)
+        tooth = self.run_json("measure", DATA / "tooth" / "tooth.nrrd", "--top", "2")["objects"]
+        for one in tooth:
+            self.assertAlmostEqual(one["volume"] / one["voxel_volume"], 1, delta=0.01)
+        self.assertAlmostEqual(tooth[0]["feret"]["max"], 164.46, delta=0.01)
 
 
 if __name__ == "__main__":

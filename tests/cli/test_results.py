@@ -107,13 +107,16 @@ class Results(CliTest):
 
     def test_tree_of_the_dissertations_figure_has_14_events(self):
         tree = json.loads(self.run_ok("tree", "figure.nrrd", "--json").stdout)
-        self.assertEqual(tree["schema"], "isoatlas/tree/1")
-        self.assertEqual([e["value"] for e in tree["events"]], [100, 90, 80, 70, 60, 58, 56, 50, 48, 46, 40, 38, 30, 20])
-        keys = {"id", "value", "position", "kind", "parent", "children", "objects_in", "lows_out", "delta_chi", "zone", "object"}
-        for event in tree["events"]:
-            self.assertLessEqual(keys, set(event))
-            self.assertLessEqual({"tau_low", "tau_high", "voxels"}, set(event["zone"]))
-            self.assertLessEqual({"chi", "b1", "b2", "contours"}, set(event["object"]))
+        self.assertEqual(tree["schema"], "isoatlas/tree/2")
+        events = [dict(zip(tree["columns"], row)) for row in tree["events"]]
+        self.assertEqual([e["value"] for e in events], [100, 90, 80, 70, 60, 58, 56, 50, 48, 46, 40, 38, 30, 20])
+        keys = {"value", "x", "y", "z", "kind", "parent", "lows_out", "b1", "b2", "zone_voxels", "object_voxels"}
+        for event in events:
+            self.assertEqual(keys, set(event))
+        whole = json.loads(self.run_ok("tree", "figure.nrrd", "--json", "--all").stdout)
+        self.assert_schema(whole, "tree-events")
+        self.assertEqual(whole["columns"][11:], ["id", "children", "tau_low", "delta_chi", "chi", "contours", "genera"])
+        self.assertEqual([row[:11] for row in whole["events"]], tree["events"])
 
     def test_tree_details_and_files(self):
         for detail in ("events", "levels", "elements", "contours"):

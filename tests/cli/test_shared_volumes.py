@@ -41,8 +41,9 @@ class SharedVolumes(harness.CliTest):
             tau = repr(low + part * (high - low))
             self.same_file(".ply", volume, "extract", "--tau", tau)
             self.same_file(".nrrd", volume, "label", "--tau", tau)
-            one, other = (self.run_json("objects", source, "--tau", tau) for source in (volume, "a.atlas"))
-            self.assertEqual(one["objects"], other["objects"], volume)
+            for verb in (["objects"], ["measure", "--no-percolation"]):
+                one, other = (self.run_json(*verb, source, "--tau", tau) for source in (volume, "a.atlas"))
+                self.assertEqual(one["objects"], other["objects"], volume)
         self.same_file(".ply", volume, "extract", "--best")
         self.same_file(".csv", volume, "tree", "--detail", "events")
         one, other = (self.run_json("objects", source) for source in (volume, "a.atlas"))

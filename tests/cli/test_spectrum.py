@@ -17,10 +17,30 @@ class Spectrum(harness.CliTest):
             at = self.run_json("objects", "figure.nrrd", "--tau", str(tau))
             inside = [i for i in spectrum["intervals"] if (i["low"] is None or i["low"] < tau) and tau <= i["high"]]
             self.assertEqual(len(inside), 1)
-            self.assertEqual(inside[0]["all"]["objects"], at["object_count"])
-            self.assertEqual(inside[0]["all"]["contours"], at["contour_count"])
-            self.assertEqual(inside[0]["all"]["tunnels"], sum(o["b1"] for o in at["objects"]))
-            self.assertEqual(inside[0]["all"]["cavities"], sum(o["b2"] for o in at["objects"]))
+            self.assertEqual(inside[0]["merged"], 1)
+            self.assertEqual(inside[0]["all"]["objects"], 2 * [at["object_count"]])
+            self.assertEqual(inside[0]["all"]["contours"], 2 * [at["contour_count"]])
+            self.assertEqual(inside[0]["all"]["tunnels"], 2 * [sum(o["b1"] for o in at["objects"])])
+            self.assertEqual(inside[0]["all"]["cavities"], 2 * [sum(o["b2"] for o in at["objects"])])
+
+    def test_many_intervals_are_put_together(self):
+        self.run_ok("phantom", "noise", "--size", "20", "-o", "many.nrrd")
+        brief = self.run_json("spectrum", "many.nrrd", "--samples", "0")
+        whole = self.run_json("spectrum", "many.nrrd", "--samples", "0", "--all")
+        self.assert_schema(whole, "spectrum")
+        self.assertGreater(len(whole["intervals"]), 1000)
+        self.assertLessEqual(len(brief["intervals"]), 512)
+        self.assertEqual(brief["interval_count"], len(whole["intervals"]))
+        self.assertEqual(whole["interval_count"], len(whole["intervals"]))
+        at = 0
+        for row in brief["intervals"]:
+            inside = whole["intervals"][at:at + row["merged"]]
+            at += row["merged"]
+            self.assertEqual((row["high"], row["low"]), (inside[0]["high"], inside[-1]["low"]))
+            for which in ("all", "significant"):
+                for name, counts in row[which].items():
+                    self.assertEqual(counts, [min(i[which][name][0] for i in inside), max(i[which][name][1] for i in inside)])
+        self.assertEqual(at, len(whole["intervals"]))
 
     def test_the_same_from_a_store_and_for_any_threads(self):
         one = self.run_json("spectrum", "noise.nrrd", "--threads", "1")
@@ -36,7 +56,7 @@ class Spectrum(harness.CliTest):
             rows = list(csv.DictReader(file))
         document = self.run_json("spectrum", "noise.nrrd", "--samples", "3", "-o", "x.json")
         kinds = collections.Counter(row["kind"] for row in rows)
-        self.assertEqual(kinds, {"interval": len(document["intervals"]), "size": 3, "advice": len(document["advice"])})
+        self.assertEqual(kinds, {"interval": document["interval_count"], "size": 3, "advice": len(document["advice"])})
         advice = [(int(row["object"]), row["reason"]) for row in rows if row["kind"] == "advice"]
         self.assertEqual(advice, [(a["object"], a["reason"]) for a in document["advice"]])
         self.assert_schema(document, "spectrum")
@@ -57,7 +77,7 @@ class Spectrum(harness.CliTest):
         for source in ("noise.nrrd", "noise.atlas"):
             kept = self.run_json("spectrum", source, "--keep", "3", "--samples", "0")
             self.assert_schema(kept, "spectrum")
-            self.assertEqual(max(i["significant"]["objects"] for i in kept["intervals"]), 3)
+            self.assertEqual(max(i["significant"]["objects"][1] for i in kept["intervals"]), 3)
             self.assertEqual([i["all"] for i in kept["intervals"]], [i["all"] for i in whole["intervals"]])
         self.run_ok("spectrum", "noise.nrrd", "--keep", "3", "-o", "k.svg")
         self.assertIn("Of the selected objects", (self.folder / "k.svg").read_text())

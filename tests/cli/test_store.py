@@ -98,7 +98,7 @@ class Stores(harness.CliTest):
         self.assertEqual(self.run_json("build", "noise.nrrd", "--tunnel-height", "2%", "-o", "rough.atlas")["tunnel_height"], 0.02 * 63)
 
     def test_convert_gives_the_samples_back(self):
-        for name in ("back.nrrd", "back.npy", "back.raw", "back.mha", "back.nii"):
+        for name in ("back.nrrd", "back.npy", "back.raw", "back.mha", "back.nii", "back.nii.gz", "back.vti", "back.tif"):
             told = self.run_json("convert", "noise.atlas", "-o", name)
             self.assertEqual((told["schema"], told["output"], told["sample_bytes"]), ("isoatlas/convert/1", name, 20 ** 3))
             self.run_ok("build", name, "-o", "again.atlas")

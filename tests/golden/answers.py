@@ -38,9 +38,26 @@ def chosen(members, document):
     return {name: document[name] for name in members}
 
 
+def event(columns, row):
+    """A row of the tree as the object that it was until 0.2."""
+    e = dict(zip(columns, row))
+    genera = [genus for genus, count in e["genera"] for _ in range(count)]
+    return {"id": e["id"], "value": e["value"], "position": [e["x"], e["y"], e["z"]], "kind": e["kind"], "parent": e["parent"],
+            "children": e["children"], "objects_in": len(e["children"]), "lows_out": e["lows_out"], "delta_chi": e["delta_chi"],
+            "zone": {"tau_low": e["tau_low"], "tau_high": e["value"], "voxels": e["zone_voxels"]},
+            "object": {"chi": e["chi"], "b1": e["b1"], "b2": e["b2"], "voxels": e["object_voxels"], "contours": genera}}
+
+
+def tree(store, detail):
+    document = run("tree", store, "--detail", detail, "--all")
+    if detail == "events":
+        return [event(document["columns"], row) for row in document["events"]]
+    return document[detail]
+
+
 def surface(folder, store, *options):
     file = folder / "surface.stl"
-    told = run("extract", store, "-o", file, *options)
+    told = run("extract", store, "-o", file, "--space", "file", *options)
     return {**chosen(OF_SURFACE, told), "stl": sum_of(file.read_bytes()[STL_HEADER:])}
 
 
@@ -68,7 +85,7 @@ def answers(store):
                   "trees": {}, "objects": [chosen(OF_OBJECTS, entry) for entry in found["objects"]], "branches": found["branches"],
                   "noise": found["noise"]}
         for detail, members in MEMBERS.items():
-            lines = [chosen(members, line) for line in run("tree", store, "--detail", detail)[detail]]
+            lines = [chosen(members, line) for line in tree(store, detail)]
             answer["trees"][detail] = {"count": len(lines), "first": lines[:2], "of_all": sum_of(lines)}
         answer["isovalues"] = [at_isovalue(folder, store, low + part * (high - low)) for part in (0.25, 0.5, 0.8125)]
         return answer

@@ -101,6 +101,10 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     arguments.style =
         parse_choice<SurfaceStyle>("--style", typed.style, {{"compact", SurfaceStyle::compact}, {"full", SurfaceStyle::full}});
     arguments.boundary = parse_choice<Boundary>("--boundary", typed.boundary, {{"closed", Boundary::closed}, {"open", Boundary::open}});
+    if (given("--space")) {
+        arguments.space = parse_choice<PointSpace>("--space", typed.space,
+                                                   {{"lps", PointSpace::lps}, {"ras", PointSpace::ras}, {"file", PointSpace::volume}});
+    }
     arguments.detail = parse_choice<TreeDetail>("--detail", typed.detail,
                                                 {{"events", TreeDetail::events},
                                                  {"levels", TreeDetail::levels},

@@ -64,6 +64,7 @@ struct Arguments {
     ShellChoice shell = ShellChoice::all;
     SurfaceStyle style = SurfaceStyle::compact;
     Boundary boundary = Boundary::closed;
+    std::optional<PointSpace> space;  ///< of points in files; none: not given
     TreeDetail detail = TreeDetail::events;
     PhantomOptions phantom;
     PictureArguments picture;

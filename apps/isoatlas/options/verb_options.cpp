@@ -41,6 +41,7 @@ void add_objects(CLI::App& app, Typed& typed, const std::string& meaning) {
 
 void tree_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
+    app.add_flag("--all", arguments.all, "Events as JSON: also columns that follow from others, and the genera of contours");
     add_selection(app, typed.selection, true);
     add_output(app, arguments, ".json .graphml .csv .vtu", false);
 }
@@ -83,6 +84,8 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
     app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
     app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
+    app.add_option("--space", typed.space, "Coordinates of medical volumes: lps (as Slicer), ras, or file: those of the volume")
+        ->type_name("SPACE");
     app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
     add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
 }
@@ -151,6 +154,7 @@ void spectrum_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--samples", arguments.samples, "Measure the surface at N isovalues, evenly spread (24); 0: none")
         ->check(in_range(std::int64_t{0}, std::int64_t{100000}))
         ->type_name("N");
+    app.add_flag("--all", arguments.all, "JSON: every interval; without it neighbouring ones are merged above 512");
     add_selection(app, typed.selection, true);
     add_output(app, arguments, ".csv .svg .json", false);
 }
@@ -159,7 +163,7 @@ void table131_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) { a
 
 void convert_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_shape(app, typed);
-    add_output(app, arguments, ".nrrd .npy .raw .mha .nii", true);
+    add_output(app, arguments, ".nrrd .npy .raw .mha .nii .nii.gz .vti .tif", true);
 }
 
 void phantom_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {

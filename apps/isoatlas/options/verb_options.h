@@ -10,7 +10,7 @@ namespace isoatlas::cli {
 /// Options as typed; converted after parsing, so that all messages have one form.
 struct Typed {
     std::string box, dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all",
-                                                                   style = "compact", boundary = "closed", detail = "events", memory;
+                                                                   style = "compact", boundary = "closed", detail = "events", memory, space;
     std::vector<std::string> objects, contours, removed_names;
     TypedSelection selection;
     double no_data = 0;

@@ -80,6 +80,8 @@ SurfaceOptions options_of(const Arguments& arguments) {
                                        .next = "isoatlas objects " + shell_word(arguments.file) + " --tau T lists the contours"});
 }
 
+SurfaceFileOptions file_options(const Arguments& arguments) { return {.space = arguments.space.value_or(PointSpace::lps)}; }
+
 struct Counts {
     std::int64_t points, triangles, segments, objects, contours;
     bool closed;
@@ -150,7 +152,7 @@ Json to_json(const Arguments& arguments, Source& source, const Written& written)
     json["objects"] = written.counts.objects;
     json["contours"] = written.counts.contours;
     json["closed"] = written.counts.closed;
-    json["space"] = written.space;
+    json["space"] = space_in_file(arguments.output, written.space, file_options(arguments));
     json["warnings"] = written.warnings;
     json["notes"] = written.notes;
     json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
@@ -201,7 +203,7 @@ Written write_one(const Arguments& arguments, Source& source, const std::vector<
     written.counts = count(surface);
     if (chosen.size() == 1) written.parts.push_back({chosen[0], written.counts, surface.reported_tau, arguments.output});
     const WritingGuard guard;
-    written.warnings = write_surface(arguments.output, surface);
+    written.warnings = write_surface(arguments.output, surface, file_options(arguments));
     return written;
 }
 
@@ -231,12 +233,12 @@ Written write_several(const Arguments& arguments, Source& source, const std::vec
         together.push_back(std::move(one.named));
         if (!arguments.split) continue;
         const WritingGuard guard;
-        keep(write_surfaces(output, together));
+        keep(write_surfaces(output, together, file_options(arguments)));
         together.clear();
     }
     if (arguments.split) return written;
     const WritingGuard guard;
-    keep(write_surfaces(arguments.output, together));
+    keep(write_surfaces(arguments.output, together, file_options(arguments)));
     return written;
 }
 
@@ -253,7 +255,11 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     }
     const Written written =
         is_one_surface(arguments, chosen) ? write_one(arguments, source, chosen) : write_several(arguments, source, chosen);
+    if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
+        terminal.warn("--space does not apply to .glb, which has metres and y up");
     for (const std::string& warning : written.warnings) terminal.warn(warning);
+    if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
+        terminal.warn("--space does not apply to .glb, which has metres and y up");
     for (const std::string& note : written.notes) terminal.say("note: " + note);
     if (arguments.json) {
         print(terminal, to_json(arguments, source, written));

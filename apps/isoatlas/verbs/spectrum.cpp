@@ -56,12 +56,14 @@ int run_spectrum(const Arguments& arguments, Terminal& terminal) {
     if (arguments.selects) options.selection = source.selection();
     const Spectrum spectrum = source.spectrum(options);
     stop_if_interrupted();
+    SpectrumOutput output;
+    if (arguments.all) output.max_intervals = 0;
     if (!arguments.output.empty()) {
         const WritingGuard guard;
-        write_spectrum(arguments.output, source.info(), spectrum);
+        write_spectrum(arguments.output, source.info(), spectrum, output);
     }
     if (arguments.json) {
-        write_spectrum_json(terminal.out(), source.info(), spectrum);
+        write_spectrum_json(terminal.out(), source.info(), spectrum, output);
         return 0;
     }
     print_text(terminal, source.info(), spectrum);

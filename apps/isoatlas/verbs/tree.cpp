@@ -137,7 +137,7 @@ void print_summary(Terminal& terminal, const Arguments& arguments, const Volume&
 void write_file(Terminal& terminal, const Arguments& arguments, const Volume& volume, const Analysis& analysis) {
     {
         const WritingGuard guard;
-        write_tree(arguments.output, volume, analysis, {.detail = arguments.detail});
+        write_tree(arguments.output, volume, analysis, {.detail = arguments.detail, .all = arguments.all});
     }
     if (!arguments.json) {
         terminal.out() << shown_name(arguments.output) << ": " << counted(analysis.event_count(), "event") << ", detail "
@@ -160,7 +160,7 @@ int run_tree(const Arguments& arguments, Terminal& terminal) {
     if (!arguments.output.empty()) {
         write_file(terminal, arguments, volume, analysis);
     } else if (arguments.json) {
-        write_tree_json(terminal.out(), volume, analysis, {.detail = arguments.detail});
+        write_tree_json(terminal.out(), volume, analysis, {.detail = arguments.detail, .all = arguments.all});
     } else {
         print_summary(terminal, arguments, volume, analysis);
     }

@@ -26,11 +26,14 @@ using KeyValues = std::vector<std::pair<std::string, std::string>>;
 // them. Rectilinear grids become regular ones with the mean spacing; the comment or description names what a format cannot represent.
 // Throws Error{resource}.
 void write_nrrd(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing, const KeyValues& pairs = {});
-/// Space RAS (LPS and LAS are converted), lengths in m, mm or um. NIfTI-2 when sizes (above 32767) or numbers do not fit in NIfTI-1.
+/// Space RAS (LPS and LAS are converted; NIfTI has no unknown space: the numbers of other spaces are written as they are), an sform always,
+/// a qform where the axes are perpendicular, lengths in m, mm or um. NIfTI-2 when sizes (above 32767) or numbers do not fit in NIfTI-1.
 void write_nifti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing);
 /// One page a slice, deflate, voxel size for ImageJ; BigTIFF when the samples exceed 3.9 GB. Keeps neither origin nor directions.
 /// Writes back: the link to a page is set when its place is known.
 void write_tiff(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, const KeyValues& pairs = {});
+/// Space and unit as field data; keeps no calibration. 2D images have one slice.
+void write_vti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
 void write_metaimage(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
 /// NumPy: shape (z, y, x). Keeps no geometry.
 void write_npy(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
@@ -46,6 +49,7 @@ void write_raw(const std::string& path, const VolumeInfo& info, const SampleFeed
 /// The same position in another space, "LPS" or "RAS"; unchanged for spaces other than these and "LAS".
 [[nodiscard]] Geometry turned_to(Geometry geometry, const std::string& space);
 /// "LPS", "RAS" or "LAS": the axes are anatomical.
-[[nodiscard]] bool is_anatomical(const Geometry& geometry);
+[[nodiscard]] bool is_anatomical(const std::string& space);
+[[nodiscard]] inline bool is_anatomical(const Geometry& geometry) { return is_anatomical(geometry.space); }
 
 }  // namespace isoatlas

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -66,11 +67,19 @@ private:
            "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
 }
 
-/// A text as VTK stores it in field data: its bytes as numbers, ended by 0. Any character is safe in the XML.
+/// Texts as VTK stores them in field data: their bytes as numbers, each ended by 0. Any character is safe in the XML.
+[[nodiscard]] inline std::string vtk_strings(std::string_view name, std::span<const std::string> texts) {
+    std::string element = "<DataArray type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"" + std::to_string(texts.size()) +
+                          "\" format=\"ascii\">";
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        for (const char c : decoded_text(texts[i])) element += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
+        element += i + 1 < texts.size() ? "0 " : "0";
+    }
+    return element + "</DataArray>\n";
+}
 [[nodiscard]] inline std::string vtk_string(std::string_view name, std::string_view text) {
-    std::string element = "<DataArray type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"1\" format=\"ascii\">";
-    for (const char c : decoded_text(text)) element += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
-    return element + "0</DataArray>\n";
+    const std::string only(text);
+    return vtk_strings(name, std::span(&only, 1));
 }
 
 }  // namespace isoatlas

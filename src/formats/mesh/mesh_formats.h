@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/mesh/mesh_parts.h"
 #include "isoatlas/sink.h"
 #include "isoatlas/surface.h"
 
@@ -14,12 +15,12 @@ namespace isoatlas {
 
 using Warnings = std::vector<std::string>;
 
-// Each writes the whole file. The surface is consistent (check_surface). STL and GLB take no segments.
-void write_ply(Sink& sink, const Surface& surface, Warnings& warnings);
-void write_stl(Sink& sink, const Surface& surface, Warnings& warnings);
-void write_obj(Sink& sink, const Surface& surface, Warnings& warnings);
-void write_vtp(Sink& sink, const Surface& surface, Warnings& warnings);
-void write_glb(Sink& sink, const Surface& surface, Warnings& warnings);
+// Each writes the whole file. STL and GLB take no segments. GLB has the points in the space of the volume.
+void write_ply(Sink& sink, const MeshParts& parts, Warnings& warnings);
+void write_stl(Sink& sink, const MeshParts& parts, Warnings& warnings);
+void write_obj(Sink& sink, const MeshParts& parts, Warnings& warnings);
+void write_vtp(Sink& sink, const MeshParts& parts, Warnings& warnings);
+void write_glb(Sink& sink, const MeshParts& parts, Warnings& warnings);
 
 // Each parses a whole file. `file` is its name for messages. Throws Error: input, unsupported. The result is well-formed (check_mesh).
 // Allocates in proportion to bytes.size() only.
@@ -38,8 +39,9 @@ void add_polygon(Mesh& mesh, const std::vector<std::int64_t>& corners);
 /// Adds the triangles of a strip; every second one has the opposite orientation.
 void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners);
 
-/// Provenance of a surface, a line each: generator, tau, space, unit, interpolant, tunnel height.
-[[nodiscard]] std::string comment_lines(const Surface& surface, const std::string& comment_mark);
+/// What a comment says of space and unit, as comment_lines() and 3D Slicer write it: "space LPS", "unit mm", or "SPACE=LPS" somewhere in
+/// it. Other texts change nothing.
+void take_comment(Mesh& mesh, std::string_view text);
 
 /// Triangles (or segments) in runs of one object: `order` lists them grouped by the object of their first point, objects in ascending
 /// order, the surface's order kept inside. Without ids there is one group, and has_ids is false.
@@ -53,7 +55,9 @@ struct ObjectGroups {
     bool has_ids = false;
 };
 [[nodiscard]] ObjectGroups group_by_object(const Surface& surface);
+/// All of the surface in one group, without ids.
+[[nodiscard]] ObjectGroups one_group(const Surface& surface);
 /// Whether some object has more than one contour, so that object ids alone do not identify the contour of a point.
-[[nodiscard]] bool has_inner_contours(const Surface& surface);
+[[nodiscard]] bool has_inner_contours(const MeshParts& parts);
 
 }  // namespace isoatlas

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "formats/common/byte_cursor.h"
+#include "formats/mesh/gltf_frame.h"
 #include "formats/mesh/mesh_formats.h"
 
 namespace isoatlas {
@@ -13,7 +14,7 @@ namespace isoatlas {
 namespace {
 
 using Json = nlohmann::json;
-using Matrix = std::array<double, 16>;  ///< columns, as in glTF
+using Matrix = GltfMatrix;
 
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 /// Nodes may share a mesh; more than this many times the size of the file is rejected (denial of service).
@@ -154,13 +155,27 @@ private:
             seen.resize(document_["nodes"].size());
             if (seen[visit.node]) fail(file_, "a node has two parents", "nodes[" + std::to_string(visit.node) + "]");
             seen[visit.node] = true;
-            const Matrix transform = product(visit.transform, local_transform(node));
+            const bool is_frame = is_volume_frame(node);
+            const Matrix transform = is_frame ? visit.transform : product(visit.transform, local_transform(node));
             if (node.contains("mesh")) add_mesh(node, transform);
             const auto children = node.find("children");
             if (children == node.end()) continue;
             for (auto child = children->rbegin(); child != children->rend(); ++child)
                 stack.push_back({child->get<std::size_t>(), transform});
         }
+    }
+    /// Whether the node turns the space of a volume into that of glTF, as write_surface() makes it: then the points below it are read as
+    /// they were in the volume. A node that was moved since is a transform like any other.
+    bool is_volume_frame(const Json& node) {
+        const auto extras = node.find("extras");
+        if (extras == node.end() || !extras->is_object() || extras->value("frame", Json()) != kVolumeFrame) return false;
+        const Json space = extras->value("space", Json()), unit = extras->value("unit", Json());
+        if (!space.is_string() || !(unit.is_string() || unit.is_null())) return false;
+        const std::string unit_name = unit.is_string() ? unit.get<std::string>() : "";
+        if (!is_same_matrix(local_transform(node), gltf_frame(space.get<std::string>(), unit_name))) return false;
+        mesh_.space = printable(space.get<std::string>());
+        mesh_.unit = printable(unit_name);
+        return true;
     }
     /// Last root first: the stack reverses the order.
     std::vector<std::size_t> roots() {

@@ -34,6 +34,7 @@ private:
     /// A line without its comment, with the lines joined that a backslash continues.
     std::string_view next_statement() {
         std::string_view line = in_.line();
+        if (line.starts_with('#')) take_comment(mesh_, line.substr(1));
         if (line.empty() || line.back() != '\\') return line.substr(0, line.find('#'));
         joined_.clear();
         while (!line.empty() && line.back() == '\\') {

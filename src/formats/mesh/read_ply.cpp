@@ -72,7 +72,7 @@ Property parse_property(std::string_view line, const ByteCursor& in) {
     return {name, scalar, count_type};
 }
 
-Header parse_header(ByteCursor& in) {
+Header parse_header(ByteCursor& in, Mesh& mesh) {
     if (in.line() != "ply") in.fail_at_line("not a PLY file: it does not start with \"ply\"");
     Header header{};
     bool has_format = false;
@@ -81,6 +81,7 @@ Header parse_header(ByteCursor& in) {
         std::string_view line = in.line();
         const std::string_view keyword = take_word(line);
         if (keyword == "end_header") break;
+        if (keyword == "comment") take_comment(mesh, line);
         if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) continue;
         if (keyword == "format") {
             header.encoding = encoding_named(take_word(line), in);
@@ -239,8 +240,8 @@ void read_faces(ByteCursor& in, const PlyElement& element, Encoding encoding, Me
 
 Mesh parse_ply(std::string_view bytes, const std::string& file) {
     ByteCursor in(bytes, file);
-    const Header header = parse_header(in);
     Mesh mesh;
+    const Header header = parse_header(in, mesh);
     bool has_vertices = false;
     for (const PlyElement& element : header.elements) {
         check_count(element, header.encoding, in);

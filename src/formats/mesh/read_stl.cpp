@@ -23,6 +23,16 @@ bool is_binary(std::string_view bytes, const std::string& file) {
     return bytes.size() == kHeaderBytes + kTriangleBytes * std::uint64_t{count} || !starts_with_solid(bytes);
 }
 
+/// "SPACE=LPS" of 3D Slicer; of our own headers "space" and "unit" with the word behind them.
+void take_header(Mesh& mesh, std::string_view text) {
+    take_comment(mesh, text);
+    const std::vector<std::string_view> words = split_words(text);
+    if (words.empty() || words[0] != "isoatlas") return;
+    for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+        if (words[i] == "space" || words[i] == "unit") take_comment(mesh, std::string(words[i]) + " " + std::string(words[i + 1]));
+    }
+}
+
 std::int64_t numbered(PointTable& table, const std::array<double, 3>& point, const std::string& file, std::size_t triangle) {
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) {
         throw Error(ErrorKind::input, {.file = file,
@@ -35,13 +45,14 @@ std::int64_t numbered(PointTable& table, const std::array<double, 3>& point, con
 
 Mesh parse_binary(std::string_view bytes, const std::string& file) {
     ByteCursor in(bytes, file);
-    (void)in.bytes(80, "the STL header");
+    const std::string_view header = in.bytes(80, "the STL header");
     const std::uint64_t count = in.number<std::uint32_t>(false, "the triangle count");
     if (in.left() != count * kTriangleBytes) {
         in.fail_at_offset("the file promises " + std::to_string(count) + " triangles, but " + std::to_string(in.left()) + " bytes follow",
                           std::to_string(count * kTriangleBytes) + " bytes");
     }
     Mesh mesh;
+    take_header(mesh, header.substr(0, header.find('\0')));
     mesh.triangles.reserve(count);
     PointTable table;
     for (std::size_t t = 0; t < count; ++t) {
@@ -96,7 +107,7 @@ Mesh parse_text(std::string_view bytes, const std::string& file) {
     PointTable table;
     for (std::string_view word = in.word(); !word.empty(); word = in.word()) {  // a file may hold several solids
         if (word != "solid") in.fail_at_line("unexpected " + in_quotes(word), "\"solid\"");
-        (void)in.line();  // its name
+        take_comment(mesh, in.line());  // its name
         for (word = in.word(); word == "facet"; word = in.word()) parse_facet(in, mesh, table);
         if (word != "endsolid") {
             in.fail_at_line(word.empty() ? "the file ends inside a solid" : "unexpected " + in_quotes(word), "\"facet\" or \"endsolid\"");

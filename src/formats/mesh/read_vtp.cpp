@@ -91,6 +91,28 @@ bool read_ids(const pugi::xml_node& piece, const char* name, std::size_t points,
     return true;
 }
 
+/// The text of a String array of the field data; empty when there is none, or another array of this name.
+std::string field_text(const pugi::xml_node& fields, const char* name, VtkArrays& arrays) {
+    const pugi::xml_node element = array_named(fields, name);
+    if (!element || vtk_attribute(element, "type") != "String") return {};
+    VtkArray array = describe_vtk_array(element, arrays.file.path);
+    array.type = "UInt8";  // its characters
+    const VtkValues values = read_vtk_values(arrays.file, array, arrays.budget);
+    std::string text;
+    for (const std::int64_t c : values.integers) {
+        if (c == 0) break;
+        text += static_cast<char>(c);
+    }
+    return printable(text);
+}
+
+void read_space(const pugi::xml_node& fields, VtkArrays& arrays, Mesh& mesh) {
+    for (const char* name : {"Space", "SPACE"}) {
+        if (const std::string space = field_text(fields, name, arrays); !space.empty()) mesh.space = space;
+    }
+    mesh.unit = field_text(fields, "Unit", arrays);
+}
+
 }  // namespace
 
 Mesh parse_vtp(std::string_view bytes, const std::string& file) {
@@ -102,13 +124,15 @@ Mesh parse_vtp(std::string_view bytes, const std::string& file) {
     VtkArrays arrays{describe_vtk_file(xml, file, open), 0};
     arrays.budget = static_cast<std::int64_t>(bytes.size() * (arrays.file.compressed ? 1032 : 1));  // deflate cannot do better
     Mesh mesh;
+    read_space(xml.root().child("PolyData").child("FieldData"), arrays, mesh);
     bool has_object = true, has_contour = true;
     for (const pugi::xml_node& piece : xml.root().child("PolyData").children("Piece")) {
         const std::size_t first = mesh.points.size();
         const std::size_t points = read_points(piece, arrays, mesh);
         read_cells(piece.child("Polys"), arrays, first, points, false, mesh);
         read_cells(piece.child("Strips"), arrays, first, points, true, mesh);
-        has_object = read_ids(piece, "ObjectId", points, arrays, mesh.object) && has_object;
+        const char* const object = array_named(piece.child("PointData"), "Object") ? "Object" : "ObjectId";
+        has_object = read_ids(piece, object, points, arrays, mesh.object) && has_object;
         has_contour = read_ids(piece, "ContourId", points, arrays, mesh.contour) && has_contour;
     }
     if (!has_object) mesh.object.clear();

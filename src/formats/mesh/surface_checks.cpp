@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "formats/common/connectivity.h"
+#include "formats/common/text.h"
 #include "formats/mesh/mesh_formats.h"
 
 namespace isoatlas {
@@ -78,14 +78,24 @@ void add_strip(Mesh& mesh, const std::vector<std::int64_t>& corners) {
     }
 }
 
-std::string comment_lines(const Surface& surface, const std::string& comment_mark) {
-    KeyValues pairs{{"generator", kGenerator}, {"tau", number_text(surface.reported_tau)}, {"space", one_line(surface.space)}};
-    if (!surface.unit.empty()) pairs.emplace_back("unit", one_line(surface.unit));
-    std::string text;
-    for (const KeyValues& list : {pairs, key_values(connectivity_of(surface))}) {
-        for (const auto& [key, value] : list) text += comment_mark + " " + key + " " + value + "\n";
+void take_comment(Mesh& mesh, std::string_view text) {
+    constexpr std::string_view kSlicer = "SPACE=";
+    const std::vector<std::string_view> words = split_words(text);
+    for (const std::string_view word : words) {
+        if (word.starts_with(kSlicer)) mesh.space = printable(word.substr(kSlicer.size()));
     }
-    return text;
+    if (words.size() != 2) return;
+    if (words[0] == "space") mesh.space = printable(words[1]);
+    if (words[0] == "unit") mesh.unit = printable(words[1]);
+}
+
+ObjectGroups one_group(const Surface& surface) {
+    const std::size_t count = surface.segments.empty() ? surface.triangles.size() : surface.segments.size();
+    ObjectGroups result;
+    result.order.resize(count);
+    for (std::size_t i = 0; i < count; ++i) result.order[i] = static_cast<std::int64_t>(i);
+    if (count > 0) result.groups.push_back({0, 0, static_cast<std::int64_t>(count)});
+    return result;
 }
 
 ObjectGroups group_by_object(const Surface& surface) {
@@ -95,11 +105,7 @@ ObjectGroups group_by_object(const Surface& surface) {
     ObjectGroups result;
     result.order.resize(count);
     result.has_ids = !surface.object.empty();
-    if (!result.has_ids) {
-        for (std::size_t i = 0; i < count; ++i) result.order[i] = static_cast<std::int64_t>(i);
-        if (count > 0) result.groups.push_back({0, 0, static_cast<std::int64_t>(count)});
-        return result;
-    }
+    if (!result.has_ids) return one_group(surface);
     std::unordered_map<std::int64_t, std::int64_t> counts;
     for (std::size_t i = 0; i < count; ++i) ++counts[surface.object[first_point(i)]];
     for (const auto& [object, size] : counts) result.groups.push_back({object, 0, size});
@@ -114,11 +120,14 @@ ObjectGroups group_by_object(const Surface& surface) {
     return result;
 }
 
-bool has_inner_contours(const Surface& surface) {
-    if (surface.contour.empty() || surface.object.empty()) return false;
-    std::unordered_map<std::int64_t, std::int64_t> contour_of;
-    for (std::size_t i = 0; i < surface.object.size(); ++i) {
-        if (contour_of.try_emplace(surface.object[i], surface.contour[i]).first->second != surface.contour[i]) return true;
+bool has_inner_contours(const MeshParts& parts) {
+    for (const MeshPart& part : parts.parts) {
+        const Surface& surface = part.surface();
+        if (surface.contour.empty() || surface.object.empty()) continue;
+        std::unordered_map<std::int64_t, std::int64_t> contour_of;
+        for (std::size_t i = 0; i < surface.object.size(); ++i) {
+            if (contour_of.try_emplace(surface.object[i], surface.contour[i]).first->second != surface.contour[i]) return true;
+        }
     }
     return false;
 }

@@ -1,4 +1,4 @@
-// write_surface and read_mesh: the extension chooses the format.
+// write_surface, write_surfaces and read_mesh: the extension chooses the format.
 #include "base/atomic_file.h"
 #include "formats/common/file_access.h"
 #include "formats/common/file_extension.h"
@@ -11,7 +11,7 @@ namespace {
 
 struct MeshFormat {
     const char* extension;
-    void (*write)(Sink&, const Surface&, Warnings&);
+    void (*write)(Sink&, const MeshParts&, Warnings&);
     Mesh (*parse)(std::string_view, const std::string&);
     bool curves;  ///< holds segments too
 };
@@ -30,62 +30,57 @@ const MeshFormat& format_of(const std::string& path) {
     refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
 }
 
-/// The format, if it can hold the surface.
-const MeshFormat& checked_format(const std::string& path, const Surface& surface) {
+/// The format, if it can hold the surfaces.
+const MeshFormat& checked_format(const std::string& path, const MeshParts& parts) {
     const MeshFormat& format = format_of(path);
-    if (!surface.segments.empty() && !format.curves) {
+    if (parts.is_curves() && !format.curves) {
         throw Error(ErrorKind::usage,
                     {.file = path,
                      .what = std::string(format.extension) + " stores triangles only, and the contours of a 2D image are curves",
                      .next = "write .ply, .obj or .vtp"});
     }
-    check_surface(surface, path);
     return format;
 }
 
-}  // namespace
-
-std::vector<std::string> write_surface(Sink& sink, const Surface& surface) {
-    const MeshFormat& format = checked_format(sink.name(), surface);
+Warnings write(Sink& sink, const MeshParts& parts) {
     Warnings warnings;
-    format.write(sink, surface, warnings);
+    checked_format(sink.name(), parts).write(sink, parts, warnings);
     return warnings;
 }
 
-std::vector<std::string> write_surface(const std::string& path, const Surface& surface) {
-    const MeshFormat& format = checked_format(path, surface);
-    Warnings warnings;
+Warnings write(const std::string& path, const MeshParts& parts) {
+    (void)checked_format(path, parts);
     AtomicFile file(path);
-    format.write(file, surface, warnings);
+    Warnings warnings = write(file, parts);
     file.commit();
     return warnings;
 }
 
-namespace {
-
-Surface joined(std::span<const NamedSurface> surfaces) {
-    Surface all = surfaces.front().surface;
-    for (const NamedSurface& named : surfaces.subspan(1)) {
-        const Surface& s = named.surface;
-        const auto shift = static_cast<std::int64_t>(all.points.size());
-        all.points.insert(all.points.end(), s.points.begin(), s.points.end());
-        all.normals.insert(all.normals.end(), s.normals.begin(), s.normals.end());
-        all.object.insert(all.object.end(), s.object.begin(), s.object.end());
-        all.contour.insert(all.contour.end(), s.contour.begin(), s.contour.end());
-        for (const auto& t : s.triangles) all.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-        for (const auto& t : s.segments) all.segments.push_back({t[0] + shift, t[1] + shift});
-    }
-    return all;
-}
-
 }  // namespace
 
-std::vector<std::string> write_surfaces(const std::string& path, std::span<const NamedSurface> surfaces) {
-    return write_surface(path, joined(surfaces));
+std::vector<std::string> write_surface(Sink& sink, const Surface& surface, const SurfaceFileOptions& options) {
+    (void)format_of(sink.name());
+    return write(sink, mesh_parts(surface, options, sink.name()));
 }
 
-std::vector<std::string> write_surfaces(Sink& sink, std::span<const NamedSurface> surfaces) {
-    return write_surface(sink, joined(surfaces));
+std::vector<std::string> write_surface(const std::string& path, const Surface& surface, const SurfaceFileOptions& options) {
+    (void)format_of(path);
+    return write(path, mesh_parts(surface, options, path));
+}
+
+std::vector<std::string> write_surfaces(Sink& sink, std::span<const NamedSurface> surfaces, const SurfaceFileOptions& options) {
+    (void)format_of(sink.name());
+    return write(sink, mesh_parts(surfaces, options, sink.name()));
+}
+
+std::vector<std::string> write_surfaces(const std::string& path, std::span<const NamedSurface> surfaces,
+                                        const SurfaceFileOptions& options) {
+    (void)format_of(path);
+    return write(path, mesh_parts(surfaces, options, path));
+}
+
+std::string space_in_file(const std::string& path, const std::string& space, const SurfaceFileOptions& options) {
+    return lower_extension(path) == ".glb" ? "glTF" : turned_space(space, options.space);
 }
 
 Mesh read_mesh(const std::string& path) {

@@ -1,6 +1,6 @@
-// GLB: glTF 2.0 in one binary file. One node with its own mesh per object; positions are float32 relative to the node's translation,
-// so objects far from the origin keep their shape. Lengths stay in the unit of the volume (extras), glTF's metres notwithstanding.
-// Source: glTF 2.0 specification, Khronos Group.
+// GLB: glTF 2.0 in one binary file. A node turns the space of the volume into metres with y up (gltf_frame.h); below it is a node with its
+// own mesh and material for each object. Positions are float32 relative to the node's translation, so objects far from the origin keep
+// their shape. Source: glTF 2.0 specification, Khronos Group.
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +8,8 @@
 #include "formats/common/connectivity.h"
 #include "formats/common/generator.h"
 #include "formats/common/json_stream.h"
-#include "formats/common/precision.h"
+#include "formats/common/length_unit.h"
+#include "formats/mesh/gltf_frame.h"
 #include "formats/mesh/mesh_formats.h"
 
 namespace isoatlas {
@@ -19,20 +20,35 @@ using Point = std::array<double, 3>;
 
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kVertices = 34962, kIndices = 34963;
 
-/// The mesh of one object: its points in the order of the surface, its triangles as a range of groups.order.
-struct Part {
+/// The mesh of one object: its points in the order of the surface, its triangles as a range of the order of its surface.
+struct Piece {
+    std::size_t surface;  ///< of Scene::surfaces
     ObjectGroups::Group group;
-    std::size_t first_point, point_count;  ///< range of Scene::used
-    Point translation;                     ///< middle of its box
-    std::array<float, 3> low, high;        ///< of the stored positions
+    std::string name;
+    std::int64_t object;  ///< id, or number of a named part; -1: none
+    std::size_t material;
+    std::size_t first_point = 0, point_count = 0;  ///< range of Scene::used
+    Point translation{};                           ///< middle of its box
+    std::array<float, 3> low{}, high{};            ///< of the stored positions
+};
+
+struct Material {
+    SrgbBytes colour;
+    std::string name;
+    bool is_open;
 };
 
 struct Scene {
-    const Surface& surface;
-    ObjectGroups groups;
+    const MeshParts& parts;
+    std::vector<ObjectGroups> groups;  ///< of each part
     std::vector<std::int64_t> used;
-    std::vector<Part> parts;
+    std::vector<Piece> pieces;
+    std::vector<Material> materials;
     std::int64_t bytes = 0;  ///< of the binary chunk
+
+    [[nodiscard]] const Surface& surface(const Piece& piece) const { return parts.parts[piece.surface].surface(); }
+    [[nodiscard]] std::int64_t triangle(const Piece& piece, std::int64_t i) const { return groups[piece.surface].order[i]; }
+    [[nodiscard]] const Point& point(const Piece& piece, std::size_t i) const { return surface(piece).points[used[piece.first_point + i]]; }
 };
 
 std::array<float, 3> relative(const Point& point, const Point& translation) {
@@ -47,73 +63,107 @@ void widen(std::array<Number, 3>& low, std::array<Number, 3>& high, const std::a
     }
 }
 
-void place(const Scene& scene, Part& part) {
-    const auto point = [&](std::size_t i) { return scene.surface.points[scene.used[part.first_point + i]]; };
-    Point low = point(0), high = low;
-    for (std::size_t i = 1; i < part.point_count; ++i) widen(low, high, point(i));
-    for (std::size_t a = 0; a < 3; ++a) part.translation[a] = low[a] / 2 + high[a] / 2;
-    part.low = part.high = relative(point(0), part.translation);
-    for (std::size_t i = 1; i < part.point_count; ++i) widen(part.low, part.high, relative(point(i), part.translation));
+void place(const Scene& scene, Piece& piece) {
+    Point low = scene.point(piece, 0), high = low;
+    for (std::size_t i = 1; i < piece.point_count; ++i) widen(low, high, scene.point(piece, i));
+    for (std::size_t a = 0; a < 3; ++a) piece.translation[a] = low[a] / 2 + high[a] / 2;
+    piece.low = piece.high = relative(scene.point(piece, 0), piece.translation);
+    for (std::size_t i = 1; i < piece.point_count; ++i) widen(piece.low, piece.high, relative(scene.point(piece, i), piece.translation));
 }
 
-Scene make_scene(const Surface& surface) {
-    Scene scene{surface, group_by_object(surface), {}, {}, 0};
-    for (const ObjectGroups::Group& group : scene.groups.groups) {
-        const auto first = static_cast<std::ptrdiff_t>(scene.used.size());
-        for (std::int64_t i = group.first; i < group.first + group.count; ++i) {
-            const auto& triangle = surface.triangles[scene.groups.order[i]];
-            scene.used.insert(scene.used.end(), triangle.begin(), triangle.end());
+void add_piece(Scene& scene, Piece piece) {
+    const auto first = static_cast<std::ptrdiff_t>(scene.used.size());
+    for (std::int64_t i = piece.group.first; i < piece.group.first + piece.group.count; ++i) {
+        const auto& triangle = scene.surface(piece).triangles[scene.triangle(piece, i)];
+        scene.used.insert(scene.used.end(), triangle.begin(), triangle.end());
+    }
+    std::sort(scene.used.begin() + first, scene.used.end());
+    scene.used.erase(std::unique(scene.used.begin() + first, scene.used.end()), scene.used.end());
+    piece.first_point = static_cast<std::size_t>(first);
+    piece.point_count = scene.used.size() - piece.first_point;
+    place(scene, piece);
+    scene.bytes += static_cast<std::int64_t>(piece.point_count) * (scene.parts.has_normals ? 24 : 12) + 12 * piece.group.count;
+    scene.pieces.push_back(std::move(piece));
+}
+
+/// Objects of one surface share the colours of objects; named parts have one material each.
+Scene make_scene(const MeshParts& parts) {
+    Scene scene{parts, {}, {}, {}, {}, 0};
+    for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+        const MeshPart& part = parts.parts[p];
+        scene.groups.push_back(parts.named ? one_group(part.surface()) : group_by_object(part.surface()));
+        const bool has_ids = scene.groups.back().has_ids, is_open = !part.surface().closed;
+        const std::vector<ObjectGroups::Group> groups = scene.groups.back().groups;
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            Piece piece{p, groups[g], part.name, parts.named ? static_cast<std::int64_t>(p) + 1 : has_ids ? groups[g].object : -1, 0};
+            if (!parts.named) piece.name = has_ids ? "object_" + std::to_string(groups[g].object) : "surface";
+            const SrgbBytes colour = parts.named ? part.colour : object_colour(static_cast<std::int64_t>(g));
+            const auto is_shared = [&](const Material& material) { return !parts.named && material.colour == colour; };
+            auto found = std::ranges::find_if(scene.materials, is_shared);
+            piece.material = static_cast<std::size_t>(found - scene.materials.begin());
+            if (found == scene.materials.end())
+                scene.materials.push_back({colour, parts.named ? part.name : "colour " + std::to_string(piece.material + 1), is_open});
+            add_piece(scene, std::move(piece));
         }
-        std::sort(scene.used.begin() + first, scene.used.end());
-        scene.used.erase(std::unique(scene.used.begin() + first, scene.used.end()), scene.used.end());
-        Part part{group, static_cast<std::size_t>(first), scene.used.size() - static_cast<std::size_t>(first), {}, {}, {}};
-        place(scene, part);
-        scene.parts.push_back(part);
-        scene.bytes += static_cast<std::int64_t>(part.point_count) * (surface.normals.empty() ? 12 : 24) + 12 * group.count;
     }
     return scene;
 }
 
-void put_origin(JsonStream& json, const Surface& surface) {
-    json.key("tau").value(surface.reported_tau).key("space").value(surface.space);
-    json.key("unit");
-    surface.unit.empty() ? json.null() : json.value(surface.unit);
+void put_space(JsonStream& json, const MeshParts& parts) {
+    json.key("space").value(one_line(parts.parts.front().surface().space)).key("unit");
+    parts.unit.empty() ? json.null() : json.value(one_line(parts.unit));
+}
+
+void put_origin(JsonStream& json, const MeshParts& parts, const Surface& surface) {
+    json.key("tau").value(surface.reported_tau);
+    put_space(json, parts);
     put_members(json, connectivity_of(surface));
 }
 
-std::string part_name(const Scene& scene, const Part& part) {
-    return scene.groups.has_ids ? "object_" + std::to_string(part.group.object) : "surface";
-}
-
+/// Node 0 holds the others.
 void put_nodes(JsonStream& json, const Scene& scene) {
-    json.line().key("nodes").begin_array();
-    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        const Part& part = scene.parts[i];
-        json.line()
-            .begin_object()
-            .key("name")
-            .value(part_name(scene, part))
-            .key("mesh")
-            .value(i)
-            .key("translation")
-            .value(part.translation);
+    const MeshParts& parts = scene.parts;
+    json.line().key("nodes").begin_array().line().begin_object().key("name").value("isoatlas").key("matrix");
+    json.value(gltf_frame(parts.parts.front().surface().space, parts.unit)).key("children").begin_array();
+    for (std::size_t i = 1; i <= scene.pieces.size(); ++i) json.value(i);
+    json.end_array().key("extras").begin_object().key("frame").value(kVolumeFrame);
+    put_space(json, parts);
+    json.end_object().end_object();
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        const Piece& piece = scene.pieces[i];
+        json.line().begin_object().key("name").value(piece.name).key("mesh").value(i).key("translation").value(piece.translation);
         json.key("extras").begin_object();
-        if (scene.groups.has_ids) json.key("object").value(part.group.object);
-        put_origin(json, scene.surface);
+        if (piece.object >= 0) json.key("object").value(piece.object);
+        put_origin(json, parts, scene.surface(piece));
         json.end_object().end_object();
     }
     json.end_array();
 }
 
 void put_meshes(JsonStream& json, const Scene& scene) {
-    const std::size_t each = scene.surface.normals.empty() ? 2 : 3;
+    const std::size_t each = scene.parts.has_normals ? 3 : 2;
     json.line().key("meshes").begin_array();
-    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        json.line().begin_object().key("name").value(part_name(scene, scene.parts[i]));
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        json.line().begin_object().key("name").value(scene.pieces[i].name);
         json.key("primitives").begin_array().begin_object().key("attributes").begin_object();
         json.key("POSITION").value(each * i);
         if (each == 3) json.key("NORMAL").value(each * i + 1);
-        json.end_object().key("indices").value(each * i + each - 1).end_object().end_array().end_object();
+        json.end_object().key("indices").value(each * i + each - 1).key("material").value(scene.pieces[i].material);
+        json.end_object().end_array().end_object();
+    }
+    json.end_array();
+}
+
+/// glTF has linear light.
+void put_materials(JsonStream& json, const Scene& scene) {
+    json.line().key("materials").begin_array();
+    for (const Material& material : scene.materials) {
+        json.line().begin_object().key("name").value(material.name).key("pbrMetallicRoughness").begin_object();
+        json.key("baseColorFactor").begin_array();
+        for (const std::uint8_t channel : material.colour) json.value(to_linear(channel / 255.0));
+        json.value(1).end_array().key("metallicFactor").value(0).key("roughnessFactor").value(0.6).end_object();
+        if (material.is_open) json.key("doubleSided").value(true);
+        json.end_object();
     }
     json.end_array();
 }
@@ -126,19 +176,19 @@ void put_accessor(JsonStream& json, std::size_t view, int component, std::int64_
 void put_accessors(JsonStream& json, const Scene& scene) {
     std::size_t view = 0;
     json.line().key("accessors").begin_array();
-    for (const Part& part : scene.parts) {
-        const auto points = static_cast<std::int64_t>(part.point_count);
+    for (const Piece& piece : scene.pieces) {
+        const auto points = static_cast<std::int64_t>(piece.point_count);
         put_accessor(json, view++, kFloat, points, "VEC3");
         json.key("min").begin_array();
-        for (const float x : part.low) json.value(static_cast<double>(x));
+        for (const float x : piece.low) json.value(static_cast<double>(x));
         json.end_array().key("max").begin_array();
-        for (const float x : part.high) json.value(static_cast<double>(x));
+        for (const float x : piece.high) json.value(static_cast<double>(x));
         json.end_array().end_object();
-        if (!scene.surface.normals.empty()) {
+        if (scene.parts.has_normals) {
             put_accessor(json, view++, kFloat, points, "VEC3");
             json.end_object();
         }
-        put_accessor(json, view++, kUnsignedInt, 3 * part.group.count, "SCALAR");
+        put_accessor(json, view++, kUnsignedInt, 3 * piece.group.count, "SCALAR");
         json.end_object();
     }
     json.end_array();
@@ -152,32 +202,30 @@ void put_buffer_views(JsonStream& json, const Scene& scene) {
         offset += bytes;
     };
     json.line().key("bufferViews").begin_array();
-    for (const Part& part : scene.parts) {
-        const auto points = static_cast<std::int64_t>(part.point_count);
+    for (const Piece& piece : scene.pieces) {
+        const auto points = static_cast<std::int64_t>(piece.point_count);
         put_view(12 * points, kVertices);
-        if (!scene.surface.normals.empty()) put_view(12 * points, kVertices);
-        put_view(12 * part.group.count, kIndices);
+        if (scene.parts.has_normals) put_view(12 * points, kVertices);
+        put_view(12 * piece.group.count, kIndices);
     }
     json.end_array();
 }
 
 /// The JSON chunk. glTF forbids empty arrays: a surface without triangles is a scene without nodes.
 std::string scene_json(const Scene& scene) {
+    const MeshParts& parts = scene.parts;
     std::string text;
     JsonStream json([&](std::string_view piece) { text += piece; });
     json.begin_object().key("asset").begin_object().key("version").value("2.0").key("generator").value(kGenerator);
     json.key("extras").begin_object();
-    put_origin(json, scene.surface);
+    parts.named ? put_space(json, parts) : put_origin(json, parts, parts.parts.front().surface());
     json.end_object().end_object().line().key("scene").value(0).key("scenes").begin_array().begin_object();
-    if (!scene.parts.empty()) {
-        json.key("nodes").begin_array();
-        for (std::size_t i = 0; i < scene.parts.size(); ++i) json.value(i);
-        json.end_array();
-    }
+    if (!scene.pieces.empty()) json.key("nodes").begin_array().value(0).end_array();
     json.end_object().end_array();
-    if (!scene.parts.empty()) {
+    if (!scene.pieces.empty()) {
         put_nodes(json, scene);
         put_meshes(json, scene);
+        put_materials(json, scene);
         put_accessors(json, scene);
         put_buffer_views(json, scene);
         json.line().key("buffers").begin_array().begin_object().key("byteLength").value(scene.bytes).end_object().end_array();
@@ -187,38 +235,51 @@ std::string scene_json(const Scene& scene) {
     return text;
 }
 
-void put_part(ByteWriter& out, const Scene& scene, const Part& part, std::vector<std::uint32_t>& local) {
-    for (std::size_t i = 0; i < part.point_count; ++i) {
-        const std::int64_t point = scene.used[part.first_point + i];
-        local[point] = static_cast<std::uint32_t>(i);
-        out.put(relative(scene.surface.points[point], part.translation));
+void put_piece(ByteWriter& out, const Scene& scene, const Piece& piece, std::vector<std::uint32_t>& local) {
+    const Surface& surface = scene.surface(piece);
+    local.resize(std::max(local.size(), surface.points.size()));
+    for (std::size_t i = 0; i < piece.point_count; ++i) {
+        local[scene.used[piece.first_point + i]] = static_cast<std::uint32_t>(i);
+        out.put(relative(scene.point(piece, i), piece.translation));
     }
-    for (std::size_t i = 0; i < part.point_count && !scene.surface.normals.empty(); ++i) {
-        out.put(scene.surface.normals[scene.used[part.first_point + i]]);
+    for (std::size_t i = 0; i < piece.point_count && scene.parts.has_normals; ++i) {
+        out.put(surface.normals[scene.used[piece.first_point + i]]);
     }
-    for (std::int64_t i = part.group.first; i < part.group.first + part.group.count; ++i) {
-        for (const std::int64_t point : scene.surface.triangles[scene.groups.order[i]]) out.put(local[point]);
+    for (std::int64_t i = piece.group.first; i < piece.group.first + piece.group.count; ++i) {
+        for (const std::int64_t point : surface.triangles[scene.triangle(piece, i)]) out.put(local[point]);
     }
 }
 
 std::int64_t merged_points(const Scene& scene) {
     std::int64_t merged = 0;
     std::vector<Point> points;
-    for (const Part& part : scene.parts) {
+    for (const Piece& piece : scene.pieces) {
         points.clear();
-        for (std::size_t i = part.first_point; i < part.first_point + part.point_count; ++i) {
-            const Point& p = scene.surface.points[scene.used[i]];
-            points.push_back({p[0] - part.translation[0], p[1] - part.translation[1], p[2] - part.translation[2]});
+        for (std::size_t i = 0; i < piece.point_count; ++i) {
+            const Point& p = scene.point(piece, i);
+            points.push_back({p[0] - piece.translation[0], p[1] - piece.translation[1], p[2] - piece.translation[2]});
         }
         merged += points_merged_by_float32(points);
     }
     return merged;
 }
 
+void warn(const Scene& scene, Warnings& warnings) {
+    if (has_inner_contours(scene.parts)) warnings.push_back("GLB keeps object ids, but not contour ids; .ply and .vtp keep both");
+    if (!metres_in(scene.parts.unit)) {
+        const std::string unit = scene.parts.unit.empty() ? "the volume has no unit of length" : "the unit of length is not known";
+        warnings.push_back(unit + ": GLB is in metres, and one unit is written as one millimetre");
+    }
+    if (const std::int64_t merged = merged_points(scene); merged > 0) {
+        warnings.push_back("the float32 coordinates of GLB merge " + std::to_string(merged) +
+                           " points with a neighbour; .ply and .vtp keep float64");
+    }
+}
+
 }  // namespace
 
-void write_glb(Sink& sink, const Surface& surface, Warnings& warnings) {
-    const Scene scene = make_scene(surface);
+void write_glb(Sink& sink, const MeshParts& parts, Warnings& warnings) {
+    const Scene scene = make_scene(parts);
     const std::string json = scene_json(scene);
     const std::int64_t chunks = 12 + 8 + static_cast<std::int64_t>(json.size()) + (scene.bytes > 0 ? 8 + scene.bytes : 0);
     if (chunks > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
@@ -227,11 +288,7 @@ void write_glb(Sink& sink, const Surface& surface, Warnings& warnings) {
                      .what = "a GLB file holds at most 4 GiB, and this surface takes " + std::to_string(chunks) + " bytes",
                      .next = "write .vtp or .ply, or extract one object at a time"});
     }
-    if (has_inner_contours(surface)) warnings.push_back("GLB keeps object ids, but not contour ids; .ply and .vtp keep both");
-    if (const std::int64_t merged = merged_points(scene); merged > 0) {
-        warnings.push_back("the float32 coordinates of GLB merge " + std::to_string(merged) +
-                           " points with a neighbour; .ply and .vtp keep float64");
-    }
+    warn(scene, warnings);
     ByteWriter out(sink);
     out.text("glTF");
     out.put(std::uint32_t{2});
@@ -242,8 +299,8 @@ void write_glb(Sink& sink, const Surface& surface, Warnings& warnings) {
     if (scene.bytes > 0) {
         out.put(static_cast<std::uint32_t>(scene.bytes));
         out.text(std::string_view("BIN\0", 4));
-        std::vector<std::uint32_t> local(surface.points.size());
-        for (const Part& part : scene.parts) put_part(out, scene, part, local);
+        std::vector<std::uint32_t> local;
+        for (const Piece& piece : scene.pieces) put_piece(out, scene, piece, local);
     }
     out.finish();
 }

@@ -23,44 +23,61 @@ std::array<float, 3> facet_normal(const Point& a, const Point& b, const Point& c
     return to_float({n[0] / length, n[1] / length, n[2] / length});
 }
 
-std::string header_words(const Surface& surface, std::string (*number)(double)) {
-    const Connectivity connectivity = connectivity_of(surface);
-    std::string text = std::string(kGenerator) + " tau " + number(surface.reported_tau) + " " + connectivity.name();
+/// 3D Slicer looks for "SPACE=LPS" or "SPACE=RAS": first, because the end may be cut off.
+std::string header_words(const MeshParts& parts, const char* generator, std::string (*number)(double)) {
+    const Surface& first = parts.parts.front().surface();
+    const Connectivity connectivity = connectivity_of(first);
+    std::string text = generator;
+    if (parts.says_space()) text += " SPACE=" + parts.space;
+    if (!parts.named) text += " tau " + number(first.reported_tau);
+    text += std::string(" ") + connectivity.name();
     if (connectivity.has_tunnels()) text += " tunnel_height " + number(connectivity.tunnel_height);
-    text += " space " + one_line(surface.space);
-    return surface.unit.empty() ? text : text + " unit " + one_line(surface.unit);
+    if (!parts.says_space()) text += " space " + one_line(parts.space);
+    return parts.unit.empty() ? text : text + " unit " + one_line(parts.unit);
 }
 
 /// 80 bytes; must not start with "solid" (that announces the text form). Short numbers, so that none is truncated.
-std::string header(const Surface& surface) {
-    std::string text = header_words(surface, number_text);
-    if (text.size() > 80) text = header_words(surface, short_text);
+std::string header(const MeshParts& parts) {
+    std::string text = header_words(parts, kGenerator, number_text);
+    if (text.size() > 80) text = header_words(parts, kGenerator, short_text);
+    if (text.size() > 80) text = header_words(parts, "isoatlas", short_text);
     text.resize(utf8_prefix(text, 80).size());
     text.resize(80, '\0');
     return text;
 }
 
+std::int64_t merged_points(const MeshParts& parts) {
+    std::int64_t merged = 0;
+    for (const MeshPart& part : parts.parts) merged += points_merged_by_float32(part.surface().points);
+    return merged;
+}
+
 }  // namespace
 
-void write_stl(Sink& sink, const Surface& surface, Warnings& warnings) {
-    const std::size_t triangles = surface.triangles.size();
-    if (triangles > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error(ErrorKind::usage, {.file = sink.name(),
-                                       .what = "STL counts its triangles with 32 bits, and the surface has " + std::to_string(triangles),
-                                       .next = "write .vtp, or extract one object at a time"});
+void write_stl(Sink& sink, const MeshParts& parts, Warnings& warnings) {
+    if (parts.triangles > std::int64_t{std::numeric_limits<std::uint32_t>::max()}) {
+        throw Error(ErrorKind::usage,
+                    {.file = sink.name(),
+                     .what = "STL counts its triangles with 32 bits, and the surface has " + std::to_string(parts.triangles),
+                     .next = "write .vtp, or extract one object at a time"});
     }
-    warnings.push_back("STL keeps no object ids and no unit of length; .ply keeps both");
-    if (const std::int64_t merged = points_merged_by_float32(surface.points); merged > 0) {
+    warnings.push_back(parts.named ? "STL keeps no names, no colours and no unit of length: the objects are one mesh; .ply keeps them apart"
+                                   : "STL keeps no object ids and no unit of length; .ply keeps both");
+    if (const std::int64_t merged = merged_points(parts); merged > 0) {
         warnings.push_back("the float32 coordinates of STL merge " + std::to_string(merged) +
                            " points with a neighbour: the surface may no longer be a manifold; .ply and .vtp keep float64");
     }
     ByteWriter out(sink);
-    out.text(header(surface));
-    out.put(static_cast<std::uint32_t>(triangles));
-    for (const auto& t : surface.triangles) {
-        out.put(facet_normal(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]));
-        for (const std::int64_t p : t) out.put(to_float(surface.points[p]));
-        out.put(std::uint16_t{0});
+    out.text(header(parts));
+    out.put(static_cast<std::uint32_t>(parts.triangles));
+    for (const MeshPart& part : parts.parts) {
+        for (std::size_t i = 0; i < part.surface().triangles.size(); ++i) {
+            const auto t = part.turned.triangle(i);
+            const Point a = part.turned.point(t[0]), b = part.turned.point(t[1]), c = part.turned.point(t[2]);
+            out.put(facet_normal(a, b, c));
+            for (const Point& p : {a, b, c}) out.put(to_float(p));
+            out.put(std::uint16_t{0});
+        }
     }
     out.finish();
 }

@@ -3,6 +3,7 @@
 #include "formats/common/connectivity.h"
 #include "formats/common/file_extension.h"
 #include "formats/common/generator.h"
+#include "formats/tree/spectrum_columns.h"
 #include "formats/tree/spectrum_formats.h"
 #include "formats/volume/volume_json.h"
 #include "isoatlas/error.h"
@@ -10,18 +11,26 @@
 namespace isoatlas {
 namespace {
 
-void put_counts(JsonStream& json, const char* key, const LevelCounts& counts) {
-    json.key(key).begin_object().key("objects").value(counts.objects).key("contours").value(counts.contours);
-    json.key("tunnels").value(counts.tunnels).key("cavities").value(counts.cavities).end_object();
+/// Pairs of the lowest and the highest.
+void put_ranges(JsonStream& json, const char* key, const CountRange& range) {
+    const auto put = [&](const char* name, std::int64_t LevelCounts::* count) {
+        json.key(name).begin_array().value(range.min.*count).value(range.max.*count).end_array();
+    };
+    json.key(key).begin_object();
+    put("objects", &LevelCounts::objects);
+    put("contours", &LevelCounts::contours);
+    put("tunnels", &LevelCounts::tunnels);
+    put("cavities", &LevelCounts::cavities);
+    json.end_object();
 }
 
-void put_intervals(JsonStream& json, const VolumeInfo& info, const Spectrum& spectrum) {
-    json.line().key("intervals").begin_array();
-    for (const SpectrumInterval& interval : spectrum.intervals) {
-        json.line().begin_object().key("low").value(info.calibration.reported(interval.low));
-        json.key("high").value(info.calibration.reported(interval.high));
-        put_counts(json, "all", interval.all);
-        put_counts(json, "significant", interval.significant);
+void put_intervals(JsonStream& json, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
+    json.line().key("interval_count").value(spectrum.intervals.size()).line().key("intervals").begin_array();
+    for (const SpectrumColumn& column : spectrum_columns(spectrum, options.max_intervals)) {
+        json.line().begin_object().key("low").value(info.calibration.reported(column.low));
+        json.key("high").value(info.calibration.reported(column.high)).key("merged").value(column.intervals);
+        put_ranges(json, "all", column.all);
+        put_ranges(json, "significant", column.significant);
         json.end_object();
     }
     json.line().end_array();
@@ -56,35 +65,36 @@ std::string checked_extension(const std::string& path) {
 
 }  // namespace
 
-void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& info, const Spectrum& spectrum) {
+void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& info, const Spectrum& spectrum,
+                         const SpectrumOutput& options) {
     JsonStream json(output);
-    json.begin_object().line().key("schema").value("isoatlas/spectrum/2").key("version").value(kVersion);
+    json.begin_object().line().key("schema").value("isoatlas/spectrum/3").key("version").value(kVersion);
     put_members(json.line(), {spectrum.interpolant, info.calibration.reported_difference(spectrum.tunnel_height)});
     json.key("boundary").value("closed");
     put_volume(json, info);
     json.line().key("selected").value(spectrum.selected);
     put_advice(json, info, spectrum);
     put_sizes(json, info, spectrum);
-    put_intervals(json, info, spectrum);
+    put_intervals(json, info, spectrum, options);
     json.line().end_object().finish();
 }
 
-void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum) {
+void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
     const std::string extension = checked_extension(sink.name());
     if (extension == ".csv") return write_spectrum_csv(sink, info, spectrum);
     if (extension == ".svg") return write_spectrum_svg(sink, info, spectrum);
-    write_spectrum_json(output_to(sink), info, spectrum);
+    write_spectrum_json(output_to(sink), info, spectrum, options);
 }
 
-void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum) {
+void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
     (void)checked_extension(path);
     AtomicFile file(path);
-    write_spectrum(file, info, spectrum);
+    write_spectrum(file, info, spectrum, options);
     file.commit();
 }
 
-void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum) {
-    write_spectrum_json(output_to(out, "the spectrum"), info, spectrum);
+void write_spectrum_json(std::ostream& out, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
+    write_spectrum_json(output_to(out, "the spectrum"), info, spectrum, options);
 }
 
 }  // namespace isoatlas

@@ -7,7 +7,7 @@
 namespace isoatlas {
 
 // Each writes the whole file.
-void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& info, const Spectrum& spectrum);
+void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options);
 void write_spectrum_csv(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum);
 void write_spectrum_svg(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum);
 

@@ -62,7 +62,7 @@ PlotCurve size_curve(const std::string& name, const std::string& colour, const V
 /// The object and the reason: "object 7 (stable, inside 1)".
 std::string text_of(const SpectrumAdvice& advice) {
     std::string object = "object " + std::to_string(advice.object);
-    if (advice.reason == IsovalueReason::inner) object = "the wall of cavity " + std::to_string(advice.cavity) + " of " + object;
+    if (advice.reason == IsovalueReason::inner) object = "the wall of cavity v" + std::to_string(advice.cavity) + " of " + object;
     std::string why = advice.reason ? name_of(*advice.reason) : "";
     if (!advice.note.empty() && advice.note != why) why += (why.empty() ? "" : ", ") + advice.note;
     return why.empty() ? object : object + " (" + why + ")";

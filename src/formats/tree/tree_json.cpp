@@ -1,4 +1,5 @@
 // The tree as JSON, streamed: docs/schema/tree-*.schema.json.
+#include <array>
 #include <cmath>
 
 #include "formats/common/generator.h"
@@ -20,45 +21,48 @@ void put_counts(JsonStream& json, const Analysis& analysis) {
     json.key("elements").value(analysis.element_count()).key("contours").value(analysis.contour_arc_count()).end_object();
 }
 
-/// One number for each contour, or one pair for each genus when there are too many contours to list.
-void put_genera(JsonStream& json, std::span<const GenusCount> genera, bool listed) {
-    json.key(listed ? "contours" : "genus_counts").begin_array();
-    for (const GenusCount& g : genera) {
-        if (!listed) json.begin_array().value(g.genus).value(g.count).end_array();
-        for (std::int64_t i = 0; i < g.count && listed; ++i) json.value(g.genus);
+/// Pairs of genus and number of contours.
+void put_genera(JsonStream& json, std::span<const GenusCount> genera) {
+    json.begin_array();
+    for (const GenusCount& g : genera) json.begin_array().value(g.genus).value(g.count).end_array();
+    json.end_array();
+}
+
+void put_count_or_null(JsonStream& json, std::int64_t count, bool known) { known ? json.value(count) : json.null(); }
+
+/// A row in the order of kColumns; what follows from other rows, and the genera, only when all columns are asked for.
+void put_event(JsonStream& json, const TreeView& tree, const Event& event, std::span<const GenusCount> genera) {
+    json.line().begin_array().value(tree.reported(event.value));
+    for (const double x : event.position) json.value(x);
+    json.value(isoatlas::name_of(event.kind));
+    put_count_or_null(json, event.parent.number(), event.parent.exists());
+    json.value(event.lows_out).value(event.b1).value(event.b2);
+    put_count_or_null(json, event.zone.voxels, tree.has_zones);
+    put_count_or_null(json, event.object_voxels, tree.has_zones);
+    if (tree.options.all) {
+        json.value(event.id.number()).begin_array();
+        for (const EventId child : event.children) json.value(child.number());
+        json.end_array().value(tree.reported(event.zone.tau_low)).value(event.delta_chi).value(event.chi).value(event.contours);
+        put_genera(json, genera);
     }
     json.end_array();
 }
 
-void put_event(JsonStream& json, const TreeView& tree, const Event& event, std::span<const GenusCount> genera, bool listed) {
-    json.line().begin_object().key("id").value(event.id.number()).key("value").value(tree.reported(event.value));
-    json.key("position").value(event.position).key("kind").value(isoatlas::name_of(event.kind));
-    put_count_or_null(json, "parent", event.parent.number(), event.parent.exists());
-    json.key("children").begin_array();
-    for (const EventId child : event.children) json.value(child.number());
-    json.end_array().key("objects_in").value(event.objects_in).key("lows_out").value(event.lows_out);
-    json.key("delta_chi").value(event.delta_chi).key("zone").begin_object();
-    json.key("tau_low").value(tree.reported(event.zone.tau_low)).key("tau_high").value(tree.reported(event.zone.tau_high));
-    put_count_or_null(json, "voxels", event.zone.voxels, tree.has_zones);
-    json.end_object().key("object").begin_object().key("chi").value(event.chi).key("b1").value(event.b1).key("b2").value(event.b2);
-    put_count_or_null(json, "voxels", event.object_voxels, tree.has_zones);
-    put_genera(json, genera, listed);
-    json.end_object().end_object();
-}
-
-bool contours_fit(const TreeView& tree) {
-    std::int64_t total = 0;
-    for (const EventId id : ids<EventId>(tree.analysis.event_count())) {
-        total += tree.analysis.event(id).contours;
-        if (total > tree.options.max_listed_contours) return false;
-    }
-    return true;
-}
+constexpr std::array kColumns{"value", "x", "y", "z", "kind", "parent", "lows_out", "b1", "b2", "zone_voxels", "object_voxels"};
+constexpr std::array kMoreColumns{"id", "children", "tau_low", "delta_chi", "chi", "contours", "genera"};
 
 void put_events(JsonStream& json, const TreeView& tree) {
-    const bool listed = contours_fit(tree);
-    json.line().key("contours_listed").value(listed).line().key("events").begin_array();
-    visit_events(tree, [&](const Event& event, std::span<const GenusCount> genera) { put_event(json, tree, event, genera, listed); });
+    json.line().key("columns").begin_array();
+    for (const char* name : kColumns) json.value(name);
+    for (const char* name : kMoreColumns) {
+        if (tree.options.all) json.value(name);
+    }
+    json.end_array().line().key("events").begin_array();
+    if (tree.options.all) {
+        visit_events(tree, [&](const Event& event, std::span<const GenusCount> genera) { put_event(json, tree, event, genera); });
+        return;
+    }
+    for (const EventId id : ids<EventId>(tree.analysis.event_count())) put_event(json, tree, tree.analysis.event(id), {});
 }
 
 void put_list(JsonStream& json, const char* key, const std::vector<std::int64_t>& numbers) {
@@ -102,7 +106,7 @@ void put_contours(JsonStream& json, const TreeView& tree) {
 
 void write_json(const TreeView& tree, const JsonStream::Output& output) {
     JsonStream json(output);
-    json.begin_object().line().key("schema").value("isoatlas/tree/1").key("version").value(kVersion);
+    json.begin_object().line().key("schema").value("isoatlas/tree/2").key("version").value(kVersion);
     put_members(json.line(), tree.connectivity());
     json.key("boundary").value("closed");
     put_volume(json, tree.volume.info);

@@ -119,4 +119,36 @@ Geometry nifti_geometry(const NiftiHeader& header, int rank, std::vector<std::st
     return geometry;
 }
 
+std::optional<NiftiRotation> nifti_rotation(const Mat3& direction) {
+    constexpr double kPerpendicular = 1e-6;  // a quaternion of float32 is no more accurate
+    Geometry geometry;
+    geometry.direction = direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        double product = 0, squares = 0;
+        for (int row = 0; row < 3; ++row) {
+            product += direction[row][axis] * direction[row][(axis + 1) % 3];
+            squares += direction[row][axis] * direction[row][axis];
+        }
+        if (!(std::abs(product) < kPerpendicular) || !(std::abs(squares - 1) < kPerpendicular)) return std::nullopt;
+    }
+    NiftiRotation rotation{{}, handedness(geometry) < 0};
+    Mat3 r = direction;
+    for (Vec3& row : r) row[2] *= rotation.is_mirrored ? -1 : 1;
+    // The largest of the four numbers is at least a half: dividing by it is safe.
+    const std::array<double, 4> squares{1 + r[0][0] + r[1][1] + r[2][2], 1 + r[0][0] - r[1][1] - r[2][2], 1 + r[1][1] - r[0][0] - r[2][2],
+                                        1 + r[2][2] - r[0][0] - r[1][1]};
+    const auto largest = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
+    const double x = std::sqrt(squares[largest]) / 2, s = 1 / (4 * x);
+    std::array<double, 4> q{};
+    switch (largest) {
+        case 0: q = {x, s * (r[2][1] - r[1][2]), s * (r[0][2] - r[2][0]), s * (r[1][0] - r[0][1])}; break;
+        case 1: q = {s * (r[2][1] - r[1][2]), x, s * (r[0][1] + r[1][0]), s * (r[0][2] + r[2][0])}; break;
+        case 2: q = {s * (r[0][2] - r[2][0]), s * (r[0][1] + r[1][0]), x, s * (r[1][2] + r[2][1])}; break;
+        default: q = {s * (r[1][0] - r[0][1]), s * (r[0][2] + r[2][0]), s * (r[1][2] + r[2][1]), x}; break;
+    }
+    const double sign = q[0] < 0 ? -1 : 1;
+    rotation.quaternion = {sign * q[1], sign * q[2], sign * q[3]};
+    return rotation;
+}
+
 }  // namespace isoatlas

@@ -20,7 +20,7 @@ Geometry regular_geometry(const VolumeInfo& info) {
     return geometry;
 }
 
-bool is_anatomical(const Geometry& geometry) { return geometry.space == "LPS" || geometry.space == "RAS" || geometry.space == "LAS"; }
+bool is_anatomical(const std::string& space) { return space == "LPS" || space == "RAS" || space == "LAS"; }
 
 Geometry turned_to(Geometry geometry, const std::string& space) {
     if (!is_anatomical(geometry)) return geometry;

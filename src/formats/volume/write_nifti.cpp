@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "formats/common/byte_writer.h"
 #include "formats/common/gzip_stream.h"
+#include "formats/common/length_unit.h"
 #include "formats/common/volume_file.h"
+#include "formats/volume/nifti_geometry.h"
 
 namespace isoatlas {
 
@@ -45,19 +48,22 @@ struct LengthUnit {
 };
 
 LengthUnit length_unit(const std::string& unit) {
-    if (unit == "m") return {1, 1};
-    if (unit == "mm") return {2, 1};
-    if (unit == "cm") return {2, 10};
-    if (unit == "um") return {3, 1};
-    if (unit == "nm") return {3, 1e-3};
-    return {};
+    const std::optional<double> metres = metres_in(unit);
+    if (!metres) return {};
+    if (*metres >= 1) return {1, *metres};
+    if (*metres == 1e-3) return {2, 1};
+    if (*metres > 1e-3) return {2, std::round(*metres * 1e7) / 1e4};  // 10 for cm, 25.4 for in
+    return *metres == 1e-6 ? LengthUnit{3, 1} : LengthUnit{3, *metres * 1e6};
 }
 
 /// Members of both versions.
 struct Contents {
     std::array<std::int64_t, 8> dim{};
     std::array<double, 8> pixdim{};
-    int sform_code = 0, unit = 0;
+    int space_code = 0;  ///< of the sform
+    int qform_code = 0;  ///< 0 for axes that are not perpendicular: they have no quaternion
+    int unit = 0;
+    Vec3 quaternion{};  ///< b, c, d; pixdim[0] is the sign of the third axis
     std::array<std::array<double, 4>, 3> rows{};
     double slope = 0, intercept = 0;
     std::string description;
@@ -79,8 +85,6 @@ std::string description_of(const VolumeInfo& info) {
     return shortened(text, kDescription - note.size()) + note;
 }
 
-bool is_default(const Geometry& geometry) { return geometry.direction == Geometry{}.direction && geometry.origin == Geometry{}.origin; }
-
 Contents contents_of(const VolumeInfo& info) {
     Contents contents;
     const Geometry geometry = turned_to(regular_geometry(info), "RAS");
@@ -96,8 +100,13 @@ Contents contents_of(const VolumeInfo& info) {
             contents.rows[row][axis] = geometry.direction[row][axis] * geometry.spacing[axis] * unit.factor;
         contents.rows[axis][3] = geometry.origin[axis] * unit.factor;
     }
-    // A grid at the origin without orientation is preserved.
-    contents.sform_code = is_anatomical(info.geometry) ? kScannerSpace : is_default(geometry) ? 0 : kAlignedSpace;
+    // Always a form: without one programs disagree on where the grid lies (nibabel centres and mirrors it).
+    contents.space_code = is_anatomical(info.geometry) ? kScannerSpace : kAlignedSpace;
+    if (const std::optional<NiftiRotation> rotation = nifti_rotation(geometry.direction)) {
+        contents.qform_code = contents.space_code;
+        contents.quaternion = rotation->quaternion;
+        contents.pixdim[0] = rotation->is_mirrored ? -1 : 1;
+    }
     if (!info.calibration.is_identity()) {
         contents.slope = info.calibration.slope;
         contents.intercept = info.calibration.intercept;
@@ -126,7 +135,12 @@ Fields header_1(const Contents& contents, ValueType type) {
     fields.set(116, static_cast<float>(contents.intercept));
     fields.set(123, static_cast<char>(contents.unit));
     fields.text(148, kDescription, contents.description);
-    fields.set(254, static_cast<std::int16_t>(contents.sform_code));
+    fields.set(252, static_cast<std::int16_t>(contents.qform_code));
+    fields.set(254, static_cast<std::int16_t>(contents.space_code));
+    for (std::size_t i = 0; i < 3; ++i) {
+        fields.set(256 + 4 * i, static_cast<float>(contents.quaternion[i]));
+        fields.set(268 + 4 * i, static_cast<float>(contents.rows[i][3]));
+    }
     set_rows<float>(fields, 280, contents);
     fields.text(344, 4, "n+1");
     return fields;
@@ -144,17 +158,36 @@ Fields header_2(const Contents& contents, ValueType type) {
     fields.set(176, contents.slope);
     fields.set(184, contents.intercept);
     fields.text(240, kDescription, contents.description);
-    fields.set(348, static_cast<std::int32_t>(contents.sform_code));
+    fields.set(344, static_cast<std::int32_t>(contents.qform_code));
+    fields.set(348, static_cast<std::int32_t>(contents.space_code));
+    for (std::size_t i = 0; i < 3; ++i) {
+        fields.set(352 + 8 * i, contents.quaternion[i]);
+        fields.set(376 + 8 * i, contents.rows[i][3]);
+    }
     set_rows<double>(fields, 400, contents);
     fields.set(500, static_cast<std::int32_t>(contents.unit));
     return fields;
+}
+
+/// Whether float32 places every sample within a ten-thousandth of a voxel.
+bool float_is_enough(const Contents& contents) {
+    const double smallest = *std::min_element(contents.pixdim.begin() + 1, contents.pixdim.begin() + 4);
+    for (const auto& row : contents.rows) {
+        double error = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double farthest = i < 3 ? static_cast<double>(contents.dim[i + 1]) : 1;
+            error += std::abs(static_cast<double>(static_cast<float>(row[i])) - row[i]) * farthest;
+        }
+        if (!(error <= 1e-4 * smallest)) return false;
+    }
+    return true;
 }
 
 /// NIfTI-1 holds 16-bit sizes and 32-bit floats; rounding is fine, infinity and zero are not.
 bool needs_version_2(const Contents& contents) {
     const auto survives = [](double x) { return x == 0 || (std::isfinite(static_cast<float>(x)) && static_cast<float>(x) != 0); };
     if (!survives(contents.slope) || !survives(contents.intercept)) return true;
-    if (!std::all_of(contents.pixdim.begin(), contents.pixdim.end(), survives)) return true;
+    if (!std::all_of(contents.pixdim.begin(), contents.pixdim.end(), survives) || !float_is_enough(contents)) return true;
     return *std::max_element(contents.dim.begin(), contents.dim.end()) > std::numeric_limits<std::int16_t>::max();
 }
 

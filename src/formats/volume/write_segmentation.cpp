@@ -1,29 +1,214 @@
+// Label volumes with what each label is. .seg.nrrd: key/value pairs of 3D Slicer (vtkMRMLSegmentationStorageNode); other formats: a CSV
+// table.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <unordered_map>
+
 #include "base/atomic_file.h"
 #include "formats/common/byte_writer.h"
-#include "isoatlas/output.h"
+#include "formats/common/file_access.h"
+#include "formats/common/text.h"
+#include "formats/volume/label_samples.h"
 #include "isoatlas/segmentation.h"
 
 namespace isoatlas {
 
-std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
-                                            std::span<const Segment> segments, const VolumeInfo& info) {
-    write_labels(path, info, labels);
-    std::string table = "label,name,red,green,blue,isovalue,voxels\n";
-    for (const Segment& segment : segments) {
-        table += std::to_string(segment.number) + ",\"" + segment.name + "\"";
-        for (const std::uint8_t part : segment.colour) table += "," + std::to_string(part);
-        table += "," + number_text(segment.isovalue) + "," + std::to_string(segment.voxels) + "\n";
+namespace {
+
+constexpr std::string_view kTableHeader = "number,name,red,green,blue,isovalue,voxels\n";
+
+/// First and last voxel along each axis; low above high: none.
+struct Box {
+    Index3 low{0, 0, 0}, high{-1, -1, -1};
+
+    void take(const Index3& first, const Index3& last) {
+        const bool is_empty = high[0] < low[0];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = is_empty ? first[axis] : std::min(low[axis], first[axis]);
+            high[axis] = is_empty ? last[axis] : std::max(high[axis], last[axis]);
+        }
     }
-    AtomicFile file(path + ".csv");
-    file.write(table);
-    file.commit();
+};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& where, const std::string& what, const std::string& expected) {
+    throw Error(
+        ErrorKind::usage,
+        {.file = path, .where = where, .what = what, .expected = expected, .next = "give a segment for each label, numbered alike"});
+}
+
+using Places = std::unordered_map<std::uint32_t, std::size_t>;  ///< of the segments, by number
+
+Places places_of(const std::string& path, std::span<const Segment> segments) {
+    Places places;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const std::int64_t number = segments[i].number;
+        const std::string where = "segment " + std::to_string(i);
+        if (number < 1 || number > std::int64_t{std::numeric_limits<std::uint32_t>::max()})
+            refuse(path, where, "its number is " + std::to_string(number), "1 to 2^32 - 1");
+        if (!places.emplace(static_cast<std::uint32_t>(number), i).second)
+            refuse(path, where, "its number " + std::to_string(number) + " is that of another segment", "distinct numbers");
+    }
+    return places;
+}
+
+/// The box of each segment. Throws Error{usage} for a label without a segment.
+std::vector<Box> boxes_of(const std::string& path, std::span<const std::uint32_t> labels, std::span<const Segment> segments,
+                          const Extent& extent) {
+    const Places places = places_of(path, segments);
+    std::vector<Box> boxes(segments.size());
+    const std::int64_t row = extent.size[0];
+    for (std::int64_t begin = 0; begin < extent.voxels(); begin += row) {
+        for (std::int64_t x = 0; x < row;) {
+            const std::uint32_t label = labels[static_cast<std::size_t>(begin + x)];
+            std::int64_t end = x + 1;
+            while (end < row && labels[static_cast<std::size_t>(begin + end)] == label) ++end;
+            if (label != 0) {
+                const auto found = places.find(label);
+                if (found == places.end())
+                    refuse(path, "voxel " + std::to_string(begin + x), "its label " + std::to_string(label) + " has no segment",
+                           "0, or the number of a segment");
+                boxes[found->second].take(extent.voxel(begin + x), extent.voxel(begin + end - 1));
+            }
+            x = end;
+        }
+    }
+    return boxes;
+}
+
+std::string name_of_segment(const Segment& segment) {
+    const std::string name = one_line(segment.name);
+    return name.empty() ? "object " + std::to_string(segment.number) : name;
+}
+
+/// Values of NRRD pairs: a backslash begins an escape.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) result += c == '\\' ? "\\\\" : std::string(1, c);
+    return result;
+}
+
+std::string extent_text(const Box& box) {
+    std::string text;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        text += (axis > 0 ? " " : "") + std::to_string(box.low[axis]) + " " + std::to_string(box.high[axis]);
+    return text;
+}
+
+KeyValues slicer_pairs(std::span<const Segment> segments, const std::vector<Box>& boxes) {
+    KeyValues pairs;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const Segment& segment = segments[i];
+        const std::string key = "Segment" + std::to_string(i) + "_", number = std::to_string(segment.number);
+        std::string colour;
+        for (const std::uint8_t channel : segment.colour) colour += (colour.empty() ? "" : " ") + number_text(channel / 255.0);
+        pairs.emplace_back(key + "ID", "Segment_" + number);
+        pairs.emplace_back(key + "Name", escaped(name_of_segment(segment)));
+        pairs.emplace_back(key + "NameAutoGenerated", segment.name.empty() ? "1" : "0");
+        pairs.emplace_back(key + "Color", colour);
+        pairs.emplace_back(key + "ColorAutoGenerated", "0");
+        pairs.emplace_back(key + "LabelValue", number);
+        pairs.emplace_back(key + "Layer", "0");
+        pairs.emplace_back(key + "Extent", extent_text(boxes[i]));
+        pairs.emplace_back(key + "Tags", "isoatlas.isovalue:" + number_text(segment.isovalue) + "|isoatlas.number:" + number +
+                                             "|isoatlas.voxels:" + std::to_string(segment.voxels) + "|");
+    }
+    pairs.emplace_back("Segmentation_ContainedRepresentationNames", "Binary labelmap|");
+    pairs.emplace_back("Segmentation_MasterRepresentation", "Binary labelmap");
+    pairs.emplace_back("Segmentation_ReferenceImageExtentOffset", "0 0 0");
+    return pairs;
+}
+
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string cell = "\"";
+    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+    return cell + "\"";
+}
+
+std::string table_text(std::span<const Segment> segments) {
+    std::string text(kTableHeader);
+    for (const Segment& segment : segments) {
+        text += std::to_string(segment.number) + "," + csv_cell(name_of_segment(segment));
+        for (const std::uint8_t channel : segment.colour) text += "," + std::to_string(channel);
+        text += "," + number_text(segment.isovalue) + "," + std::to_string(segment.voxels) + "\n";
+    }
+    return text;
+}
+
+/// "labels.nii.gz" -> "labels.csv".
+std::string table_path(const std::string& path) {
+    const std::size_t drop = ends_with_ignoring_case(path, ".gz") ? path.rfind('.', path.size() - 4) : path.rfind('.');
+    return path.substr(0, drop) + ".csv";
+}
+
+/// A table of an earlier run may be replaced, another file may not: its name was not asked for.
+void check_table(const std::string& table) {
+    if (!file_exists(table)) return;
+    const std::unique_ptr<File> file = open_file(table);
+    std::string begin(kTableHeader.size(), '\0');
+    begin.resize(read_available(*file, table, 0, std::as_writable_bytes(std::span(begin.data(), begin.size()))));
+    if (begin == kTableHeader) return;
+    throw Error(ErrorKind::resource, {.file = table,
+                                      .what = "the table of the labels has this name, and another file has it already",
+                                      .next = "rename that file, or write the labels under another name",
+                                      .reason = Reason::output_refused});
+}
+
+std::vector<std::string> warnings_of(const std::string& path, const Geometry& geometry) {
+    const bool is_nifti = ends_with_ignoring_case(path, ".nii") || ends_with_ignoring_case(path, ".nii.gz");
+    if (is_nifti && !is_anatomical(geometry))
+        return {"the space of the volume is " + printable(geometry.space) +
+                ", which NIfTI cannot say: programs will take the coordinates as RAS"};
+    const bool is_tiff = ends_with_ignoring_case(path, ".tif") || ends_with_ignoring_case(path, ".tiff");
+    if (is_tiff && (geometry.origin != Vec3{} || geometry.direction != Geometry{}.direction))
+        return {"TIFF keeps neither the origin nor the directions of the axes; .nrrd and .nii keep them"};
     return {};
 }
 
-std::vector<std::string> write_segmentation(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> /*segments*/,
+bool has_segments(const std::string& path) { return ends_with_ignoring_case(path, ".seg.nrrd"); }
+
+/// The labels, without the table.
+void write(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments, const VolumeInfo& info) {
+    const std::vector<Box> boxes = boxes_of(sink.name(), labels, segments, info.extent);
+    VolumeInfo header;
+    header.extent = info.extent;
+    header.geometry = info.geometry;
+    header.description = "isoatlas segments";
+    header.type = label_type(labels);
+    const SampleFeed feed = label_feed(labels, header.type);
+    if (!has_segments(sink.name())) return write_label_file(sink, header, feed, {{"labels_are", "segments"}});
+    header.extent.rank = 3;  // Slicer knows no 2D segmentation
+    header.geometry = turned_to(info.geometry, "LPS");
+    write_nrrd(sink, header, feed, Packing::gzip, slicer_pairs(segments, boxes));
+}
+
+}  // namespace
+
+std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
+                                            std::span<const Segment> segments, const VolumeInfo& info) {
+    check_labels(path, info, labels);
+    if (has_segments(path)) {
+        AtomicFile file(path);
+        write(file, labels, segments, info);
+        file.commit();
+        return {};
+    }
+    const std::string table = table_path(path);
+    check_table(table);
+    AtomicFile file(path), table_file(table);
+    write(file, labels, segments, info);
+    table_file.write(table_text(segments));
+    file.commit();
+    table_file.commit();
+    return warnings_of(path, info.geometry);
+}
+
+std::vector<std::string> write_segmentation(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments,
                                             const VolumeInfo& info) {
-    write_labels(sink, info, labels, {.interpolant = Interpolant::trilinear, .tau = {}});
-    return {};
+    check_labels(sink.name(), info, labels);
+    write(sink, labels, segments, info);
+    return has_segments(sink.name()) ? std::vector<std::string>{} : warnings_of(sink.name(), info.geometry);
 }
 
 }  // namespace isoatlas

@@ -92,8 +92,9 @@ TEST_P(SaysInterpolant, stl_in_its_80_bytes) {
     surface_.reported_tau = -1.2345678901234567e-300;
     surface_.reported_tunnel_height = 9.8765432109876543e-300;
     surface_.space = "LPS";
-    EXPECT_EQ(header().rfind("isoatlas " ISOATLAS_VERSION " tau -1.23456789", 0) == 0, !trilinear());
+    EXPECT_EQ(header().rfind("isoatlas " ISOATLAS_VERSION " SPACE=LPS tau -1.23456789", 0) == 0, !trilinear());
     expect_says(header(), " " + name() + " ", " tunnel_height 9.876543e-300 ");
+    EXPECT_NE(header().find(" SPACE=LPS "), std::string::npos);
 }
 
 /// The text of a String array and the number of an appended Float64 array of field data; empty: there is none.

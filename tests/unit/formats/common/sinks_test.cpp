@@ -41,7 +41,7 @@ TEST(Sinks, Surfaces) {
 TEST(Sinks, VolumesAndLabels) {
     const Folder folder;
     const Volume volume = make_phantom("noise", {.size = 40});
-    for (const char* name : {"v.nrrd", "v.npy", "v.raw", "v.mha", "v.nii", "v.nii.gz", "v.tif", "V.TIFF"}) {
+    for (const char* name : {"v.nrrd", "v.npy", "v.raw", "v.mha", "v.vti", "v.nii", "v.nii.gz", "v.tif", "V.TIFF"}) {
         expect_same(
             folder, name, [&](const std::string& path) { write_volume(path, volume); }, [&](Sink& sink) { write_volume(sink, volume); });
     }

@@ -45,49 +45,75 @@ Volume random_volume() {
 
 Volume figure() { return make_phantom("figure-plateau"); }
 
+/// A row by the names of the columns.
+Json named(const Json& document, std::size_t row) {
+    Json event;
+    for (std::size_t i = 0; i < document["columns"].size(); ++i)
+        event[document["columns"][i].get<std::string>()] = document["events"][row][i];
+    return event;
+}
+
 RC_GTEST_PROP(TreeJson, events_are_the_analysis, ()) {
     Volume volume = random_volume();
     volume.info.calibration = {0.5, -3};
     const Analysis analysis = analyse(volume);
     const Json document = tree_json(volume, analysis);
     RC_ASSERT(schema_problem(document, "events") == "");
-    RC_ASSERT(document["contours_listed"] == true);
     RC_ASSERT(static_cast<std::int64_t>(document["events"].size()) == analysis.event_count());
+    RC_ASSERT(document["columns"].size() == 11);
     for (const EventId id : ids<EventId>(analysis.event_count())) {
-        const Json& json = document["events"][id.index()];
+        RC_ASSERT(document["events"][id.index()].size() == 11);
+        const Json json = named(document, id.index());
         const Event event = analysis.event(id);
-        RC_ASSERT(json["id"] == id.number());
         RC_ASSERT(json["value"] == event.value * 0.5 - 3);
-        RC_ASSERT(json["position"] == Json(event.position));
+        RC_ASSERT(Json::array({json["x"], json["y"], json["z"]}) == Json(event.position));
         RC_ASSERT(json["kind"] == name_of(event.kind));
         RC_ASSERT(json["parent"] == (event.parent.exists() ? Json(event.parent.number()) : Json()));
-        std::vector<std::int64_t> children;
-        for (const EventId child : event.children) children.push_back(child.number());
-        RC_ASSERT(json["children"] == Json(children));
-        RC_ASSERT(json["objects_in"] == event.objects_in && json["lows_out"] == event.lows_out && json["delta_chi"] == event.delta_chi);
-        RC_ASSERT(json["zone"]["tau_low"] == (event.parent.exists() ? Json(event.zone.tau_low * 0.5 - 3) : Json()));
-        RC_ASSERT(json["zone"]["tau_high"] == event.zone.tau_high * 0.5 - 3);
-        RC_ASSERT(json["zone"]["voxels"] == event.zone.voxels);
-        RC_ASSERT(json["object"]["chi"] == event.chi && json["object"]["b1"] == event.b1 && json["object"]["b2"] == event.b2);
-        const auto genera = json["object"]["contours"].get<std::vector<std::int64_t>>();
-        RC_ASSERT(static_cast<std::int64_t>(genera.size()) == event.contours);
-        RC_ASSERT(std::is_sorted(genera.begin(), genera.end()));
+        RC_ASSERT(json["lows_out"] == event.lows_out && json["b1"] == event.b1 && json["b2"] == event.b2);
+        RC_ASSERT(json["zone_voxels"] == event.zone.voxels && json["object_voxels"] == event.object_voxels);
     }
 }
 
-RC_GTEST_PROP(TreeJson, genus_counts_expand_to_the_lists, ()) {
+/// What the rows leave out follows from them, as docs/formats.md says; all columns say it in full.
+RC_GTEST_PROP(TreeJson, what_is_left_out_follows, ()) {
     const Volume volume = random_volume();
     const Analysis analysis = analyse(volume);
-    const Json listed = tree_json(volume, analysis), counted = tree_json(volume, analysis, {.max_listed_contours = 0});
-    RC_ASSERT(schema_problem(counted, "events") == "");
-    RC_ASSERT(counted["contours_listed"] == false);
-    for (std::size_t i = 0; i < listed["events"].size(); ++i) {
-        Json expanded = Json::array();
-        for (const Json& pair : counted["events"][i]["object"]["genus_counts"]) {
-            for (std::int64_t k = 0; k < pair[1].get<std::int64_t>(); ++k) expanded.push_back(pair[0]);
+    const Json document = tree_json(volume, analysis), all = tree_json(volume, analysis, {.all = true});
+    RC_ASSERT(schema_problem(all, "events") == "");
+    RC_ASSERT(all["columns"].size() == 18);
+    std::vector<std::vector<std::int64_t>> children(document["events"].size());
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const Json parent = named(document, i)["parent"];
+        if (!parent.is_null()) children[parent.get<std::size_t>()].push_back(static_cast<std::int64_t>(i));
+    }
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const Json brief = named(document, i), full = named(all, i);
+        const std::int64_t b1 = brief["b1"], b2 = brief["b2"];
+        for (const auto& [key, value] : brief.items()) RC_ASSERT(full[key] == value);
+        RC_ASSERT(full["id"] == i);
+        RC_ASSERT(full["children"] == Json(children[i]));
+        RC_ASSERT(full["tau_low"] == (brief["parent"].is_null() ? Json() : named(document, brief["parent"].get<std::size_t>())["value"]));
+        RC_ASSERT(full["chi"] == 1 - b1 + b2);
+        RC_ASSERT(full["contours"] == (volume.info.extent.rank == 2 ? b1 : b2) + 1);
+        std::int64_t chi = full["chi"], contours = 0, genera = 0;
+        for (const std::int64_t child : children[i]) chi -= named(all, static_cast<std::size_t>(child))["chi"].get<std::int64_t>();
+        RC_ASSERT(full["delta_chi"] == chi);
+        for (const Json& pair : full["genera"]) {
+            contours += pair[1].get<std::int64_t>();
+            genera += pair[0].get<std::int64_t>() * pair[1].get<std::int64_t>();
         }
-        RC_ASSERT(expanded == listed["events"][i]["object"]["contours"]);
-        RC_ASSERT(!counted["events"][i]["object"].contains("contours"));
+        RC_ASSERT(full["contours"] == contours);
+        RC_ASSERT(volume.info.extent.rank == 2 || b1 == genera);
+    }
+}
+
+TEST(TreeJson, an_event_takes_at_most_100_bytes) {
+    for (const char* name : {"noise", "demo"}) {
+        const Volume volume = make_phantom(name, {.size = 40, .noise = 0.1});
+        const Analysis analysis = analyse(volume);
+        std::ostringstream out;
+        write_tree_json(out, volume, analysis);
+        EXPECT_LE(out.str().size(), 2000 + 100 * static_cast<std::size_t>(analysis.event_count())) << name;
     }
 }
 
@@ -135,11 +161,14 @@ TEST(TreeJson, the_schemas_notice_damage) {
     EXPECT_EQ(schema_problem(good, "events"), "");
     EXPECT_NE(schema_problem(good, "levels"), "");
     Json bad = good;
-    bad["events"][3].erase("kind");
-    EXPECT_EQ(schema_problem(bad, "events"), "$.events[3] lacks kind");
+    bad.erase("columns");
+    EXPECT_EQ(schema_problem(bad, "events"), "$ lacks columns");
     bad = good;
-    bad["events"][0]["object"]["b1"] = "two";
-    EXPECT_NE(schema_problem(bad, "events").find("$.events[0].object.b1"), std::string::npos);
+    bad["events"][3].erase(4);
+    EXPECT_EQ(schema_problem(bad, "events"), "$.events[3] has a wrong length");
+    bad = good;
+    bad["events"][0][7] = true;
+    EXPECT_NE(schema_problem(bad, "events").find("$.events[0][7]"), std::string::npos);
     bad = good;
     bad["surprise"] = 1;
     EXPECT_NE(schema_problem(bad, "events").find("undocumented key surprise"), std::string::npos);
@@ -149,7 +178,7 @@ TEST(TreeJson, the_dissertations_figure) {
     const Volume volume = figure();
     const Json document = tree_json(volume, analyse(volume));
     std::vector<double> values;
-    for (const Json& event : document["events"]) values.push_back(event["value"]);
+    for (const Json& event : document["events"]) values.push_back(event[0]);
     EXPECT_EQ(values, (std::vector<double>{100, 90, 80, 70, 60, 58, 56, 50, 48, 46, 40, 38, 30, 20}));
     EXPECT_EQ(document["counts"]["events"], 14);
     EXPECT_EQ(document["detail"], "events");
@@ -175,8 +204,8 @@ TEST(TreeJson, without_zones_voxel_counts_are_null) {
     const Volume volume = figure();
     const Json document = tree_json(volume, analyse(volume, {.zones = false}));
     EXPECT_EQ(schema_problem(document, "events"), "");
-    EXPECT_TRUE(document["events"][0]["zone"]["voxels"].is_null());
-    EXPECT_TRUE(document["events"][0]["object"]["voxels"].is_null());
+    EXPECT_TRUE(named(document, 0)["zone_voxels"].is_null());
+    EXPECT_TRUE(named(document, 0)["object_voxels"].is_null());
 }
 
 TEST(TreeJson, a_failing_stream_or_disk_is_an_error) {
