@@ -28,7 +28,7 @@ struct Segment {
 /// no such table).
 std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
                                             std::span<const Segment> segments, const VolumeInfo& info);
-/// The labels alone into a sink (isoatlas/sink.h), without a table.
+/// The same into a sink (isoatlas/sink.h); of formats other than .seg.nrrd the labels alone, without a table.
 std::vector<std::string> write_segmentation(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments,
                                             const VolumeInfo& info);
 

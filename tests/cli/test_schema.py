@@ -43,7 +43,7 @@ class Schemas(harness.CliTest):
             self.check("label", "label", file, "--tau", "7", "-o", "x.nrrd")
             self.check("label", "label", file, "--tau", "7", "--cavities", "-o", "x.nrrd")
             self.check("label", "label", file, "--zones", "-o", "x.nrrd")
-            self.check("label", "label", file, "--object", "1@5", "--top", "2", "-o", "x.nrrd")
+            self.check("label", "label", file, "--object", "1@5", "--top", "2", "-o", "chosen.nrrd")
             self.check("extract", "extract", file, "--object", "1", "1@5", "-o", "x.glb")
             self.check("name", "name", file, "1", "first")
             self.check("convert", "convert", file, "-o", "x.npy")

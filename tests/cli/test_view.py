@@ -67,7 +67,8 @@ class View(harness.CliTest):
             self.assertEqual(body[:4], b"iam1")
             for format in ("ply", "stl", "obj", "vtp", "glb"):
                 self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", f"v{entry['id']}", "-o", "x." + format)
-                status, _, body = self.ask(f"/api/surface?tau={tau!r}&object=v{entry['id']}&format={format}")
+                one = f"/api/surface?tau={tau!r}&object=v{entry['id']}" if format != "glb" else f"/api/surfaces?object=v{entry['id']}@{tau!r}"
+                status, _, body = self.ask(f"{one}&format={format}")   # a node of .glb has a name
                 self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
             preview = self.json_of(f"/api/preview?tau={tau!r}")
             self.assert_schema(preview, "server-preview")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "base/atomic_file.h"
@@ -166,10 +167,10 @@ std::vector<std::string> warnings_of(const std::string& path, const Geometry& ge
     return {};
 }
 
-bool has_segments(const std::string& path) { return ends_with_ignoring_case(path, ".seg.nrrd"); }
+bool is_slicers(const std::string& path) { return ends_with_ignoring_case(path, ".seg.nrrd"); }
 
-/// The labels, without the table.
-void write(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments, const VolumeInfo& info) {
+/// The file of the labels, if everything fits together.
+void write_labels_of(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments, const VolumeInfo& info) {
     const std::vector<Box> boxes = boxes_of(sink.name(), labels, segments, info.extent);
     VolumeInfo header;
     header.extent = info.extent;
@@ -177,7 +178,7 @@ void write(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Se
     header.description = "isoatlas segments";
     header.type = label_type(labels);
     const SampleFeed feed = label_feed(labels, header.type);
-    if (!has_segments(sink.name())) return write_label_file(sink, header, feed, {{"labels_are", "segments"}});
+    if (!is_slicers(sink.name())) return write_label_file(sink, header, feed, {{"labels_are", "segments"}});
     header.extent.rank = 3;  // Slicer knows no 2D segmentation
     header.geometry = turned_to(info.geometry, "LPS");
     write_nrrd(sink, header, feed, Packing::gzip, slicer_pairs(segments, boxes));
@@ -185,30 +186,24 @@ void write(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Se
 
 }  // namespace
 
-std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
-                                            std::span<const Segment> segments, const VolumeInfo& info) {
-    check_labels(path, info, labels);
-    if (has_segments(path)) {
-        AtomicFile file(path);
-        write(file, labels, segments, info);
-        file.commit();
-        return {};
-    }
-    const std::string table = table_path(path);
-    check_table(table);
-    AtomicFile file(path), table_file(table);
-    write(file, labels, segments, info);
-    table_file.write(table_text(segments));
-    file.commit();
-    table_file.commit();
-    return warnings_of(path, info.geometry);
-}
-
 std::vector<std::string> write_segmentation(Sink& sink, std::span<const std::uint32_t> labels, std::span<const Segment> segments,
                                             const VolumeInfo& info) {
     check_labels(sink.name(), info, labels);
-    write(sink, labels, segments, info);
-    return has_segments(sink.name()) ? std::vector<std::string>{} : warnings_of(sink.name(), info.geometry);
+    write_labels_of(sink, labels, segments, info);
+    return warnings_of(sink.name(), info.geometry);
+}
+
+std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
+                                            std::span<const Segment> segments, const VolumeInfo& info) {
+    check_labels(path, info, labels);
+    std::optional<AtomicFile> table;
+    if (!is_slicers(path)) check_table(table_path(path));
+    AtomicFile file(path);
+    write_labels_of(file, labels, segments, info);
+    if (!is_slicers(path)) table.emplace(table_path(path)).write(table_text(segments));
+    file.commit();
+    if (table) table->commit();
+    return warnings_of(path, info.geometry);
 }
 
 }  // namespace isoatlas

@@ -7,7 +7,10 @@
 #include <sstream>
 
 #include "faults/faulty_files.h"
+#include "isoatlas/output.h"
 #include "isoatlas/segmentation.h"
+#include "isoatlas/sink.h"
+#include "unit/formats/common/external.h"
 #include "unit/formats/common/placed_volumes.h"
 #include "unit/formats/volume/volume_files.h"
 
@@ -85,6 +88,9 @@ TEST(Segmentation, LabelsComeBackFromEveryFormat) {
     for (const std::string& name : kNames) {
         (void)write_segmentation(folder / name, labels(), segments(), info_of({.rank = 3, .size = {6, 5, 4}}));
         const Volume volume = load_volume(folder / name);
+        MemorySink sink(name);
+        (void)write_segmentation(sink, labels(), segments(), info_of({.rank = 3, .size = {6, 5, 4}}));
+        EXPECT_TRUE(sink.bytes() == text_of(folder / name)) << name;
         const auto expected = labels();
         ASSERT_EQ(volume.info.extent.voxels(), 120);
         for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_EQ(volume.value(static_cast<std::int64_t>(i)), expected[i]) << name;
@@ -119,6 +125,37 @@ TEST(Segmentation, LiesOnTheVolume) {
             for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(v[axis], voxel[axis], 1e-6) << placed.name;
         }
     }
+}
+
+/// Objects of a head in four orientations: ITK, and so Slicer, has the segmentation where nibabel has the volume.
+TEST(Segmentation, OfRealVolumesLiesWhereNibabelHasThem) {
+    const std::string data = ISOATLAS_SOURCE_DIR "/../shared/data/nifti_orientations/";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no shared data";
+    if (external::run("/usr/bin/python3 -c 'import nibabel'").status != 0) GTEST_SKIP() << "python3-nibabel is not installed";
+    const TestFolder folder;
+    std::string program =
+        "import nibabel, numpy\n"
+        "def check(name, source):\n  head = open(name, 'rb').read().split(b'\\n\\n')[0].decode().splitlines()\n"
+        "  field = dict(line.split(': ', 1) for line in head if ': ' in line and ':=' not in line)\n"
+        "  assert field['space'] == 'left-posterior-superior'\n"
+        "  v = lambda text: [float(x) for x in text.strip('()').split(',')]\n"
+        "  m = numpy.array([v(w) for w in field['space directions'].split()] + [v(field['space origin'])]).T\n"
+        "  a = nibabel.load(source).affine[:3] * [[-1], [-1], [1]]\n"
+        "  assert numpy.abs(m - a).max() < 1e-4, (name, m, a)\n";
+    for (const std::string name : {"AIL", "LPI", "RAS", "SRP"}) {
+        const Volume volume = load_volume(data + name + ".nii.gz");
+        const Cut at = cut(volume, 16, {.label = true});
+        std::vector<Segment> found;
+        for (std::size_t i = 0; i < at.objects.size(); ++i) {
+            const auto number = static_cast<std::int64_t>(i) + 1;
+            found.push_back({number, "part " + std::to_string(number), {200, 100, 50}, 16, at.objects[i].voxels});
+        }
+        EXPECT_TRUE(write_segmentation(folder / (name + ".seg.nrrd"), object_labels(at), found, volume.info).empty());
+        EXPECT_EQ(nrrd_pairs(folder / (name + ".seg.nrrd"))["Segment0_Name"], "part 1");
+        program += "check('" + (folder / (name + ".seg.nrrd")) + "', '" + data + name + ".nii.gz')\n";
+    }
+    const external::Result result = external::python(program + "print('good')");
+    EXPECT_EQ(result.text, "good\n");
 }
 
 TEST(Segmentation, WarnsAboutWhatAFormatLoses) {

@@ -5,6 +5,7 @@ import { renderOptions } from "../state/render_options";
 import { downloadBlob, selectedOf, type ViewerContext } from "../context/viewer_context";
 import { drawPicture, pngOf, type PictureOptions } from "./picture";
 import { renderCommand } from "./render_command";
+import type { Shown } from "../state/state";
 import { readScene, writeScene } from "./scene_file";
 import { EVERYTHING, titleOf, targetOf } from "../api/entries";
 import { tableCsv } from "./table_csv";
@@ -23,6 +24,7 @@ export class Exporter {
     const shown = selectedOf(this.context.history.now);
     if (!shown) return this.nothingSelected();
     const { api, page } = this.context;
+    if (format === "glb" && shown.walls === "all" && shown.entry !== EVERYTHING) return this.named(shown);
     return this.file(`${this.name}.${format}`, "writing the surface", () =>
       api.file(shown.tau, targetOf(page, shown.entry), format, shown.walls),
     );
@@ -37,6 +39,14 @@ export class Exporter {
     return this.file(`${this.name}.${format}`, "writing the labels", () =>
       api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format),
     );
+  }
+
+  /** A .glb, whose node has the name and colour of the object. */
+  private named(shown: Shown): Promise<void> {
+    const { api, page } = this.context;
+    const words = [`${referenceOf(page, shown.entry)}@${shown.tau}`];
+    const [objects, contours] = isCavity(page, shown.entry) ? [[], words] : [words, []];
+    return this.file(`${this.name}.glb`, "writing the surface", () => api.several("surfaces", objects, contours, "glb"));
   }
 
   /** Every visible object at its isovalue, in one file: "surfaces" or "segmentation". */
