@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """clang-tidy over src and apps: scripts/lint.py [BUILD_FOLDER], which has the compile commands (default build/dev).
 
-Most of the time goes into the headers of the standard library, so the files of a folder are read together: groups of GROUP files in one
-translation unit. Files that cannot stand in one (a name in both unnamed namespaces) are halved until they can."""
+Most of the time goes into the headers of the standard library, so the files of a folder are read together, as ISOATLAS_UNITY compiles
+them: no two of them have a name in both unnamed namespaces."""
 import collections
 import concurrent.futures
 import json
@@ -16,11 +16,10 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TIDY = "clang-tidy-19"
-GROUP = 8
 
 
 def groups(commands):
-    """(options, files) of files of a folder that are compiled alike, at most GROUP together."""
+    """(options, files) of files of a folder that are compiled alike, the largest group first."""
     found = collections.defaultdict(set)
     for entry in commands:
         file = pathlib.Path(entry["file"])
@@ -32,10 +31,8 @@ def groups(commands):
         del words[output:output + 2]
         options = tuple(word for word in words if word not in ("-c", str(file)) and not re.match(r"-[Og]", word))
         found[file.parent, options].add(file)
-    for (_, options), files in sorted(found.items()):
-        ordered = sorted(files)
-        for first in range(0, len(ordered), GROUP):
-            yield options, ordered[first:first + GROUP]
+    for (_, options), files in sorted(found.items(), key=lambda group: -len(group[1])):
+        yield options, sorted(files)
 
 
 def lint(options, files):
@@ -47,9 +44,6 @@ def lint(options, files):
                                "--", *options, "-w"], capture_output=True, text=True)
     if done.returncode == 0:
         return ""
-    if "[clang-diagnostic-error" in done.stdout and len(files) > 1:
-        half = len(files) // 2
-        return lint(options, files[:half]) + lint(options, files[half:])
     return done.stdout or done.stderr
 
 

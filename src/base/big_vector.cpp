@@ -11,14 +11,12 @@
 #include <new>
 
 #include "base/memory_limit.h"
+#include "base/pages.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kHugePage = std::size_t{1} << 21;
 constexpr std::size_t kSmall = kHugePage;  // below: the ordinary heap
-
-std::size_t rounded(std::size_t bytes) { return (bytes + kHugePage - 1) / kHugePage * kHugePage; }
 
 /// Fresh memory from the system, aligned to huge pages; null when there is none.
 char* map_memory(std::size_t size) {
@@ -133,7 +131,7 @@ Pool& pool() {
 void* allocate_in_memory(std::size_t bytes) {
     if (bytes < kSmall) return ::operator new(bytes);
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
-    return pool().take(rounded(bytes));
+    return pool().take(rounded_up(bytes, kHugePage));
 }
 
 }  // namespace
@@ -145,7 +143,7 @@ void free_big(void* memory, std::size_t bytes) noexcept {
     if (bytes < kSmall) {
         ::operator delete(memory);
     } else {
-        pool().put(static_cast<char*>(memory), rounded(bytes));
+        pool().put(static_cast<char*>(memory), rounded_up(bytes, kHugePage));
     }
 }
 

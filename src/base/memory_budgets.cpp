@@ -12,13 +12,13 @@
 #include <system_error>
 
 #include "base/memory_limit.h"
+#include "base/pages.h"
 #include "base/refusals.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kPage = 4096;
 // What may become resident between two checks.
 constexpr std::int64_t kReserve = std::int64_t{10} << 20;
 constexpr std::int64_t kElse = std::int64_t{40} << 20;    // what is in memory anyway: the program, tiles, pages of the file

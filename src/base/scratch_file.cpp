@@ -11,15 +11,11 @@
 #include <utility>
 
 #include "base/budget_poll.h"
+#include "base/pages.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
-
-constexpr std::size_t kPage = 4096;
-constexpr std::size_t kHugePage = std::size_t{1} << 21;
-
-std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
 [[noreturn]] void scratch_failed(const std::string& folder, int error) {
     throw Error(ErrorKind::resource, {.file = folder,
@@ -65,7 +61,7 @@ ScratchFile::~ScratchFile() {
 void ScratchFile::fail(int error) const { scratch_failed(folder_, error); }
 
 ScratchFile::Room ScratchFile::take(std::size_t bytes) {
-    const std::size_t size = rounded(bytes);
+    const std::size_t size = rounded_up(bytes, kPage);
     if (file_ < 0) file_ = open_scratch(folder_);
     const std::optional<off_t> unused = reuse(size);
     const off_t offset = unused ? *unused : static_cast<off_t>(std::exchange(end_, end_ + size));

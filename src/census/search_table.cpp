@@ -14,7 +14,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// The middles of the intervals in which zones do not change, ascending.
 std::vector<double> isovalues_of(const Volume& volume, const Analysis& analysis) {
@@ -37,7 +37,7 @@ std::vector<std::int64_t> count_active(const Volume& volume, std::span<const dou
     for_each_slab(context, kSearchPhases["active cells"], {extent.size[2], extent.slice()}, [&](const Slab& slab) {
         for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
             for_cells_of_slice(extent, z, [&](std::span<const std::int64_t> corners) {
-                double low = kInfinity, high = -kInfinity;
+                double low = kUnbounded, high = -kUnbounded;
                 for (const std::int64_t voxel : corners) {
                     const double value = volume.value(voxel);
                     low = std::min(low, value), high = std::max(high, value);
@@ -64,10 +64,10 @@ struct BrickCounts {
 void count_brick(const Volume& volume, const Box& box, IntervalCounts& loaded, IntervalCounts& read) {
     const Extent& extent = volume.info.extent;
     Box seen = box;
-    double low = kInfinity, high = -kInfinity;
+    double low = kUnbounded, high = -kUnbounded;
     for (int axis = 0; axis < extent.rank; ++axis) {
         seen.begin[axis] -= kSurroundings, seen.end[axis] += kSurroundings;
-        if (seen.begin[axis] < 0 || seen.end[axis] > extent.size[axis]) low = -kInfinity;
+        if (seen.begin[axis] < 0 || seen.end[axis] > extent.size[axis]) low = -kUnbounded;
         seen.begin[axis] = std::max<std::int64_t>(seen.begin[axis], 0);
         seen.end[axis] = std::min(seen.end[axis], extent.size[axis]);
     }
@@ -99,7 +99,7 @@ BrickCounts count_bricks(const Volume& volume, std::span<const double> isovalues
 template <class Number>
 Spread spread_of(std::size_t count, const Number& number) {
     if (count == 0) return {};
-    Spread spread{-kInfinity, 0, kInfinity};
+    Spread spread{-kUnbounded, 0, kUnbounded};
     for (std::size_t i = 0; i < count; ++i) {
         const auto n = static_cast<double>(number(i));
         spread = {std::max(spread.max, n), spread.average + n, std::min(spread.min, n)};

@@ -12,7 +12,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kMaxCavities = 5;  // of one branch; all are in the table of cavities
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoHeight = std::numeric_limits<double>::infinity();
 
 /// The row of the closest branch that has one, itself or one it ends in; -1: there is none.
 template <class Id>
@@ -32,7 +32,7 @@ IdArray<BranchId, std::int64_t> rows_of_branches(const CavityCandidates<Id>& can
 double joins(const BranchDecomposition& branches, EventId event, double value, BranchId branch) {
     BranchId b = branches.of_event[event];
     for (; b != branch; b = branches.branch[b].parent) {
-        if (!branches.branch[b].parent.exists()) return -kInfinity;
+        if (!branches.branch[b].parent.exists()) return -kNoHeight;
         value = branches.branch[b].merges;
     }
     return value;
@@ -199,7 +199,7 @@ std::vector<BranchHistogram> fill_cavities(const VolumeView& volume, const Objec
             if (!(from < around.closed)) continue;
             BranchHistogram& histogram = histograms[slot[around.branch]];
             histogram.added.back() += 1;  // it was there before, in the cavity
-            if (from > -kInfinity) histogram.add(from, -1);
+            if (from > -kNoHeight) histogram.add(from, -1);
         }
     });
     return histograms;

@@ -24,7 +24,7 @@ void check_animation(const Animation& animation, std::int64_t max) {
 
 namespace {
 
-constexpr std::int64_t kMaxSide = 16384;
+constexpr std::int64_t kMaxPngSide = 16384;
 
 std::vector<std::uint8_t> frame_control(std::uint32_t sequence, const Animation& animation) {
     std::vector<std::uint8_t> control;
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> frame_control(std::uint32_t sequence, const Animation&
 }  // namespace
 
 std::vector<std::byte> encode_apng(const Animation& animation) {
-    check_animation(animation, kMaxSide);
+    check_animation(animation, kMaxPngSide);
     bool with_alpha = false;
     for (const Image& frame : animation.frames) with_alpha = with_alpha || has_transparency(frame);
     PngChunks chunks;

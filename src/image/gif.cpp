@@ -8,7 +8,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMaxSide = 65535;
+constexpr std::int64_t kMaxGifSide = 65535;
 constexpr std::uint8_t kSame = 255;  // index of "as before"
 
 class GifBytes {
@@ -112,7 +112,7 @@ void put_frame(const Image& frame, int hundredths, const std::vector<std::uint8_
 }  // namespace
 
 std::vector<std::byte> encode_gif(const Animation& animation) {
-    check_animation(animation, kMaxSide);
+    check_animation(animation, kMaxGifSide);
     const Quantiser quantiser(animation.frames);
     GifBytes out;
     put_header(animation, quantiser, out);

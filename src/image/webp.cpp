@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMaxSide = 16383;
+constexpr std::int64_t kMaxWebpSide = 16383;
 
 [[noreturn]] void fail(const std::string& what) {
     throw Error(ErrorKind::resource, {.what = "WebP encoding failed: " + what, .next = "write .png or .gif, or smaller frames"});
@@ -46,7 +46,7 @@ WebPConfig config_of(double quality) {
 }  // namespace
 
 std::vector<std::byte> encode_webp(const Animation& animation, double quality) {
-    check_animation(animation, kMaxSide);
+    check_animation(animation, kMaxWebpSide);
     const Image& first = animation.frames[0];
     WebPAnimEncoderOptions options;
     WebPAnimEncoderOptionsInit(&options);

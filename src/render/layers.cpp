@@ -8,7 +8,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr double kTouching = 1e-5;  // a slice so close to an opaque surface, such as a cut face, lies on it
+constexpr double kOnSurface = 1e-5;  // a slice so close to an opaque surface, such as a cut face, lies on it
 
 /// Colour and opacity of a picture at (u, v) in the unit square, between its pixels.
 Layer look_up(const Image& picture, double u, double v) {
@@ -40,7 +40,7 @@ void RaySlices::add(const Ray& ray, double max, std::vector<Layer>& layers) cons
         const double speed = dot(ray.direction, plane.normal);
         if (speed == 0) continue;
         const double t = dot(subtract(plane.corner, ray.origin), plane.normal) / speed;
-        if (!(t > 0 && t < max + kTouching)) continue;
+        if (!(t > 0 && t < max + kOnSurface)) continue;
         const Vec3 from = subtract(along(ray.origin, t, ray.direction), plane.corner);
         const double square = dot(plane.normal, plane.normal);
         const double u = dot(cross(from, plane.down), plane.normal) / square, v = dot(cross(plane.across, from), plane.normal) / square;

@@ -8,7 +8,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kPoints = 1024;  // of a curve
-constexpr double kThinnest = 1e-3;      // of the densest material: lower density is transparent, so that rays skip it
+constexpr double kTransparent = 1e-3;   // of the densest material: lower density is transparent, so that rays skip it
 
 void check(std::span<const Material> materials) {
     for (const Material& material : materials) {
@@ -47,7 +47,7 @@ std::vector<TransferCurve> material_transfer(std::span<const Material> materials
         const std::vector<double> percentages = material_percentages(materials, value);
         for (std::size_t m = 0; m < curves.size(); ++m) {
             const double density = percentages[m] * materials[m].density;
-            curves[m].points.push_back({value, density < kThinnest * densest ? 0 : density});
+            curves[m].points.push_back({value, density < kTransparent * densest ? 0 : density});
         }
     }
     return curves;

@@ -8,11 +8,11 @@ namespace isoatlas {
 
 namespace {
 
-constexpr double kWidth = 0.10;                     // width of a tent, in parts of the range
-constexpr double kBefore = 0.15;                    // of it lies below the isovalue: an object is what is at or above its isovalue
-constexpr double kRamp = 0.3;                       // of it rises, and as much falls
-constexpr double kThinnest = 0.05, kDensest = 1.0;  // extinction per voxel of the tents of the lowest and the highest isovalue
-constexpr double kBodyDepth = 0.5;                  // optical depth of a cube of a body as large as the object
+constexpr double kWidth = 0.10;                       // width of a tent, in parts of the range
+constexpr double kBefore = 0.15;                      // of it lies below the isovalue: an object is what is at or above its isovalue
+constexpr double kRamp = 0.3;                         // of it rises, and as much falls
+constexpr double kLeastDense = 0.05, kDensest = 1.0;  // extinction per voxel of the tents of the lowest and the highest isovalue
+constexpr double kBodyDepth = 0.5;                    // optical depth of a cube of a body as large as the object
 
 /// An object of the table at its best isovalue.
 struct Best {
@@ -72,7 +72,7 @@ std::vector<OpacityTent> propose_transfer(const ObjectTable& table, const Volume
         const double low = best[i].tau - kBefore * width, skin = low + width;
         // The last one has no inner entry: it is solid.
         const double high = last ? std::max(skin, range[1] + ramp) : std::min(skin, best[i + 1].tau);
-        const double density = kThinnest * std::pow(kDensest / kThinnest, part) / voxel;
+        const double density = kLeastDense * std::pow(kDensest / kLeastDense, part) / voxel;
         tents.push_back(bump_between(low, high, ramp, density, best[i], first_colour));
         const double body = std::min(density, kBodyDepth / best[i].size);
         if (best[i].next > high + ramp) tents.push_back(bump_between(low, best[i].next, ramp, body, best[i], first_colour));

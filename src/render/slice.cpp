@@ -69,15 +69,15 @@ double between(const Volume& flat, double x, double y) {
     return (1 - v) * ((1 - u) * at(x0, y0) + u * at(x1, y0)) + v * ((1 - u) * at(x0, y1) + u * at(x1, y1));
 }
 
-struct Window {
+struct ValueWindow {
     double black, white;
 };
 
-Window window_of(const Volume& volume, const SliceOptions& options) {
+ValueWindow value_window(const Volume& volume, const SliceOptions& options) {
     if (options.black != options.white) return {options.black, options.white};
     return visit_samples(volume, [](auto samples) {
         const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
-        return Window{static_cast<double>(*low), static_cast<double>(*high)};
+        return ValueWindow{static_cast<double>(*low), static_cast<double>(*high)};
     });
 }
 
@@ -133,7 +133,7 @@ SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, cons
     const std::vector<double> columns = positions(geometry, plane.across, extent.size[plane.across], slice.picture.width, false);
     const std::vector<double> rows = positions(geometry, plane.down, extent.size[plane.down], slice.picture.height, plane.flipped);
     const Volume flat = slice_of(volume, options.axis, options.index);
-    const Window window = window_of(volume, options);
+    const ValueWindow window = value_window(volume, options);
     const double range = window.white == window.black ? 1 : window.white - window.black;
     for_each_block(context.threads, slice.picture.height, [&](std::int64_t y) {
         for (std::int64_t x = 0; x < slice.picture.width; ++x) {

@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kDefaultListed = 1000, kMaxListed = 20'000;
+constexpr std::int64_t kDefaultListed = 1000, kMaxBranchesListed = 20'000;
 /// An isovalue slightly above that of the merge: the branch has nearly all its voxels, and rounding cannot reach the merge.
 constexpr double kShareAboveMerge = 1.0 / 64;
 
@@ -47,7 +47,7 @@ PageEntry entry_of(const Atlas& atlas, const BranchInfo& branch) {
 
 BranchesWanted branches_wanted(QueryParameters& words, const Calibration& calibration) {
     BranchesWanted wanted{.selection = selection_of(words, calibration)};
-    wanted.top = words.whole("top", 1, kMaxListed).value_or(kDefaultListed);
+    wanted.top = words.whole("top", 1, kMaxBranchesListed).value_or(kDefaultListed);
     words.reject_unknown();
     return wanted;
 }

@@ -7,7 +7,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kPixels = 160;
-constexpr std::size_t kMaxTriangles = 60'000;  ///< two a pixel
+constexpr std::size_t kMaxCardTriangles = 60'000;  ///< two a pixel
 
 std::string card_json(const std::string& name, const Turntable& picture) {
     return document("card", [&](JsonStream& json) {
@@ -33,7 +33,7 @@ std::string Cards::json(const Atlas& atlas, const CardSubject& subject, std::int
     own.threads = 1;  // surface requests have priority
     own.cancelled = [&job] { return job->is_cancelled(); };
     const PageOptions options{.picture_size = kPixels, .frames = frames};
-    Surface surface = coarse_surface(surface_of(atlas, subject.is_cavity, subject.entry, own), kMaxTriangles);
+    Surface surface = coarse_surface(surface_of(atlas, subject.is_cavity, subject.entry, own), kMaxCardTriangles);
     std::string answer = card_json(subject.name, draw_turntable(std::move(surface), subject.entry.colour, options, own));
     answers_.keep(name, answer);
     return answer;

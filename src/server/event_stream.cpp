@@ -7,10 +7,9 @@ namespace isoatlas {
 namespace {
 
 using std::chrono::milliseconds;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxStreams = 64;
-constexpr milliseconds kLook{250};        ///< polling interval of a waiting stream for a disconnected client
+constexpr milliseconds kStreamPoll{250};  ///< polling interval of a waiting stream for a disconnected client
 constexpr milliseconds kApart{100};       ///< between two messages
 constexpr milliseconds kHeartbeat{5000};  ///< max interval between messages (comments): keeps proxies from closing the connection
 
@@ -37,7 +36,7 @@ std::string EventStream::state() const {
 
 std::string EventStream::next() {
     while (!streams_.ended_ && !(is_disconnected_ && is_disconnected_())) {
-        const auto now = Clock::now();
+        const auto now = std::chrono::steady_clock::now();
         const std::uint64_t count = streams_.changes_.count();
         if (now - last_ < kApart) {
             streams_.changes_.pause(std::chrono::duration_cast<milliseconds>(kApart - (now - last_)) + milliseconds(1));
@@ -56,7 +55,7 @@ std::string EventStream::next() {
             last_ = now;
             return ":\n\n";
         }
-        streams_.changes_.wait(seen_, kLook);
+        streams_.changes_.wait(seen_, kStreamPoll);
     }
     return {};
 }

@@ -10,8 +10,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  ///< polling interval of a waiting job for a disconnected client
-constexpr double kTold = 0.01;                   ///< smaller progress is not reported
+constexpr std::chrono::milliseconds kJobPoll{100};  ///< polling interval of a waiting job for a disconnected client
+constexpr double kTold = 0.01;                      ///< smaller progress is not reported
 
 bool is_of(std::string_view client, std::string_view name) {
     return client.starts_with(name) && (client.size() == name.size() || client[name.size()] == '/');
@@ -71,7 +71,7 @@ std::unique_ptr<JobQueue::Job> JobQueue::acquire(const std::string& client, IsDi
     waiting_.emplace(job->place_, job.get());
     notify_waiting();
     while (!job->ended_ && !ended_ && !may_run(*job)) {
-        changed_.wait_for(lock, kLook);
+        changed_.wait_for(lock, kJobPoll);
         if (job->is_disconnected_ && job->is_disconnected_()) job->ended_ = true;
     }
     activate(*job);

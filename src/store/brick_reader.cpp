@@ -16,8 +16,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kGap = 1 << 10;        ///< max gap between two bricks that is cheaper to read than to skip
-constexpr std::int64_t kLongest = 256 << 10;  ///< max bytes of one read
+constexpr std::int64_t kGap = 1 << 10;            ///< max gap between two bricks that is cheaper to read than to skip
+constexpr std::int64_t kLongestRead = 256 << 10;  ///< max bytes of one read
 
 // Prefetched ahead of reading: enough to keep the disk busy.
 constexpr std::size_t kExpectedReads = 512;
@@ -127,7 +127,7 @@ IoCounters BrickReader<T>::count(std::span<const BrickId> bricks, std::span<cons
 template <class T>
 IoCounters BrickReader<T>::cost_of(std::vector<BrickId> bricks) const {
     sort_by_offset(bricks);
-    return count(bricks, extents_of(bricks, kLongest));
+    return count(bricks, extents_of(bricks, kLongestRead));
 }
 
 // A part may need more reads than the whole, at most one for each brick, and no bytes outside the gaps of the whole.
@@ -165,7 +165,7 @@ template <class T>
 IoCounters BrickReader<T>::read(std::vector<BrickId> bricks, const Context& context,
                                 const std::function<void(BrickId, std::span<const T>)>& sink) const {
     sort_by_offset(bricks);
-    const std::vector<Extent> extents = extents_of(bricks, kLongest);
+    const std::vector<Extent> extents = extents_of(bricks, kLongestRead);
     const IoCounters counters = count(bricks, extents);
     const CallerLooks look(context);
     Prefetched prefetched(extents.size());

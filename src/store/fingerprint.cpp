@@ -9,13 +9,13 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kLongest = 60;  ///< characters of a text in a message
+constexpr std::size_t kLongestText = 60;  ///< characters of a text in a message
 constexpr std::size_t kSaid = 3;
 
 std::string shortened(const std::string* text) {
     if (text == nullptr || text->empty()) return "none";
-    if (text->size() <= kLongest) return *text;
-    std::size_t end = kLongest;
+    if (text->size() <= kLongestText) return *text;
+    std::size_t end = kLongestText;
     while (end > 0 && (static_cast<unsigned char>((*text)[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 character
     return text->substr(0, end) + "...";
 }

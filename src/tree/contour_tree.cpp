@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kAhead = 16;  // a parent is fetched so many nodes before it is needed
+constexpr std::size_t kNodesAhead = 16;  // a parent is fetched so many nodes before it is needed
 
 // A node in both trees while leaves are removed: its parents, and the xor of its children (the child itself once only one is left).
 // Side by side, because a removal touches all four and the next node is somewhere else.
@@ -35,7 +35,7 @@ struct ShrinkingTree {
     [[nodiscard]] ByElement<Number, std::uint8_t> gather_children() {
         ByElement<Number, std::uint8_t> count(filled(node.size(), std::uint8_t{0}));
         for (const Element x : streamed<Element>(node.size(), at_random())) {
-            if (x.index() + kAhead < node.size()) __builtin_prefetch(&node[parent(Element(x.index() + kAhead))], 1);
+            if (x.index() + kNodesAhead < node.size()) __builtin_prefetch(&node[parent(Element(x.index() + kNodesAhead))], 1);
             if (is_root(x)) continue;
             node[parent(x)].*Children ^= x.number();
             ++count[parent(x)];

@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kAhead = 16;  // what a parent needs is fetched so many elements before
+constexpr std::size_t kElementsAhead = 16;  // what a parent needs is fetched so many elements before
 
 /// Numbers the groups with a non-trivial level by their highest element. event[b]: at bottoms of such groups.
 template <class Number>
@@ -68,7 +68,7 @@ void link_events(MergeTreeView<Number> join, ByElementView<Number, ElementIdOf<N
     tree.parent.items().resize(tree.size());
     for (const EventIdOf<Number> e : tree.parent.ids()) tree.parent[e] = e;
     for (const Element i : streamed<Element>(n, at_random(3))) {
-        if (const Element ahead(i.index() + kAhead); ahead < outside && join[ahead] < outside) {  // most groups have one element
+        if (const Element ahead(i.index() + kElementsAhead); ahead < outside && join[ahead] < outside) {  // most groups have one element
             __builtin_prefetch(&bottom[join[ahead]]);
             __builtin_prefetch(&event[join[ahead]], 1);
         }

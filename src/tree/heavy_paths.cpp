@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kAhead = 16;  // a parent is fetched so many events before it is needed
+constexpr std::size_t kEventsAhead = 16;  // a parent is fetched so many events before it is needed
 
 /// The largest Value that is not above v.
 template <class Value>
@@ -29,8 +29,8 @@ ByEvent<Number, HeavyNode<Number>> weigh(const DescendingTree<Number>& tree) {
     ByEvent<Number, HeavyNode<Number>> nodes(tree.size());
     for (const Event e : streamed<Event>(nodes.size(), in_order(8))) nodes[e] = {e, 1, 1};
     for (const Event e : streamed<Event>(nodes.size(), at_random(2))) {
-        if (e.index() + kAhead < nodes.size()) {
-            __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() + kAhead)].index(), 1);
+        if (e.index() + kEventsAhead < nodes.size()) {
+            __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() + kEventsAhead)].index(), 1);
         }
         if (tree.is_root(e)) continue;
         const Event p = tree.parent[e];
@@ -80,7 +80,7 @@ auto HeavyPathDecomposition<Number, Value>::lay_out(const DescendingTree<Number>
     BigVector<Path> paths;
     Number end = 0;
     for (const Event e : streamed_down<Event>(tree.size(), at_random(3))) {
-        if (e.index() >= kAhead) __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() - kAhead)].index());
+        if (e.index() >= kEventsAhead) __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() - kEventsAhead)].index());
         const bool is_root = tree.is_root(e);
         HeavyNode<Number>& node = nodes[e];
         const HeavyNode<Number>& parent = nodes[is_root ? e : tree.parent[e]];

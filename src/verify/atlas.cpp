@@ -53,9 +53,9 @@ EventOfVoxel events_of_maxima(const Analysis& analysis) {
 }
 
 /// The comparisons at every isovalue.
-class Comparison {
+class SampleComparison {
 public:
-    Comparison(const Atlas& atlas, const Volume& samples, const AtlasVerifyOptions& options)
+    SampleComparison(const Atlas& atlas, const Volume& samples, const AtlasVerifyOptions& options)
         : atlas_(atlas), samples_(samples), options_(options), random_(options.seed) {
         own_.interpolant = atlas.interpolant();
         own_.tunnel_height = atlas.tunnel_height();
@@ -109,7 +109,7 @@ private:
 void compare_at_isovalues(const Atlas& atlas, const Volume& samples, const Analysis& stored, const AtlasVerifyOptions& options,
                           const Context& context, std::vector<CheckResult>& results) {
     LevelChecks checks(stored, random_isovalues(samples, options.levels, options.seed), events_of_maxima(stored));
-    Comparison comparison(atlas, samples, options);
+    SampleComparison comparison(atlas, samples, options);
     Context silent = context;  // nested progress would move the bar back and forth
     silent.progress = nullptr;
     const std::size_t count = checks.isovalues().size();

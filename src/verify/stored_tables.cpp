@@ -29,9 +29,9 @@ std::string number_text(std::span<const std::byte> bytes, const std::string& typ
     return "?";
 }
 
-class Comparison {
+class TableComparison {
 public:
-    explicit Comparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.contents().has_present_values()) {}
+    explicit TableComparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.contents().has_present_values()) {}
 
     [[nodiscard]] const Container& store() const { return store_; }
     [[nodiscard]] bool is_present() const { return is_present_; }
@@ -95,7 +95,7 @@ private:
 }  // namespace
 
 CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& samples, bool anew, const Context& context) {
-    Comparison comparison(atlas);
+    TableComparison comparison(atlas);
     const VolumeView volume(samples);
     Context silent = context;
     silent.progress = nullptr;

@@ -16,7 +16,7 @@
 namespace isoatlas::cli {
 namespace {
 
-void check_arguments(const Arguments& arguments) {
+void check_extract_arguments(const Arguments& arguments) {
     const bool chooses = !arguments.objects.empty() || arguments.best || arguments.top > 0;
     const bool has_contours = std::ranges::any_of(arguments.contours, [](const ObjectReference& contour) {
         return contour.tau || contour.kind == ObjectReference::Kind::cavity || contour.kind == ObjectReference::Kind::name;
@@ -245,7 +245,7 @@ Written write_several(const Arguments& arguments, Source& source, const std::vec
 }  // namespace
 
 int run_extract(const Arguments& arguments, Terminal& terminal) {
-    check_arguments(arguments);
+    check_extract_arguments(arguments);
     Source source(arguments, terminal);
     std::vector<ChosenObject> chosen;
     {
@@ -258,8 +258,6 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
         terminal.warn("--space does not apply to .glb, which has metres and y up");
     for (const std::string& warning : written.warnings) terminal.warn(warning);
-    if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
-        terminal.warn("--space does not apply to .glb, which has metres and y up");
     for (const std::string& note : written.notes) terminal.say("note: " + note);
     if (arguments.json) {
         print(terminal, to_json(arguments, source, written));

@@ -14,7 +14,7 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr std::int64_t kDefaultTop = 24;
+constexpr std::int64_t kTunnelsShown = 24;
 
 Json handle_json(const Handle& handle, const VolumeInfo& info) {
     Json json{{"opens", info.calibration.reported(handle.opens)}, {"closes", info.calibration.reported(handle.closes)}};
@@ -73,7 +73,7 @@ std::vector<Handle> find_handles(const Arguments& arguments, Source& source, Ter
     return pair_handles_exactly(source.volume(), analysis, {.min_persistence = min, .event = event}, source.context());
 }
 
-void check_arguments(const Arguments& arguments) {
+void check_handles_arguments(const Arguments& arguments) {
     if (!arguments.exact && !arguments.objects.empty())
         throw Error(ErrorKind::usage, {.what = "--object applies to exact pairs only", .next = "add --exact"});
     if (arguments.objects.size() > 1) throw Error(ErrorKind::usage, {.what = "one object at a time", .next = "give --object once"});
@@ -84,11 +84,11 @@ void check_arguments(const Arguments& arguments) {
 }  // namespace
 
 int run_handles(const Arguments& arguments, Terminal& terminal) {
-    check_arguments(arguments);
+    check_handles_arguments(arguments);
     Source source(arguments, terminal);
     const std::vector<Handle> handles = find_handles(arguments, source, terminal);
     const auto all = static_cast<std::int64_t>(handles.size());
-    const std::int64_t top = arguments.top > 0 ? arguments.top : kDefaultTop, shown = std::min(all, top);
+    const std::int64_t top = arguments.top > 0 ? arguments.top : kTunnelsShown, shown = std::min(all, top);
     if (!arguments.json) {
         print_text(terminal, source, handles, arguments.exact, shown);
         return 0;

@@ -78,7 +78,7 @@ Labels label_zones(const Arguments& arguments, Source& source, Terminal& termina
 
 bool chooses(const Arguments& arguments) { return !arguments.objects.empty() || arguments.top > 0; }
 
-void check_arguments(const Arguments& arguments) {
+void check_label_arguments(const Arguments& arguments) {
     check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif"});
     const auto contradict = [](const std::string& one, const std::string& other) {
         throw Error(ErrorKind::usage, {.what = one + " and " + other + " contradict each other", .next = "isoatlas label --help"});
@@ -175,7 +175,7 @@ int label_chosen(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 int run_label(const Arguments& arguments, Terminal& terminal) {
-    check_arguments(arguments);
+    check_label_arguments(arguments);
     if (chooses(arguments)) return label_chosen(arguments, terminal);
     Source source(arguments, terminal);
     const Labels labels = arguments.zones      ? label_zones(arguments, source, terminal)

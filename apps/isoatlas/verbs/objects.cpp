@@ -21,7 +21,7 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr std::int64_t kDefaultTop = 24;
+constexpr std::int64_t kObjectsShown = 24;
 
 std::string extract_command(const Arguments& arguments, const std::string& reference) {
     return fmt::format("isoatlas extract {}{} --object {} -o object.ply", shell_word(arguments.file), reading_options(arguments),
@@ -159,7 +159,7 @@ int list_best(const Arguments& arguments, Terminal& terminal) {
         throw Error(ErrorKind::usage, {.what = "--all and a selection contradict each other", .next = "isoatlas objects --help"});
     if (!arguments.curve.empty()) check_output(arguments, arguments.curve, {".csv", ".svg", ".json"});
     Source source(arguments, terminal);
-    const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kDefaultTop;
+    const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.all ? 0 : kObjectsShown;
     RankOptions options{.top = top, .gate = !arguments.all};
     if (arguments.selects) {
         options.selection = source.selection();

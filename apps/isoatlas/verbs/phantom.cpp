@@ -29,7 +29,7 @@ void list(const Arguments& arguments, Terminal& terminal) {
     terminal.next(fmt::format("isoatlas phantom {0} -o {0}.nrrd", known.at(0).name));
 }
 
-void check_arguments(const Arguments& arguments) {
+void check_phantom_arguments(const Arguments& arguments) {
     if (arguments.file.empty()) throw Error(ErrorKind::usage, {.what = "which phantom?", .next = "isoatlas phantom --list"});
     if (arguments.output.empty()) {
         throw Error(ErrorKind::usage, {.what = "no output file", .expected = "-o FILE", .next = "add -o " + arguments.file + ".nrrd"});
@@ -46,7 +46,7 @@ int run_phantom(const Arguments& arguments, Terminal& terminal) {
         list(arguments, terminal);
         return 0;
     }
-    check_arguments(arguments);
+    check_phantom_arguments(arguments);
     const Volume volume = make_phantom(arguments.file, arguments.phantom);
     {
         const WritingGuard guard;

@@ -15,7 +15,7 @@ namespace isoatlas {
 
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
+constexpr std::size_t kTextBytes = std::size_t{1} << 16;
 
 constexpr signed char kBlank = -1, kPadding = -2, kEnd = -3, kBad = -4;
 
@@ -32,7 +32,7 @@ constexpr std::array<signed char, 256> kCodes = [] {
 class Base64Source final : public ByteSource {
 public:
     Base64Source(std::unique_ptr<File> file, const std::string& path, std::int64_t begin, std::int64_t end)
-        : path_(path), file_(std::move(file)), begin_(begin), end_(std::min(end, file_->size())), next_(begin), text_(kBufferBytes) {}
+        : path_(path), file_(std::move(file)), begin_(begin), end_(std::min(end, file_->size())), next_(begin), text_(kTextBytes) {}
 
     void read(std::span<std::byte> out) override {
         while (!out.empty()) {
@@ -92,7 +92,7 @@ private:
     /// Ensures decoded bytes by decoding the next piece of text if necessary. False at the end.
     bool decode_more() {
         while (ready_.empty() && next_ < end_) {
-            const auto wanted = static_cast<std::size_t>(std::min<std::int64_t>(end_ - next_, kBufferBytes));
+            const auto wanted = static_cast<std::size_t>(std::min<std::int64_t>(end_ - next_, kTextBytes));
             read_fully(*file_, path_, next_, std::span(text_).first(wanted));
             next_ += static_cast<std::int64_t>(wanted);
             decode({reinterpret_cast<const char*>(text_.data()), wanted});

@@ -8,14 +8,14 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
-constexpr std::size_t kMaxPerCall = std::size_t{1} << 30;  // zlib counts in 32 bits
+constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::size_t kMaxPerBlock = std::size_t{1} << 30;  // zlib counts in 32 bits
 
 std::string reason(int status) { return status == Z_BUF_ERROR ? "it ends early" : zError(status); }
 
 }  // namespace
 
-BlockInflater::BlockInflater() : buffer_(kBufferBytes) {
+BlockInflater::BlockInflater() : buffer_(kBlockBytes) {
     if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
 }
 
@@ -57,13 +57,13 @@ std::string BlockInflater::finish(ByteSource& source) {
 /// One call of zlib. count: bytes it produced. Returns Z_BUF_ERROR when the block has no more bytes.
 int BlockInflater::inflate_some(ByteSource& source, std::span<std::byte> out, std::size_t& count) {
     if (stream_.avail_in == 0 && unread_ > 0) {
-        const auto bytes = static_cast<std::size_t>(std::min<std::int64_t>(unread_, kBufferBytes));
+        const auto bytes = static_cast<std::size_t>(std::min<std::int64_t>(unread_, kBlockBytes));
         source.read(std::span(buffer_).first(bytes));
         unread_ -= static_cast<std::int64_t>(bytes);
         stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
         stream_.avail_in = static_cast<uInt>(bytes);
     }
-    const std::size_t room = std::min(out.size(), kMaxPerCall);
+    const std::size_t room = std::min(out.size(), kMaxPerBlock);
     stream_.next_out = reinterpret_cast<Bytef*>(out.data());
     stream_.avail_out = static_cast<uInt>(room);
     const int status = inflate(&stream_, Z_NO_FLUSH);

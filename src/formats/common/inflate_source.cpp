@@ -13,7 +13,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMaximalRatio = 1032;  // zlib's documentation: the limit of the deflate format
-constexpr std::int64_t kBufferBytes = 256 * 1024;
+constexpr std::int64_t kStreamBytes = 256 * 1024;
 constexpr std::size_t kMaxPerCall = 1U << 30;  // zlib counts in 32 bits
 constexpr int kDetectGzipOrZlib = 15 + 32;     // windowBits: largest window, the stream's header decides
 
@@ -39,7 +39,7 @@ public:
         }
         begin_ = offset;
         end_ = length < 0 ? file_bytes : offset + length;
-        buffer_.resize(static_cast<std::size_t>(std::min(kBufferBytes, end_ - begin_)));
+        buffer_.resize(static_cast<std::size_t>(std::min(kStreamBytes, end_ - begin_)));
         if (inflateInit2(&stream_, kDetectGzipOrZlib) != Z_OK) out_of_memory();
         restart();
     }

@@ -14,12 +14,12 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kMaxTags = std::size_t{16} << 20;
-constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+constexpr std::size_t kXmlBytes = std::size_t{1} << 18;
 
 /// Sequential characters of a file, with a fast search.
 class Characters {
 public:
-    Characters(std::unique_ptr<File> file, const std::string& path) : path_(path), file_(std::move(file)), buffer_(kBufferBytes) {}
+    Characters(std::unique_ptr<File> file, const std::string& path) : path_(path), file_(std::move(file)), buffer_(kXmlBytes) {}
 
     /// The next character, or nullopt at the end of the file.
     [[nodiscard]] std::optional<char> next() {

@@ -24,7 +24,7 @@ struct Chunks {
     std::string_view json, binary;
 };
 
-[[noreturn]] void fail(const std::string& file, std::string what, std::string where = {}) {
+[[noreturn]] void fail_glb(const std::string& file, std::string what, std::string where = {}) {
     throw Error(ErrorKind::input, {.file = file, .where = std::move(where), .what = std::move(what), .next = kDamagedFile});
 }
 
@@ -128,7 +128,7 @@ private:
     const Json& item(const char* list, std::size_t index) {
         const auto found = document_.find(list);
         if (found == document_.end() || !found->is_array() || index >= found->size()) {
-            fail(file_, "refers to " + std::string(list) + "[" + std::to_string(index) + "], which does not exist");
+            fail_glb(file_, "refers to " + std::string(list) + "[" + std::to_string(index) + "], which does not exist");
         }
         return (*found)[index];
     }
@@ -136,7 +136,7 @@ private:
     std::size_t size_at(const Json& object, const char* key, std::optional<std::size_t> otherwise) {
         const auto found = object.find(key);
         if (found == object.end() && otherwise) return *otherwise;
-        if (found == object.end() || !found->is_number_unsigned()) fail(file_, "a number is missing or wrong", key);
+        if (found == object.end() || !found->is_number_unsigned()) fail_glb(file_, "a number is missing or wrong", key);
         return found->get<std::size_t>();
     }
 
@@ -153,7 +153,7 @@ private:
             stack.pop_back();
             const Json& node = item("nodes", visit.node);
             seen.resize(document_["nodes"].size());
-            if (seen[visit.node]) fail(file_, "a node has two parents", "nodes[" + std::to_string(visit.node) + "]");
+            if (seen[visit.node]) fail_glb(file_, "a node has two parents", "nodes[" + std::to_string(visit.node) + "]");
             seen[visit.node] = true;
             const bool is_frame = is_volume_frame(node);
             const Matrix transform = is_frame ? visit.transform : product(visit.transform, local_transform(node));
@@ -261,7 +261,7 @@ private:
             if (view.component == 5121) index = in.number<std::uint8_t>(false, "an index");
             if (view.component == 5123) index = in.number<std::uint16_t>(false, "an index");
             if (view.component == 5125) index = in.number<std::uint32_t>(false, "an index");
-            if (index >= points) fail(file_, "a triangle names point " + std::to_string(index) + " of " + std::to_string(points));
+            if (index >= points) fail_glb(file_, "a triangle names point " + std::to_string(index) + " of " + std::to_string(points));
             corners.push_back(static_cast<std::int64_t>(first + index));
         }
         return corners;
@@ -270,18 +270,19 @@ private:
         const Json& accessor = item("accessors", index);
         const std::string where = "accessors[" + std::to_string(index) + "]";
         if (accessor.contains("sparse") || !accessor.contains("bufferView")) fail_unsupported(file_, where + " is sparse");
-        if (accessor.at("type").get<std::string>() != type) fail(file_, "is not of type " + std::string(type), where);
+        if (accessor.at("type").get<std::string>() != type) fail_glb(file_, "is not of type " + std::string(type), where);
         const Json& view = item("bufferViews", size_at(accessor, "bufferView", {}));
         if (item("buffers", size_at(view, "buffer", {})).contains("uri")) fail_unsupported(file_, "external data files are not supported");
         const std::size_t begin = size_at(view, "byteOffset", 0), length = size_at(view, "byteLength", {});
-        if (begin > chunks_.binary.size() || length > chunks_.binary.size() - begin) fail(file_, "its data lie outside the file", where);
+        if (begin > chunks_.binary.size() || length > chunks_.binary.size() - begin)
+            fail_glb(file_, "its data lie outside the file", where);
         const int component = accessor.at("componentType").get<int>();
         const std::size_t bytes = component_bytes(component, where) * (std::string_view(type) == "VEC3" ? 3 : 1);
         const std::size_t stride = size_at(view, "byteStride", bytes), count = size_at(accessor, "count", {});
         const std::size_t offset = size_at(accessor, "byteOffset", 0);
-        if (stride < bytes) fail(file_, "its elements overlap", where);
+        if (stride < bytes) fail_glb(file_, "its elements overlap", where);
         const bool fits = count == 0 || (offset <= length && bytes <= length - offset && count - 1 <= (length - offset - bytes) / stride);
-        if (!fits) fail(file_, "claims " + std::to_string(count) + " elements, more than its data holds", where);
+        if (!fits) fail_glb(file_, "claims " + std::to_string(count) + " elements, more than its data holds", where);
         if (count > budget_) fail_unsupported(file_, "its nodes repeat the same mesh too often");
         budget_ -= count;
         return {count == 0 ? std::string_view() : chunks_.binary.substr(begin + offset, length - offset), stride, count, component};
@@ -292,7 +293,7 @@ private:
             case 5123: return 2;
             case 5125:
             case 5126: return 4;
-            default: fail(file_, "has the component type " + std::to_string(component), where);
+            default: fail_glb(file_, "has the component type " + std::to_string(component), where);
         }
     }
 
@@ -311,7 +312,7 @@ Mesh parse_glb(std::string_view bytes, const std::string& file) {
     try {
         return parser.parse();
     } catch (const Json::exception& error) {
-        fail(file, std::string("the JSON of the file is damaged: ") + error.what());
+        fail_glb(file, std::string("the JSON of the file is damaged: ") + error.what());
     }
 }
 

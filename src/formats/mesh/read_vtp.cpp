@@ -10,7 +10,7 @@ namespace isoatlas {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& file, std::string what, std::string where = {}) {
+[[noreturn]] void fail_vtp(const std::string& file, std::string what, std::string where = {}) {
     throw Error(ErrorKind::input, {.file = file, .where = std::move(where), .what = std::move(what), .next = kDamagedFile});
 }
 
@@ -29,7 +29,7 @@ pugi::xml_node array_named(const pugi::xml_node& parent, const char* name) {
 
 std::vector<std::int64_t> integers(const pugi::xml_node& element, VtkArrays& arrays) {
     VtkValues values = arrays.read(element);
-    if (values.is_real) fail(arrays.file.path, "cells are numbered with floating-point numbers");
+    if (values.is_real) fail_vtp(arrays.file.path, "cells are numbered with floating-point numbers");
     return std::move(values.integers);
 }
 
@@ -37,7 +37,7 @@ std::vector<std::int64_t> integers(const pugi::xml_node& element, VtkArrays& arr
 std::size_t read_points(const pugi::xml_node& piece, VtkArrays& arrays, Mesh& mesh) {
     const pugi::xml_node element = piece.child("Points").child("DataArray");
     if (!element) {
-        if (piece.attribute("NumberOfPoints").as_llong() != 0) fail(arrays.file.path, "a piece without its points");
+        if (piece.attribute("NumberOfPoints").as_llong() != 0) fail_vtp(arrays.file.path, "a piece without its points");
         return 0;
     }
     const VtkValues values = arrays.read(element);
@@ -45,8 +45,8 @@ std::size_t read_points(const pugi::xml_node& piece, VtkArrays& arrays, Mesh& me
     std::uint64_t promised = 0;
     if (!parse_number(std::string_view(piece.attribute("NumberOfPoints").as_string()), promised) || promised != count ||
         values.size() % 3 != 0) {
-        fail(arrays.file.path, "a piece promises " + in_quotes(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
-                                   std::to_string(values.size()) + " coordinates");
+        fail_vtp(arrays.file.path, "a piece promises " + in_quotes(piece.attribute("NumberOfPoints").as_string()) + " points and holds " +
+                                       std::to_string(values.size()) + " coordinates");
     }
     const auto coordinate = [&](std::size_t i) { return values.is_real ? values.reals[i] : static_cast<double>(values.integers[i]); };
     for (std::size_t i = 0; i < count; ++i) mesh.points.push_back({coordinate(3 * i), coordinate(3 * i + 1), coordinate(3 * i + 2)});
@@ -63,12 +63,12 @@ void read_cells(const pugi::xml_node& cells, VtkArrays& arrays, std::size_t firs
     std::int64_t begin = 0;
     for (const std::int64_t end : offsets) {
         if (end < begin || end > static_cast<std::int64_t>(connectivity.size()))
-            fail(arrays.file.path, "the cell offsets do not ascend within the connectivity");
+            fail_vtp(arrays.file.path, "the cell offsets do not ascend within the connectivity");
         corners.clear();
         for (std::int64_t i = begin; i < end; ++i) {
             const std::int64_t point = connectivity[static_cast<std::size_t>(i)];
             if (point < 0 || point >= static_cast<std::int64_t>(points)) {
-                fail(arrays.file.path, "a cell names point " + std::to_string(point) + ", which its piece does not have");
+                fail_vtp(arrays.file.path, "a cell names point " + std::to_string(point) + ", which its piece does not have");
             }
             corners.push_back(point + static_cast<std::int64_t>(first_point));
         }
@@ -119,7 +119,7 @@ Mesh parse_vtp(std::string_view bytes, const std::string& file) {
     const auto open = [bytes] { return open_bytes(bytes); };
     const VtkXml xml = read_vtk_xml(open(), file);
     if (std::string_view(xml.root().name()) != "VTKFile" || vtk_attribute(xml.root(), "type") != "PolyData") {
-        fail(file, "not a VTK file of PolyData");
+        fail_vtp(file, "not a VTK file of PolyData");
     }
     VtkArrays arrays{describe_vtk_file(xml, file, open), 0};
     arrays.budget = static_cast<std::int64_t>(bytes.size() * (arrays.file.compressed ? 1032 : 1));  // deflate cannot do better

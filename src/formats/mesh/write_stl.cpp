@@ -12,12 +12,12 @@ namespace isoatlas {
 
 namespace {
 
-using Point = std::array<double, 3>;
+using Corner = std::array<double, 3>;
 
 /// Unit normal of the stored triangle; zero for a degenerate one, as the format requires.
-std::array<float, 3> facet_normal(const Point& a, const Point& b, const Point& c) {
-    const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+std::array<float, 3> facet_normal(const Corner& a, const Corner& b, const Corner& c) {
+    const Corner u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const Corner n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     const double length = std::hypot(n[0], n[1], n[2]);
     if (!(length > 0)) return {0, 0, 0};
     return to_float({n[0] / length, n[1] / length, n[2] / length});

@@ -46,7 +46,7 @@ Plot plot_of(const VolumeInfo& info, const SelectionCurve& curve) {
     return plot;
 }
 
-std::string checked_extension(const std::string& path) {
+std::string curves_extension(const std::string& path) {
     return known_extension(path, {".json", ".csv", ".svg"}, {"the format of the curves", "format of curves", ".csv, .svg or .json"});
 }
 
@@ -95,14 +95,14 @@ void write_curves_svg(Sink& sink, const VolumeInfo& info, const std::vector<Sele
 }
 
 void write_curves(Sink& sink, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
-    const std::string extension = checked_extension(sink.name());
+    const std::string extension = curves_extension(sink.name());
     if (extension == ".json") return write_curves_json(sink, info, curves);
     if (extension == ".csv") return write_curves_csv(sink, info, curves);
     write_curves_svg(sink, info, curves);
 }
 
 void write_curves(const std::string& path, const VolumeInfo& info, const std::vector<SelectionCurve>& curves) {
-    (void)checked_extension(path);
+    (void)curves_extension(path);
     AtomicFile file(path);
     write_curves(file, info, curves);
     file.commit();

@@ -123,7 +123,7 @@ void write_vtu(Sink& sink, const SimplifiedTree& tree) {
     graph.write(sink, tree.info, connectivity_of(tree));
 }
 
-std::string checked_extension(const std::string& path) {
+std::string simplified_extension(const std::string& path) {
     return known_extension(path, {".json", ".graphml", ".csv", ".vtu"},
                            {"the format of the tree", "format of a tree", ".json, .graphml, .csv or .vtu"});
 }
@@ -131,7 +131,7 @@ std::string checked_extension(const std::string& path) {
 }  // namespace
 
 void write_simplified_tree(Sink& sink, const SimplifiedTree& tree) {
-    const std::string extension = checked_extension(sink.name());
+    const std::string extension = simplified_extension(sink.name());
     if (extension == ".vtu") return write_vtu(sink, tree);
     if (extension == ".json") return write_json(tree, output_to(sink));
     ByteWriter out(sink);
@@ -139,7 +139,7 @@ void write_simplified_tree(Sink& sink, const SimplifiedTree& tree) {
 }
 
 void write_simplified_tree(const std::string& path, const SimplifiedTree& tree) {
-    (void)checked_extension(path);
+    (void)simplified_extension(path);
     AtomicFile file(path);
     write_simplified_tree(file, tree);
     file.commit();

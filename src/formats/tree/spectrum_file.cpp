@@ -59,7 +59,7 @@ void put_advice(JsonStream& json, const VolumeInfo& info, const Spectrum& spectr
     json.line().end_array();
 }
 
-std::string checked_extension(const std::string& path) {
+std::string spectrum_extension(const std::string& path) {
     return known_extension(path, {".json", ".csv", ".svg"}, {"the format of the spectrum", "format of a spectrum", ".csv, .svg or .json"});
 }
 
@@ -80,14 +80,14 @@ void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& inf
 }
 
 void write_spectrum(Sink& sink, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
-    const std::string extension = checked_extension(sink.name());
+    const std::string extension = spectrum_extension(sink.name());
     if (extension == ".csv") return write_spectrum_csv(sink, info, spectrum);
     if (extension == ".svg") return write_spectrum_svg(sink, info, spectrum);
     write_spectrum_json(output_to(sink), info, spectrum, options);
 }
 
 void write_spectrum(const std::string& path, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
-    (void)checked_extension(path);
+    (void)spectrum_extension(path);
     AtomicFile file(path);
     write_spectrum(file, info, spectrum, options);
     file.commit();

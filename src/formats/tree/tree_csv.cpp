@@ -6,7 +6,7 @@ namespace isoatlas {
 
 namespace {
 
-void put_events(ByteWriter& out, const TreeView& tree) {
+void put_event_rows(ByteWriter& out, const TreeView& tree) {
     const CsvTable table(
         out, tree.connectivity(),
         "id,value,x,y,z,kind,parent,children,objects_in,lows_out,delta_chi,tau_low,tau_high,voxels,chi,b1,b2,object_voxels,contours,"
@@ -45,7 +45,7 @@ void put_elements(ByteWriter& out, const TreeView& tree) {
     }
 }
 
-void put_contours(ByteWriter& out, const TreeView& tree) {
+void put_contour_rows(ByteWriter& out, const TreeView& tree) {
     const CsvTable table(out, tree.connectivity(), "id,upper,lower,tau_high,tau_low,genus");
     for (std::int64_t id = 0; id < tree.analysis.contour_arc_count(); ++id) {
         const ContourArc arc = tree.analysis.contour_arc(id);
@@ -60,10 +60,10 @@ void put_contours(ByteWriter& out, const TreeView& tree) {
 void write_tree_csv(Sink& sink, const TreeView& tree) {
     ByteWriter out(sink);
     switch (tree.options.detail) {
-        case TreeDetail::events: put_events(out, tree); break;
+        case TreeDetail::events: put_event_rows(out, tree); break;
         case TreeDetail::levels: put_levels(out, tree); break;
         case TreeDetail::elements: put_elements(out, tree); break;
-        case TreeDetail::contours: put_contours(out, tree); break;
+        case TreeDetail::contours: put_contour_rows(out, tree); break;
     }
     out.finish();
 }

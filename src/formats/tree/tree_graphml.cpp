@@ -21,7 +21,7 @@ constexpr std::array kContourKeys{GraphmlKey{"value", "double", "node"},   Graph
                                   GraphmlKey{"id", "long", "edge"},        GraphmlKey{"tau_high", "double", "edge"},
                                   GraphmlKey{"tau_low", "double", "edge"}, GraphmlKey{"genus", "long", "edge"}};
 
-void put_events(ByteWriter& out, const TreeView& tree) {
+void put_event_nodes(ByteWriter& out, const TreeView& tree) {
     visit_events(tree, [&](const Event& e, std::span<const GenusCount> genera) {
         begin_node(out, e.id.number());
         put(out, "value", tree.reported(e.value));
@@ -52,7 +52,7 @@ void put_events(ByteWriter& out, const TreeView& tree) {
 }
 
 /// The node after the last element is the outside of the volume.
-void put_contours(ByteWriter& out, const TreeView& tree) {
+void put_contour_nodes(ByteWriter& out, const TreeView& tree) {
     for (const ElementId id : ids<ElementId>(tree.analysis.element_count())) {
         const Element e = tree.analysis.element(id);
         begin_node(out, id.number());
@@ -82,7 +82,7 @@ void write_tree_graphml(Sink& sink, const TreeView& tree) {
     ByteWriter out(sink);
     const std::span<const GraphmlKey> keys = events ? std::span<const GraphmlKey>(kEventKeys) : kContourKeys;
     begin_graphml(out, keys, events ? "criticality_tree" : "contour_tree", "isoatlas/tree/1", tree.connectivity());
-    events ? put_events(out, tree) : put_contours(out, tree);
+    events ? put_event_nodes(out, tree) : put_contour_nodes(out, tree);
     end_graphml(out);
 }
 

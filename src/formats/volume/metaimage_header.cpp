@@ -23,7 +23,7 @@ std::pair<std::string, std::string> split_field(std::string_view line) {
     return {lower(trim(line.substr(0, at))), std::string(trim(line.substr(at + 1)))};
 }
 
-std::optional<std::size_t> find_header_end(std::string_view text) {
+std::optional<std::size_t> end_of_metaimage_header(std::string_view text) {
     for (std::size_t begin = 0; begin < text.size();) {
         const bool complete = text.find('\n', begin) != std::string_view::npos;
         const auto [name, value] = split_field(take_line(text, begin));
@@ -144,7 +144,7 @@ std::vector<double> MetaHeader::numbers(const std::string& field, std::size_t co
 }
 
 MetaHeader read_metaimage_header(const std::string& path) {
-    const HeaderText source = read_header_text(path, find_header_end);
+    const HeaderText source = read_header_text(path, end_of_metaimage_header);
     MetaHeader header;
     header.path = path;
     header.data_offset = source.end;

@@ -137,7 +137,7 @@ std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std
     return static_cast<std::int64_t>(offset);
 }
 
-NiftiHeader read_header(const std::string& path) {
+NiftiHeader read_nifti_header(const std::string& path) {
     const std::vector<std::byte> bytes = header_bytes(path);
     const NiftiKind kind = nifti_kind(bytes);
     if (kind == NiftiKind::analyze && bytes.size() >= static_cast<std::size_t>(kNifti1HeaderBytes)) {
@@ -190,7 +190,7 @@ bool looks_like_nifti(FirstBytes first, const std::string& path) {
 
 std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOptions& options) {
     const std::string header_path = partner(path, ".img", ".hdr") ? find_partner(path, ".img", ".hdr") : path;
-    const NiftiHeader header = read_header(header_path);
+    const NiftiHeader header = read_nifti_header(header_path);
     const std::string data_path = !header.pair ? header_path : header_path == path ? find_partner(path, ".hdr", ".img") : path;
     if (!options.follow_links && data_path != header_path) require_own_folder(path, data_path == path ? header_path : data_path);
     if (header.pair && data_path == header_path) {

@@ -12,9 +12,9 @@ namespace isoatlas {
 namespace {
 
 /// Numbers at byte offsets, swapped when the file has the other byte order.
-class Fields {
+class FieldReader {
 public:
-    Fields(std::span<const std::byte> bytes, bool big_endian) : bytes_(bytes), swap_(needs_swap(big_endian)) {}
+    FieldReader(std::span<const std::byte> bytes, bool big_endian) : bytes_(bytes), swap_(needs_swap(big_endian)) {}
 
     template <class T>
     [[nodiscard]] T at(std::size_t offset) const {
@@ -45,17 +45,17 @@ std::string_view characters(std::span<const std::byte> bytes, std::size_t offset
 }
 
 std::int32_t size_field(std::span<const std::byte> bytes, bool big_endian) {
-    return bytes.size() < 4 ? 0 : Fields(bytes, big_endian).at<std::int32_t>(0);
+    return bytes.size() < 4 ? 0 : FieldReader(bytes, big_endian).at<std::int32_t>(0);
 }
 
 template <class Float>
-void take_geometry(const Fields& fields, std::size_t quaternion, std::size_t rows, NiftiHeader& header) {
+void take_geometry(const FieldReader& fields, std::size_t quaternion, std::size_t rows, NiftiHeader& header) {
     fields.take<Float>(quaternion, header.quaternion);
     fields.take<Float>(quaternion + 3 * sizeof(Float), header.offset);
     for (std::size_t row = 0; row < 3; ++row) fields.take<Float>(rows + row * 4 * sizeof(Float), header.rows[row]);
 }
 
-NiftiHeader decode_1(const Fields& fields) {
+NiftiHeader decode_1(const FieldReader& fields) {
     NiftiHeader header;
     fields.take<std::int16_t>(40, header.dim);
     header.datatype = fields.at<std::int16_t>(70);
@@ -72,7 +72,7 @@ NiftiHeader decode_1(const Fields& fields) {
     return header;
 }
 
-NiftiHeader decode_2(const Fields& fields) {
+NiftiHeader decode_2(const FieldReader& fields) {
     NiftiHeader header;
     header.version = 2;
     header.datatype = fields.at<std::int16_t>(12);
@@ -107,7 +107,7 @@ NiftiHeader decode_nifti(std::span<const std::byte> bytes, NiftiKind kind) {
     const bool two = kind == NiftiKind::nifti2;
     const std::int64_t size = two ? kNifti2HeaderBytes : kNifti1HeaderBytes;
     const bool big_endian = size_field(bytes, true) == size;
-    const Fields fields(bytes, big_endian);
+    const FieldReader fields(bytes, big_endian);
     NiftiHeader header = two ? decode_2(fields) : decode_1(fields);
     header.big_endian = big_endian;
     header.pair = characters(bytes, two ? 4 : 344, 2) == "ni";

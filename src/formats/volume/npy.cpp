@@ -94,7 +94,7 @@ std::vector<std::int64_t> parse_shape(const std::string& path, std::string_view 
     return shape;
 }
 
-NpyHeader read_header(const std::string& path) {
+NpyHeader read_npy_header(const std::string& path) {
     NpyHeader header;
     header.path = path;
     const std::string dictionary = header_dictionary(path, header.data_offset);
@@ -155,7 +155,7 @@ bool looks_like_npy(FirstBytes first, const std::string&) {
 }
 
 std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOptions& options) {
-    const NpyHeader header = read_header(path);
+    const NpyHeader header = read_npy_header(path);
     VolumeInfo info;
     info.path = path;
     info.format = "NumPy";

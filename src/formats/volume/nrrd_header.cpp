@@ -51,7 +51,7 @@ std::string canonical(std::string_view name) {
     return {};
 }
 
-std::optional<std::size_t> find_header_end(std::string_view text) {
+std::optional<std::size_t> end_of_nrrd_header(std::string_view text) {
     for (std::size_t begin = 0; begin < text.size();) {
         const bool complete = text.find('\n', begin) != std::string_view::npos;
         if (take_line(text, begin).empty() && complete) return begin;
@@ -198,7 +198,7 @@ std::vector<std::string> NrrdHeader::words(const std::string& field, std::size_t
 }
 
 NrrdHeader read_nrrd_header(const std::string& path) {
-    const HeaderText source = read_header_text(path, find_header_end);
+    const HeaderText source = read_header_text(path, end_of_nrrd_header);
     NrrdHeader header;
     header.path = path;
     header.data_offset = source.end;

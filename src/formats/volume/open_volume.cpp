@@ -21,19 +21,19 @@ constexpr const char* kSupported =
     "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti), TIFF (.tif), a folder of slices, "
     "RAW";
 
-struct Format {
+struct ReadFormat {
     const char* name;
     const char* extensions;  ///< separated by blanks
     bool (*looks_like)(FirstBytes, const std::string&);
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<Format, 6> kFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
-                                             {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
-                                             {"NumPy", ".npy", looks_like_npy, open_npy},
-                                             {"VTK image", ".vti", looks_like_vti, open_vti},
-                                             {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
-                                             {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage}}};
+constexpr std::array<ReadFormat, 6> kReadFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
+                                                     {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
+                                                     {"NumPy", ".npy", looks_like_npy, open_npy},
+                                                     {"VTK image", ".vti", looks_like_vti, open_vti},
+                                                     {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
+                                                     {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage}}};
 
 /// Common formats that isoatlas does not read, and how to convert them.
 constexpr std::array<std::pair<std::string_view, const char*>, 14> kForeign = {
@@ -52,7 +52,7 @@ constexpr std::array<std::pair<std::string_view, const char*>, 14> kForeign = {
      {".npz", "save the array by itself: numpy.save"},
      {".zip", "unpack the archive and give the file inside"}}};
 
-bool has_extension(const std::string& path, const Format& format) {
+bool has_extension(const std::string& path, const ReadFormat& format) {
     const std::vector<std::string_view> extensions = split_words(format.extensions);
     return std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
 }
@@ -80,7 +80,7 @@ bool has_extension(const std::string& path, const Format& format) {
 }
 
 [[noreturn]] void unknown_format(const std::string& path) {
-    for (const Format& format : kFormats) {
+    for (const ReadFormat& format : kReadFormats) {
         if (!has_extension(path, format)) continue;
         throw Error(ErrorKind::input, {.file = path,
                                        .where = "first bytes",
@@ -101,7 +101,7 @@ bool has_extension(const std::string& path, const Format& format) {
         next = hint;
         if (reason == Reason::unknown_format) reason = Reason::foreign_format;
     }
-    for (const Format& format : kFormats) {
+    for (const ReadFormat& format : kReadFormats) {
         for (const std::string_view known : split_words(format.extensions)) {
             if (extension.size() > 1 && edit_distance(extension, known) == 1) nearest = known;
         }
@@ -149,7 +149,7 @@ std::unique_ptr<VolumeReader> open_file_volume(const std::string& path, const Op
     if (start.bytes.empty()) {
         throw Error(ErrorKind::input, {.file = path, .what = "the file is empty", .expected = "a volume", .next = "get the file again"});
     }
-    for (const Format& format : kFormats) {
+    for (const ReadFormat& format : kReadFormats) {
         if (!format.looks_like(start.bytes, path)) continue;
         if (start.gzipped && format.open != open_nifti) {
             throw Error(ErrorKind::unsupported, {.file = path,

@@ -81,13 +81,13 @@ PageChoice choose_pages(const std::string& path, const TiffDescription& descript
     return {.first = step.index * slices, .stride = 1, .count = slices, .is_image = slices == 1};
 }
 
-double usable(double resolution) { return std::isfinite(resolution) && resolution > 0 ? resolution : 0; }
+double usable_resolution(double resolution) { return std::isfinite(resolution) && resolution > 0 ? resolution : 0; }
 
 }  // namespace
 
 Geometry tiff_geometry(const TiffTags& tags, const TiffDescription& description, std::int64_t slices, std::vector<std::string>& notes) {
     Geometry geometry;
-    const double x = usable(tags.x_resolution), y = usable(tags.y_resolution);
+    const double x = usable_resolution(tags.x_resolution), y = usable_resolution(tags.y_resolution);
     Vec3 spacing = description.spacing;
     geometry.unit = description.unit;
     if (spacing[0] <= 0 && x > 0 && y > 0) {

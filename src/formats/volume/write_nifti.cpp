@@ -21,9 +21,9 @@ constexpr std::size_t kHeader1 = 348, kHeader2 = 540, kExtension = 4;
 constexpr int kScannerSpace = 1, kAlignedSpace = 2;
 
 /// Numbers at byte offsets.
-class Fields {
+class FieldWriter {
 public:
-    explicit Fields(std::size_t bytes) : bytes_(bytes) {}
+    explicit FieldWriter(std::size_t bytes) : bytes_(bytes) {}
     template <class T>
     void set(std::size_t offset, T value) {
         std::memcpy(bytes_.data() + offset, &value, sizeof(T));
@@ -116,14 +116,14 @@ Contents contents_of(const VolumeInfo& info) {
 }
 
 template <class Float>
-void set_rows(Fields& fields, std::size_t offset, const Contents& contents) {
+void set_rows(FieldWriter& fields, std::size_t offset, const Contents& contents) {
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t i = 0; i < 4; ++i) fields.set(offset + (row * 4 + i) * sizeof(Float), static_cast<Float>(contents.rows[row][i]));
     }
 }
 
-Fields header_1(const Contents& contents, ValueType type) {
-    Fields fields(kHeader1 + kExtension);
+FieldWriter header_1(const Contents& contents, ValueType type) {
+    FieldWriter fields(kHeader1 + kExtension);
     fields.set(0, static_cast<std::int32_t>(kHeader1));
     fields.set(38, 'r');  // "regular", as ANALYZE readers expect
     for (std::size_t i = 0; i < 8; ++i) fields.set(40 + 2 * i, static_cast<std::int16_t>(contents.dim[i]));
@@ -146,8 +146,8 @@ Fields header_1(const Contents& contents, ValueType type) {
     return fields;
 }
 
-Fields header_2(const Contents& contents, ValueType type) {
-    Fields fields(kHeader2 + kExtension);
+FieldWriter header_2(const Contents& contents, ValueType type) {
+    FieldWriter fields(kHeader2 + kExtension);
     fields.set(0, static_cast<std::int32_t>(kHeader2));
     fields.text(4, 8, std::string("n+2\0\r\n\032\n", 8));
     fields.set(12, static_cast<std::int16_t>(datatype(type)));
@@ -195,7 +195,7 @@ bool needs_version_2(const Contents& contents) {
 
 void write_nifti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing) {
     const Contents contents = contents_of(info);
-    const Fields header = needs_version_2(contents) ? header_2(contents, info.type) : header_1(contents, info.type);
+    const FieldWriter header = needs_version_2(contents) ? header_2(contents, info.type) : header_1(contents, info.type);
     if (packing == Packing::gzip) {
         GzipStream stream(sink);
         stream.write(header.bytes());

@@ -9,12 +9,12 @@ namespace {
 
 using Writer = void (*)(Sink&, const VolumeInfo&, const SampleFeed&);
 
-struct Format {
+struct WrittenFormat {
     const char* end;
     Writer write;
 };
 
-constexpr Format kFormats[] = {
+constexpr WrittenFormat kWrittenFormats[] = {
     {".nrrd", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nrrd(sink, info, samples, Packing::raw); }},
     {".npy", write_npy},
     {".raw", [](Sink& sink, const VolumeInfo&, const SampleFeed& samples) { write_raw(sink, samples); }},
@@ -33,7 +33,7 @@ Writer checked_writer(const std::string& path, const Volume& volume) {
                                        .what = "the number of samples does not match the extent",
                                        .expected = std::to_string(info.extent.voxels()) + " samples"});
     }
-    for (const Format& format : kFormats) {
+    for (const WrittenFormat& format : kWrittenFormats) {
         if (ends_with_ignoring_case(path, format.end)) return format.write;
     }
     throw Error(ErrorKind::usage, {.file = path,
