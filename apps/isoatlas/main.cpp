@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "data/assume_inputs.h"
 #include "options/arguments.h"
 #include "text/failure.h"
 #include "text/interrupt.h"
@@ -32,13 +33,14 @@ void tell_resources(Terminal& terminal, Clock::time_point start) {
 
 int run(const std::vector<std::string>& words, Terminal& terminal) {
     const Clock::time_point start = Clock::now();
-    const Parsed parsed = parse(words);
-    const Arguments& arguments = parsed.arguments;
+    Parsed parsed = parse(words);
+    Arguments& arguments = parsed.arguments;
     terminal.set_style({.quiet = arguments.quiet, .no_color = arguments.no_color, .verbose = arguments.verbose});
     int code = 0;
     if (!parsed.text.empty()) {
         terminal.out() << parsed.text;
     } else {
+        assume_inputs(arguments, terminal);
         code = find_verb(arguments.verb)->run(arguments, terminal);
     }
     terminal.finish();

@@ -18,6 +18,7 @@
 #include "isoatlas/samples_wanted.h"
 #include "isoatlas/simplify.h"
 #include "isoatlas/surface.h"
+#include "isoatlas/units.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -68,6 +69,8 @@ struct AtlasOptions {
     /// Limit of the memory of samples that no query needs at the moment; the least recently used ones are evicted first. 0: none, what was
     /// read stays. A query that alone needs more gets more until it is done.
     std::int64_t cache_bytes = 0;
+    /// Of Atlas::info(), in memory: what the queries return follows from them, as if the store had been built with them.
+    Corrections corrections{};
 };
 
 /// As CutOptions, with the interpolant of the store.
@@ -79,7 +82,7 @@ struct AtlasCutOptions {
 class Atlas {
 public:
     /// Cost: reads the table of contents and what there is about every brick. Throws Error: input (missing, not a store, damaged),
-    /// unsupported (a later version).
+    /// unsupported (a later version), usage (another spacing for a store of filtered samples).
     explicit Atlas(const std::string& path, const AtlasOptions& options = {});
     Atlas(Atlas&&) noexcept;
     Atlas& operator=(Atlas&&) noexcept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,22 @@
 
 namespace isoatlas {
 
+/// Offers a page of the smoothed volume.
+struct PageSmoothing {
+    double noise_part = 0;  ///< of the noise by the range of values
+    double sigma = 0;       ///< of the filter
+    std::string command{};  ///< that makes the page
+};
+
 struct PageOptions {
-    std::int64_t top = 24;            ///< at most so many pictures of objects
-    std::int64_t top_cavities = 12;   ///< and of cavities
-    std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
-    std::int64_t frames = 12;         ///< of a turntable, 1 to 64
-    std::vector<ObjectName> names{};  ///< that users have given
-    std::string source{};             ///< the file in commands on the page: the volume or the store; empty: the store
+    std::int64_t top = 24;             ///< at most so many pictures of objects
+    std::int64_t top_cavities = 12;    ///< and of cavities
+    std::int64_t picture_size = 256;   ///< pixels of a side, 32 to 1024
+    std::int64_t frames = 12;          ///< of a turntable, 1 to 64
+    std::vector<ObjectName> names{};   ///< that users have given
+    std::string source{};              ///< the file in commands on the page: the volume or the store; empty: the store
+    std::vector<std::string> notes{};  ///< sentences about the volume: what was assumed about its samples
+    std::optional<PageSmoothing> smoothing{};
 };
 
 struct PageReport {

@@ -50,7 +50,7 @@ struct Geometry {
     Mat3 direction{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< column a = unit vector of axis a
     std::array<std::vector<double>, 3> coordinates{};
     std::string space = "unknown";  ///< "LPS", "RAS", "unknown", ...: what the physical axes mean
-    std::string unit;               ///< of lengths: "mm", "um", ...; empty when the file does not say
+    std::string unit;               ///< of lengths: "mm", "µm", ... (unit_name() of units.h); empty when the file does not say
     bool operator==(const Geometry&) const = default;
 };
 [[nodiscard]] Vec3 to_physical(const Geometry& geometry, const Vec3& voxel_position);
@@ -90,6 +90,8 @@ struct VolumeInfo {
     std::vector<std::string> notes;  ///< what the reader chose or ignored, for the user
 };
 
+struct OpenOptions;
+
 /// A volume file being read slab by slab. Not thread safe. The samples come out in host byte order, bit-exact.
 class VolumeReader {
 public:
@@ -103,16 +105,21 @@ public:
 
 protected:
     VolumeInfo info_;
+
+private:
+    friend std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options);  // corrects info_
 };
 
-/// Assumptions about RAW files; contradictions with a header are errors. Unset: read from a JSON sidecar
+/// Assumptions about RAW files; contradictions of the first four with a header are errors. Unset: read from a JSON sidecar
 /// (foo.raw.json or foo.json) or parsed from the name (foo_512x512x512_float32.raw). Also what is allowed in files of any format.
 struct OpenOptions {
     std::optional<std::vector<std::int64_t>> dims;  ///< x y [z]
     std::optional<ValueType> type;
     std::optional<bool> big_endian;
     std::optional<std::int64_t> skip_bytes;
+    /// Instead of what any header or sidecar says, with a note for each change (correct() of units.h).
     std::optional<Vec3> spacing, origin;
+    std::optional<std::string> unit, value_unit;
     bool skip_rest = false;     ///< bytes behind the samples are left out, with a note; unset: they are Error{input}
     bool follow_links = false;  ///< a header may name files outside its folder (absolute paths, "..", links); unset: Error{input}
     std::optional<std::int64_t> time_step;  ///< which volume of a 4D file; unset: a 4D file is an error that names this option

@@ -53,7 +53,8 @@ struct Atlas::Data {
     mutable std::mutex mutex;
     IoCounters reads;
 
-    Data(const std::string& path, const AtlasOptions& options) : store(path), samples(stored_samples(store, options.cache_bytes)) {}
+    Data(const std::string& path, const AtlasOptions& options)
+        : store(path, options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
 
     [[nodiscard]] const Trees& trees_now() const {
         return *trees.get([this] { return std::make_unique<Trees>(analysis_of(store, {})); });

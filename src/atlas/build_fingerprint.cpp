@@ -6,6 +6,7 @@
 #include "formats/volume/read_slabs.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/environment.h"
+#include "isoatlas/units.h"
 #include "store/container.h"
 
 namespace isoatlas {
@@ -43,7 +44,7 @@ void add_geometry(Fingerprint& fingerprint, const Geometry& geometry) {
     for (const Vec3& row : geometry.direction) rows += (rows.empty() ? "" : ", ") + exact_text(row, " ");
     fingerprint.add("direction", rows);
     fingerprint.add("space", geometry.space);
-    fingerprint.add("unit of length", geometry.unit);
+    fingerprint.add(kUnitMember, geometry.unit);
 }
 
 /// Fingerprint of stores of versions 1 and 2, with the members of header_fingerprint().
@@ -140,7 +141,11 @@ std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& vol
         tunnel_height = options.tunnel_height_percent / 100 * (range[1] - range[0]);
     }
     if (contents.fingerprint.members.empty()) return differences_of_old(contents, volume, options, tunnel_height, compare_samples, context);
-    Fingerprint there = contents.fingerprint, here = header_fingerprint(volume.info(), options, tunnel_height);
+    Fingerprint there = contents.fingerprint;
+    for (Fingerprint::Member& member : there.members) {
+        if (member.name == kUnitMember) member.text = unit_name(member.text);  // earlier stores have "um"
+    }
+    const Fingerprint here = header_fingerprint(volume.info(), options, tunnel_height);
     const std::string* samples = contents.fingerprint.find(kSamplesMember);
     there.remove(kSamplesMember), there.remove(kAnalysedMember);
     std::vector<std::string> found = differences(there, here);

@@ -9,6 +9,7 @@
 
 namespace isoatlas {
 
+inline constexpr const char* kUnitMember = "unit of length";
 inline constexpr const char* kSamplesMember = "checksum of the samples";
 inline constexpr const char* kAnalysedMember = "checksum of the samples that are analysed";
 

@@ -156,6 +156,14 @@ void check(const ObjectTable& table, const Container& store) {
     }
 }
 
+/// Physical sizes of a store whose spacing was corrected: as rank_objects() computes them.
+template <class Entry>
+void measure_again(const Container& store, std::vector<Entry>& entries) {
+    if (!store.has_other_steps()) return;
+    const VolumeInfo& info = store.contents().volume;
+    for (Entry& entry : entries) entry.measure = static_cast<double>(entry.voxels) * voxel_measure(info.geometry, info.extent, 0);
+}
+
 }  // namespace
 
 std::vector<PackedArray> object_arrays(const ObjectTable& table) {
@@ -180,6 +188,7 @@ ObjectTable objects_of(const Container& store) {
     check(table, store);
     const Extent& extent = store.contents().volume.extent;
     for (ObjectEntry& entry : table.entries) entry.position = position_of(entry.id, extent);
+    measure_again(store, table.entries);
     return table;
 }
 
@@ -215,6 +224,7 @@ CavityTable cavities_of(const Container& store) {
         if (entry.inside >= 0 && !(table.entries[static_cast<std::size_t>(entry.inside)].best_tau > entry.best_tau)) contradiction(store);
         entry.position = position_of(entry.id, extent);
     }
+    measure_again(store, table.entries);
     return table;
 }
 

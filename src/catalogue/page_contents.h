@@ -69,7 +69,9 @@ struct PageContents {
     SelectionCurve curve;  ///< of hypervolume, thinned
     std::vector<CountColumn> spectrum;
     Histogram histogram;
-    bool exact_tunnels = false;  ///< the pairs of catalogue/longest_tunnels.h
+    std::vector<std::string> notes;          ///< of PageOptions
+    std::optional<PageSmoothing> smoothing;  ///< of PageOptions
+    bool exact_tunnels = false;              ///< the pairs of catalogue/longest_tunnels.h
 };
 
 /// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).

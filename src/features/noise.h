@@ -34,6 +34,11 @@ struct NoiseModel {
 /// median of the finest second difference, to which smooth structure adds nothing. Cost: as above.
 [[nodiscard]] NoiseModel fit_noise(const VolumeView& volume);
 
+/// Median of the second difference along all axes at once, as the standard deviation of independent noise: smooth structure and edges along
+/// an axis leave nothing in it, unlike in estimate_noise(); of correlated noise it sees little. From neighbourhoods on a fixed pattern,
+/// without those that are constant at an end of the range; 0 when there are none. Cost: as above.
+[[nodiscard]] double finest_noise(const VolumeView& volume);
+
 /// How many of first, first + stride, ... are less than end.
 [[nodiscard]] inline std::size_t count_by(std::int64_t first, std::int64_t end, std::int64_t stride) {
     return first < end ? static_cast<std::size_t>((end - first + stride - 1) / stride) : 0;

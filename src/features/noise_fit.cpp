@@ -147,4 +147,9 @@ NoiseModel fit_noise(const VolumeView& volume) {
     return model;
 }
 
+double finest_noise(const VolumeView& volume) {
+    const std::vector<Window> windows = visit_samples(volume, [&](auto samples) { return windows_of(samples, volume.info->extent); });
+    return windows.empty() ? 0 : sigma_of_masks(windows);
+}
+
 }  // namespace isoatlas

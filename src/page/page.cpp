@@ -54,6 +54,8 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
     PageContents contents = page_contents(atlas, overview_of(atlas, context), options, context);
     add_tunnels(contents, atlas, context);
     draw_pictures(contents, atlas, options, context);
+    contents.notes = options.notes;
+    contents.smoothing = options.smoothing;
     std::string json;
     JsonStream stream([&json](std::string_view text) { json += text; });
     write_page_json(stream, atlas, contents, options.source.empty() ? atlas.info().path : options.source);

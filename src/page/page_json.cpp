@@ -5,6 +5,7 @@
 
 #include "formats/common/byte_writer.h"
 #include "isoatlas/shell_word.h"
+#include "isoatlas/units.h"
 #include "isoatlas/version.h"
 #include "page/web_colour.h"
 
@@ -28,9 +29,8 @@ std::string title_of(const std::string& path) {
 
 /// Empty: lengths are in voxels.
 std::string unit_of(const Geometry& geometry) {
-    if (!geometry.unit.empty()) return geometry.unit;
-    const bool voxels = geometry.coordinates[0].empty() && geometry.spacing == Vec3{1, 1, 1};
-    return voxels ? "" : "units";
+    const std::string unit = length_unit_name(geometry);
+    return unit == "voxels" ? "" : unit;
 }
 
 template <class Items, class Of>
@@ -48,6 +48,7 @@ public:
     void write() {
         json_.begin_object().key("schema").value("isoatlas/page/3").key("version").value(ISOATLAS_VERSION).line();
         write_volume();
+        write_notes();
         json_.key("interpolant").value(name_of(atlas_.interpolant()));
         write_counts();
         write_axis();
@@ -94,6 +95,18 @@ private:
         put_value("low", contents_.scale.low);
         put_value("high", contents_.scale.high);
         json_.key("noise").value(scale_.reported_difference(contents_.noise)).end_object().line();
+    }
+
+    void write_notes() {
+        put_array(json_, "notes", contents_.notes, [](const std::string& note) { return note; });
+        json_.key("smoothing");
+        if (!contents_.smoothing) {
+            json_.null().line();
+            return;
+        }
+        const PageSmoothing& smoothing = *contents_.smoothing;
+        json_.begin_object().key("noisePart").value(smoothing.noise_part).key("sigma").value(smoothing.sigma);
+        json_.key("command").value(smoothing.command).end_object().line();
     }
 
     /// Positions of the samples along each axis, relative to the first one.

@@ -65,7 +65,21 @@ bool begins_like_a_store(std::span<const std::byte> first) {
     return same >= kEnough;
 }
 
-Container::Container(const std::string& path) : path_(path), file_(open_file(path)), file_size_(file_->size()) { read_header(); }
+Container::Container(const std::string& path, const Corrections& corrections)
+    : path_(path), file_(open_file(path)), file_size_(file_->size()) {
+    read_header();
+    if (corrections.is_empty()) return;
+    const Geometry before = contents_.volume.geometry;
+    correct(contents_.volume, corrections);
+    const Geometry& now = contents_.volume.geometry;
+    has_other_steps_ = now.spacing != before.spacing || now.coordinates != before.coordinates;
+    if (has_other_steps_ && contents_.volume.gaussian > 0) {
+        throw Error(ErrorKind::usage, {.file = path_,
+                                       .what = "the spacing decides how the samples of this store were filtered",
+                                       .expected = "the spacing of the store",
+                                       .next = "omit the spacing, or build another store from the volume"});
+    }
+}
 
 void Container::damaged(const std::string& where, const std::string& what) const {
     throw Error(ErrorKind::input,

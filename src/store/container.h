@@ -13,6 +13,7 @@
 
 #include "codec/frame.h"
 #include "formats/common/file_access.h"
+#include "isoatlas/units.h"
 #include "store/contents.h"
 
 namespace isoatlas {
@@ -36,13 +37,16 @@ inline constexpr std::size_t kBeginning = kHeaderBytes + 8;
 class Container {
 public:
     /// Reads header and contents. Throws Error: input (missing, not a store, incomplete, damaged), unsupported (a later version).
-    explicit Container(const std::string& path);
+    /// corrections: of contents().volume, in memory.
+    explicit Container(const std::string& path, const Corrections& corrections = {});
 
     [[nodiscard]] const Header& header() const { return header_; }
     [[nodiscard]] const Contents& contents() const { return contents_; }
     /// Version of the format. Values of elements that are recomputed from the samples follow the rules of this version.
     [[nodiscard]] int version() const { return contents_.version; }
     [[nodiscard]] const std::string& path() const { return path_; }
+    /// Were the steps of the grid corrected? Then stored physical sizes are not those of contents().volume.
+    [[nodiscard]] bool has_other_steps() const { return has_other_steps_; }
     [[nodiscard]] std::int64_t file_size() const { return file_size_; }
 
     /// Bytes [first, first + out.size()) of an array whose blocks have checksums. Cost: reads whole blocks.
@@ -94,6 +98,7 @@ private:
     Header header_;
     StoreFrame frame_;  ///< empty before version 3
     Contents contents_;
+    bool has_other_steps_ = false;
 };
 
 }  // namespace isoatlas

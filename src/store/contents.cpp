@@ -7,6 +7,7 @@
 
 #include "isoatlas/error.h"
 #include "isoatlas/text.h"
+#include "isoatlas/units.h"
 
 namespace isoatlas {
 namespace {
@@ -95,7 +96,7 @@ VolumeInfo volume_of(const Json& json) {
     g.direction = json.at("direction").get<Mat3>();
     g.coordinates = json.at("coordinates").get<std::array<std::vector<double>, 3>>();
     g.space = json.at("space").get<std::string>();
-    g.unit = json.at("unit").get<std::string>();
+    g.unit = unit_name(json.at("unit").get<std::string>());  // earlier stores have "um"
     info.calibration.slope = json.at("calibration").at("slope").get<double>();
     info.calibration.intercept = json.at("calibration").at("intercept").get<double>();
     info.value_unit = json.at("value_unit").get<std::string>();

@@ -133,12 +133,12 @@ class Units(CliTest):
         self.assertIn("-100 .. 400", self.run_ok("info", "hu.nii").stdout)
         at = self.run_json("objects", "hu.nii", "--tau", "400")
         self.assertEqual([o["voxels"] for o in at["objects"]], [19])
-        self.assertEqual(at["units"]["measure"], "mm3")
+        self.assertEqual(at["units"]["measure"], "mm³")
         self.assertAlmostEqual(at["objects"][0]["measure"], 19 * 12)
         self.assertEqual(self.run_json("objects", "hu.nii", "--tau", "400", "--voxel")["objects"][0]["measure"], 19)
         self.run_error(6, "objects", "hu.nii", "--tau", "500", says="above")
         self.assertEqual(self.run_json("extract", "hu.nii", "--tau", "150", "-o", "ball.ply")["tau"], 150)
-        self.assertIn("volume [mm3]", self.run_ok("objects", "hu.nii", "--all").stdout)
+        self.assertIn("volume [mm³]", self.run_ok("objects", "hu.nii", "--all").stdout)
         best = self.run_json("objects", "hu.nii", "--all")["objects"][0]
         self.assertTrue(-100 < best["best_tau"] <= 400)
 

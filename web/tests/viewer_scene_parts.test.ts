@@ -171,19 +171,22 @@ describe("measures", () => {
   };
   it("are in units of the file", () => {
     const there = { id: 4, tunnels: 1, cavities: 0, voxels: [10, 12] as [number, number], area: 250, volume: 1234, ...shape };
-    expect(factsOf(there, 4, 50, "mm")).toEqual([
-      ["at 50", "1.23 cm³, 10 to 12 voxels"],
+    expect(factsOf(there, 4, 50, "mm", 110)).toEqual([
+      ["at 50", "about 1.23 cm³, 10 to 12 voxels"],
+      ["enclosed volume", "1.23 cm³"],
       ["area", "2.5 cm²"],
       ["diameters", "2.54 cm by 4 mm"],
       ["sphericity", "0.8123"],
       ["values", "mean 61.25, 50 to 99"],
       ["topology", "1 tunnel, no cavities"],
     ]);
-    expect(factsOf(there, 7, 50, null)[0]?.[1]).toBe("part of a larger object: about 1,230 voxels");
+    expect(factsOf({ ...there, voxels: [12, 12] }, 4, 50, "mm", 110)[0]?.[1]).toBe("1.32 cm³, 12 voxels"); // as on its card
+    expect(factsOf(there, 7, 50, null, 1)[0]?.[1]).toBe("part of a larger object: about 1,230 voxels");
   });
   it("are in voxels and their faces where the file has no unit, as far as they are known", () => {
     const there = { id: 4, tunnels: 1, cavities: 0, voxels: [11, 11] as [number, number], area: 1234.4, volume: 11.2, ...shape };
-    expect(factsOf(there, 4, 50, null).map(([, text]) => text)).toEqual([
+    expect(factsOf(there, 4, 50, null, 1).map(([, text]) => text)).toEqual([
+      "11 voxels",
       "11 voxels",
       "1,234 voxel faces",
       "25.4 voxels by 4 voxels",
@@ -191,11 +194,11 @@ describe("measures", () => {
       "mean 61.25, 50 to 99",
       "1 tunnel, no cavities",
     ]);
-    expect(factsOf({ ...there, feret: { max: 2, min: null, mean: null } }, 4, 50, "mm")[2]?.[1]).toBe("2 mm by flat");
-    expect(factsOf({ ...there, area: 1 }, 4, 50, null)[1]?.[1]).toBe("1 voxel face");
+    expect(factsOf({ ...there, feret: { max: 2, min: null, mean: null } }, 4, 50, "mm", 1)[3]?.[1]).toBe("2 mm by flat");
+    expect(factsOf({ ...there, area: 1 }, 4, 50, null, 1)[2]?.[1]).toBe("1 voxel face");
     const vague = { ...there, voxels: [0, 64_000] as [number, number] };
-    expect(factsOf(vague, 4, 50, null)[0]?.[1]).toBe("about 11 voxels");
-    expect(factsOf(vague, 4, 50, "mm")[0]?.[1]).toBe("11.2 mm³");
+    expect(factsOf(vague, 4, 50, null, 1)[0]?.[1]).toBe("about 11 voxels");
+    expect(factsOf(vague, 4, 50, "mm", 1)[0]?.[1]).toBe("about 11.2 mm³");
   });
 });
 

@@ -189,11 +189,7 @@ RenderOptions options_of_picture(const PictureArguments& picture) {
     return options;
 }
 
-std::string length_unit(const VolumeInfo& info) {
-    if (!info.geometry.unit.empty()) return info.geometry.unit;
-    const bool voxels = info.geometry.coordinates[0].empty() && info.geometry.spacing == Vec3{1, 1, 1};
-    return voxels ? "voxels" : "units";
-}
+std::string length_unit(const VolumeInfo& info) { return length_unit_name(info.geometry); }
 
 Scene scene_of(const Arguments& arguments, Source& source, Terminal& terminal) {
     const PictureArguments& picture = arguments.picture;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <thread>
 
 #include <unistd.h>
@@ -76,7 +77,13 @@ std::string Session::describe(const VolumeInfo& info, const ValueRange& range) {
         line += info.geometry.unit.empty() ? "" : " " + info.geometry.unit;
     }
     if (info.gaussian > 0) line += fmt::format("  Gaussian {:.5g}", info.gaussian);
-    return line + fmt::format("  values {} .. {}", scale.brief(range.low), scale.brief(range.high));
+    return line + fmt::format("  values {} .. {}{}", scale.brief(range.low), scale.brief(range.high),
+                              info.value_unit.empty() ? "" : " " + info.value_unit);
+}
+
+Corrections corrections_of(const Arguments& arguments) {
+    const OpenOptions& open = arguments.open;
+    return {.spacing = open.spacing, .origin = open.origin, .unit = open.unit, .value_unit = open.value_unit};
 }
 
 Geometry voxel_geometry() {
@@ -110,6 +117,7 @@ Volume Session::load() {
         }
     }
     stop_if_interrupted();
+    std::ranges::copy(arguments_.inputs.assumed, std::back_inserter(volume.info.notes));
     for (const std::string& note : volume.info.notes) terminal_.say("note: " + note);
     if (arguments_.voxel_units) volume.info.geometry = voxel_geometry();
     volume = shaped(std::move(volume), arguments_, context());
@@ -175,9 +183,13 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.open.time_step) text += fmt::format(" --time-step {}", *arguments.open.time_step);
     if (arguments.open.skip_rest) text += " --skip-rest";
     if (arguments.open.follow_links) text += " --follow-links";
-    if (arguments.missing.action == MissingPolicy::Action::below) text += " --missing below";
+    if (arguments.open.unit) text += " --unit " + (arguments.open.unit->empty() ? "none" : shell_word(ascii_unit(*arguments.open.unit)));
+    if (arguments.open.value_unit) text += " --value-unit " + shell_word(*arguments.open.value_unit);
+    if (arguments.missing.action == MissingPolicy::Action::below && !arguments.missing.no_data) text += " --missing below";
     if (arguments.missing.action == MissingPolicy::Action::replace) text += fmt::format(" --missing {}", arguments.missing.value);
     if (arguments.missing.no_data) text += fmt::format(" --no-data {}", *arguments.missing.no_data);
+    if (!arguments.missing.no_data && !arguments.inputs.seeks_no_data) text += " --no-data none";
+    if (arguments.inputs.labels != LabelChoice::automatic) text += arguments.inputs.are_labels ? " --labels yes" : " --labels no";
     if (arguments.gaussian) text += fmt::format(" --gaussian {}", *arguments.gaussian);
     if (arguments.voxel_units) text += " --voxel";
     if (arguments.interpolant == Interpolant::faces) text += " --interpolant faces";

@@ -47,6 +47,9 @@ struct Cost {
 /// Applies --gaussian and --box.
 [[nodiscard]] Volume shaped(Volume volume, const Arguments& arguments, const Context& context);
 
+/// What the user says about geometry and units, for a store.
+[[nodiscard]] Corrections corrections_of(const Arguments& arguments);
+
 /// The geometry of --voxel.
 [[nodiscard]] Geometry voxel_geometry();
 

@@ -10,6 +10,13 @@
 
 namespace isoatlas::cli {
 
+namespace {
+
+/// Verbs that filter and crop the samples of a store; the others take those that its trees were made of.
+bool filters_stores(const std::string& verb) { return verb == "convert" || verb == "table131"; }
+
+}  // namespace
+
 void check_store_options(const Arguments& arguments, const Atlas& atlas) {
     const auto refuse = [&](const char* option, const std::string& has) {
         throw Error(ErrorKind::usage, {.file = arguments.file,
@@ -20,14 +27,14 @@ void check_store_options(const Arguments& arguments, const Atlas& atlas) {
         refuse("--interpolant", std::string("--interpolant ") + name_of(atlas.interpolant()));
     if (arguments.tunnel_height > 0) refuse("--tunnel-height", fmt::format("a tunnel height of {}", atlas.tunnel_height()));
     const OpenOptions& open = arguments.open;
-    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.spacing || open.origin || open.time_step || open.skip_rest ||
-        open.follow_links)
+    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.time_step || open.skip_rest || open.follow_links)
         refuse("an option of the reader", "the header of the volume file");
     if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
-    if (arguments.verb != "atlas" && arguments.verb != "view") return;  // other verbs filter the samples of the store
+    if (filters_stores(arguments.verb)) return;
     const double gaussian = atlas.info().gaussian;
-    if (arguments.gaussian && *arguments.gaussian != gaussian)
+    if ((arguments.gaussian && *arguments.gaussian != gaussian) || (arguments.inputs.seeks_gaussian && gaussian == 0))
         refuse("--gaussian", gaussian > 0 ? fmt::format("--gaussian {}", gaussian) : "unfiltered samples");
+    if (arguments.verb != "atlas" && arguments.verb != "view") return;
     if (arguments.voxel_units && atlas.info().geometry != voxel_geometry()) refuse("--voxel", "the geometry of the volume");
 }
 
@@ -37,10 +44,11 @@ Source::Source(const Arguments& arguments, Terminal& terminal) : arguments_(argu
         info_ = volume_->info;
         return;
     }
-    atlas_.emplace(arguments.file);
+    atlas_.emplace(arguments.file, AtlasOptions{.corrections = corrections_of(arguments)});
     check_store_options(arguments, *atlas_);
     info_ = atlas_->info();
     if (arguments.voxel_units) info_.geometry = voxel_geometry();
+    for (const std::string& note : info_.notes) terminal.say("note: " + note);
     if (!arguments.quiet) terminal.say(session_.describe(info_, range()));
 }
 
@@ -164,18 +172,20 @@ const Volume& Source::volume() {
         whole.cells_loaded = whole.cells_visited = info_.extent.voxels();
         cost_ += whole;
         volume_->info = info_;
-        volume_ = shaped(std::move(*volume_), arguments_, context());
+        if (filters_samples()) volume_ = shaped(std::move(*volume_), arguments_, context());
         info_ = volume_->info;
     }
     return *volume_;
 }
 
 const Volume& Source::volume(const SamplesWanted& wanted) {
-    if (volume_ || arguments_.box || arguments_.gaussian) return volume();
+    if (volume_ || filters_samples()) return volume();
     part_ = atlas_->volume(wanted, context(), &cost_);
     part_->info = info_;
     return *part_;
 }
+
+bool Source::filters_samples() const { return filters_stores(arguments_.verb) && (arguments_.box || arguments_.gaussian); }
 
 std::optional<QueryCost> Source::reads() const { return atlas_ ? std::optional(cost_) : std::nullopt; }
 

@@ -68,6 +68,7 @@ public:
 private:
     /// Of a volume file, for tables.
     [[nodiscard]] const Analysis& ranked();
+    [[nodiscard]] bool filters_samples() const;
 
     const Arguments& arguments_;
     Session session_;

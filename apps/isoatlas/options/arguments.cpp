@@ -56,6 +56,23 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
+void convert_gaussian(const std::string& word, Arguments& arguments) {
+    arguments.inputs.seeks_gaussian = word == "auto";
+    if (arguments.inputs.seeks_gaussian) return;
+    const auto sigma = parse_number<double>("--gaussian", word);
+    if (!std::isfinite(sigma) || sigma <= 0)
+        usage("--gaussian is not above 0", "give the standard deviation in the unit of the spacing that `isoatlas info` prints, or auto");
+    arguments.gaussian = sigma;
+}
+
+/// A no-data value that the user names is missing: without --missing, it lies below all others.
+void convert_no_data(const std::string& word, Arguments& arguments) {
+    arguments.inputs.seeks_no_data = word == "auto";
+    if (word == "auto" || word == "none") return;
+    arguments.missing.no_data = parse_number<double>("--no-data", word);
+    if (arguments.missing.action == MissingPolicy::Action::error) arguments.missing.action = MissingPolicy::Action::below;
+}
+
 void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     const auto given = [&](const char* name) {
         const CLI::Option* option = app.get_option_no_throw(name);
@@ -68,17 +85,17 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     if (given("--spacing")) arguments.open.spacing = parse_vector("--spacing", typed.spacing, 1);
     if (given("--origin")) arguments.open.origin = parse_vector("--origin", typed.origin, 0);
     if (given("--box")) arguments.box = parse_box("--box", typed.box);
-    if (given("--gaussian")) {
-        if (!std::isfinite(typed.gaussian) || typed.gaussian <= 0)
-            usage("--gaussian is not above 0", "give the standard deviation in the unit of the spacing that `isoatlas info` prints");
-        arguments.gaussian = typed.gaussian;
-    }
+    if (given("--unit")) arguments.open.unit = parse_unit("--unit", typed.unit);
+    if (given("--value-unit")) arguments.open.value_unit = parse_unit("--value-unit", typed.value_unit);
+    if (given("--gaussian")) convert_gaussian(typed.gaussian, arguments);
     arguments.objects = parse_references("--object", typed.objects);
     arguments.contours = parse_references("--contour", typed.contours);
     arguments.removed_names = parse_references("--remove", typed.removed_names);
     if (given("--time-step")) arguments.open.time_step = typed.time_step;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
-    if (given("--no-data")) arguments.missing.no_data = typed.no_data;
+    if (given("--no-data")) convert_no_data(typed.no_data, arguments);
+    arguments.inputs.labels = parse_choice<LabelChoice>(
+        "--labels", typed.labels, {{"auto", LabelChoice::automatic}, {"yes", LabelChoice::yes}, {"no", LabelChoice::no}});
     convert_selection(given, typed.selection, arguments);
     if (app.get_option_no_throw("--background") != nullptr) convert_picture(typed.picture, arguments.picture);
     if (given("--tau") && typed.picture.taus.empty()) {

@@ -13,6 +13,18 @@
 
 namespace isoatlas::cli {
 
+enum class LabelChoice : std::uint8_t { automatic, yes, no };
+
+/// What is assumed about the samples, unless the user says it: looked for before the verb begins (data/assume_inputs.h).
+struct InputChoices {
+    bool seeks_no_data = true;    ///< --no-data auto
+    bool seeks_gaussian = false;  ///< --gaussian auto
+    LabelChoice labels = LabelChoice::automatic;
+    bool are_labels = false;           ///< found, or said by the user
+    double noise = 0, range = 0;       ///< stored values, where smoothing could be advised
+    std::vector<std::string> assumed;  ///< sentences: what was assumed and how to undo it
+};
+
 struct Arguments {
     std::string verb;
     std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
@@ -24,7 +36,8 @@ struct Arguments {
     MissingPolicy missing;
     std::optional<SampleBox> box;    ///< only this part of the volume
     std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
-    bool voxel_units = false;        ///< measures in voxels, not in the units of the file
+    InputChoices inputs;
+    bool voxel_units = false;  ///< measures in voxels, not in the units of the file
 
     // Running and messages
     Interpolant interpolant = Interpolant::trilinear;

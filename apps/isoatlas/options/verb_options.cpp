@@ -17,20 +17,13 @@ void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
     add_number(app, "--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
 }
 
-void add_gaussian(CLI::App& app, Typed& typed) {
-    add_number(app, "--gaussian", typed.gaussian, "Gaussian filter first: standard deviation in the unit of the spacing")
-        ->type_name("SIGMA");
-}
-
 void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
-    add_gaussian(app, typed);
     app.add_option("--memory", typed.memory, "Memory budget, such as 1G or 500M; default: half of the available memory")->type_name("SIZE");
     app.add_flag("--restart", arguments.restart, "Discard the phases of an earlier build");
 }
 
 /// Options applied to the samples first.
 void add_shape(CLI::App& app, Typed& typed) {
-    add_gaussian(app, typed);
     app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
 }
 
@@ -208,16 +201,28 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->group(group);
     app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
     add_number(app, "--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
-    app.add_option("--spacing", typed.spacing, "Spacing of the samples per axis: 0.7,0.7,1.5")->type_name("X,Y[,Z]")->group(group);
-    app.add_option("--origin", typed.origin, "Position of the first sample")->type_name("X,Y[,Z]")->group(group);
+    app.add_option("--spacing", typed.spacing, "Spacing of the samples per axis: 0.7,0.7,1.5; instead of the header's")
+        ->type_name("X,Y[,Z]")
+        ->group(group);
+    app.add_option("--origin", typed.origin, "Position of the first sample, instead of the header's")->type_name("X,Y[,Z]")->group(group);
+    app.add_option("--unit", typed.unit, "Unit of spacing and origin: mm, um, nm, m, ...; no number is converted")
+        ->type_name("NAME")
+        ->group(group);
+    app.add_option("--value-unit", typed.value_unit, "Unit of the values: HU, SUV, Bq/ml, ...")->type_name("NAME")->group(group);
     add_number(app, "--time-step", typed.time_step, "Volume of a 4D file, from 0")->type_name("N")->group(group);
     app.add_flag("--skip-rest", arguments.open.skip_rest, "Ignore bytes after the samples; without it they are an error")->group(group);
     app.add_flag("--follow-links", arguments.open.follow_links, "Follow headers and links to files outside their folder")->group(group);
     app.add_option("--missing", typed.missing, "Replace NaN and infinite samples by VALUE; below: less than every value")
         ->type_name("VALUE|below")
         ->group(group);
-    add_number(app, "--no-data", typed.no_data, "Stored value that marks missing samples (with --missing)")
-        ->type_name("VALUE")
+    app.add_option("--no-data", typed.no_data, "Stored value that marks missing samples; auto (default): what looks like one; none")
+        ->type_name("VALUE|auto|none")
+        ->group(group);
+    app.add_option("--labels", typed.labels, "Samples are labels, an object each; auto (default): when they look like it; yes; no")
+        ->type_name("auto|yes|no")
+        ->group(group);
+    app.add_option("--gaussian", typed.gaussian, "Gaussian filter first: standard deviation in the unit of the spacing; auto: by the noise")
+        ->type_name("SIGMA|auto")
         ->group(group);
     app.add_flag("--voxel", arguments.voxel_units, "Measure in voxels, not in the units of the file")->group(group);
 }

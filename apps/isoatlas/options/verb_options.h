@@ -13,8 +13,8 @@ struct Typed {
                                                                    style = "compact", boundary = "closed", detail = "events", memory, space;
     std::vector<std::string> objects, contours, removed_names;
     TypedSelection selection;
-    double no_data = 0;
-    double tau = 0, gaussian = 0;
+    std::string unit, value_unit, gaussian, no_data, labels = "auto";
+    double tau = 0;
     std::int64_t skip = 0, time_step = 0;
     PictureWords picture;
 };

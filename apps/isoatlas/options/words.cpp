@@ -1,5 +1,6 @@
 #include "options/words.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -70,6 +71,14 @@ SampleBox parse_box(const std::string& option, const std::string& word) {
     }
     if (!is_right) bad_word(option, word, "FIRST:END for every axis, like 0:20,30:50,10:30");
     return box;
+}
+
+std::string parse_unit(const std::string& option, const std::string& word) {
+    constexpr std::size_t kMost = 32;
+    const bool is_text = is_utf8(word) && std::ranges::none_of(word, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; });
+    if (!is_text || word.size() > kMost)
+        bad_word(option, word, option == "--unit" ? "a unit of length such as mm, um or nm" : "a unit such as HU");
+    return option == "--unit" ? unit_name(word) : word;
 }
 
 ValueType parse_type(const std::string& word) {

@@ -56,6 +56,9 @@ template <class T>
 /// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
 [[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& word, double rest);
 
+/// A name of a unit: up to 32 bytes of text without control characters. "um" becomes "µm".
+[[nodiscard]] std::string parse_unit(const std::string& option, const std::string& word);
+
 /// uint8, u8, uchar, ..., float, double.
 [[nodiscard]] ValueType parse_type(const std::string& word);
 

@@ -6,15 +6,12 @@
 #include <fmt/format.h>
 
 #include <isoatlas/output.h>
+#include <isoatlas/units.h>
 
 #include "options/words.h"
 
 namespace isoatlas::cli {
 namespace {
-
-bool has_no_geometry(const Geometry& geometry) {
-    return geometry.unit.empty() && geometry.spacing == Vec3{1, 1, 1} && geometry.coordinates[0].empty();
-}
 
 std::string seven_digits(double value) {
     const std::string text = fmt::format("{:.7g}", value);
@@ -79,17 +76,16 @@ std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, do
     return "interpolant " + describe(interpolant, info.calibration.reported_difference(tunnel_height));
 }
 
-std::string plain_measure_unit(const VolumeInfo& info) {
-    if (has_no_geometry(info.geometry)) return "voxels";
-    return (info.geometry.unit.empty() ? "units" : info.geometry.unit) + (info.extent.rank == 2 ? "2" : "3");
-}
+std::string plain_measure_unit(const VolumeInfo& info) { return measure_unit_name(info.geometry, info.extent.rank); }
+
+std::string in_unit(const VolumeInfo& info) { return info.value_unit.empty() ? "" : " [" + info.value_unit + "]"; }
 
 MeasureUnit measure_unit(const VolumeInfo& info, double largest) {
     if (info.extent.rank == 3 && info.geometry.unit == "mm") {
-        if (largest >= 1e7) return {"dm3", 1e-6};
-        if (largest >= 1e4) return {"cm3", 1e-3};
+        if (largest >= 1e7) return {"dm³", 1e-6};
+        if (largest >= 1e4) return {"cm³", 1e-3};
     }
-    if (info.extent.rank == 2 && info.geometry.unit == "mm" && largest >= 1e4) return {"cm2", 1e-2};
+    if (info.extent.rank == 2 && info.geometry.unit == "mm" && largest >= 1e4) return {"cm²", 1e-2};
     return {plain_measure_unit(info), 1};
 }
 

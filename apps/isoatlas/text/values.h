@@ -41,14 +41,17 @@ private:
 /// "interpolant trilinear, tunnel height 0.25"; the height is given in stored values
 [[nodiscard]] std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, double tunnel_height);
 
-/// The unit of volumes (areas in 2D) for numbers up to `largest`: mm3, cm3, dm3, ... Multiply values by the factor.
+/// The unit of volumes (areas in 2D) for numbers up to `largest`: mm³, cm³, dm³, ... Multiply values by the factor.
 struct MeasureUnit {
     std::string name;
     double factor = 1;
 };
 [[nodiscard]] MeasureUnit measure_unit(const VolumeInfo& info, double largest);
-/// The unit of volumes as the file has it: "mm3", "voxels", or "units3" when the file names no unit.
+/// The unit of volumes as the file has it: "mm³"; without a unit "voxels", or "units³" when there is a spacing.
 [[nodiscard]] std::string plain_measure_unit(const VolumeInfo& info);
+
+/// " [HU]", or "" when the unit of the values is not known.
+[[nodiscard]] std::string in_unit(const VolumeInfo& info);
 
 /// "512 x 512 x 420"
 [[nodiscard]] std::string extent_text(const Extent& extent);

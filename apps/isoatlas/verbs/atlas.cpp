@@ -1,4 +1,6 @@
 // isoatlas FILE: writes the page of the objects of a volume. Builds the store beside the page when there is none.
+#include <fmt/format.h>
+
 #include "data/object_directory.h"
 #include "data/session.h"
 #include "data/store_beside.h"
@@ -11,21 +13,62 @@
 
 namespace isoatlas::cli {
 
+namespace {
+
+/// What was corrected in the header, and assumed about the samples.
+std::vector<std::string> notes_of(const Arguments& arguments, const Atlas& atlas) {
+    std::vector<std::string> notes = atlas.info().notes;
+    if (const Corrections corrections = corrections_of(arguments); !corrections.is_empty() && !is_atlas(arguments.file)) {
+        OpenOptions plain = arguments.open;
+        plain.spacing.reset(), plain.origin.reset(), plain.unit.reset(), plain.value_unit.reset();
+        VolumeInfo info = open_volume(arguments.file, plain)->info();
+        info.notes.clear();
+        correct(info, corrections);
+        notes = info.notes;
+    }
+    notes.insert(notes.end(), arguments.inputs.assumed.begin(), arguments.inputs.assumed.end());
+    return notes;
+}
+
+/// Where the noise is strong: the command that makes the page of the filtered volume beside this one.
+std::optional<PageSmoothing> smoothing_of(const Arguments& arguments, const VolumeInfo& info, const std::string& page) {
+    const double sigma = advised_sigma(info, arguments.inputs.noise, arguments.inputs.range);
+    if (sigma == 0) return std::nullopt;
+    std::string name = page;
+    for (const char* end : {".html", ".atlas"}) {
+        if (name.ends_with(end)) name.resize(name.size() - std::string_view(end).size());
+    }
+    const std::string command = fmt::format("isoatlas {}{} --gaussian {} -o {}", shell_word(arguments.file), reading_options(arguments),
+                                            sigma, shell_word(name + ".smooth.html"));
+    return PageSmoothing{arguments.inputs.noise / arguments.inputs.range, sigma, command};
+}
+
+}  // namespace
+
 int run_atlas(const Arguments& arguments, Terminal& terminal) {
     const std::string page = arguments.output.empty() ? stem_of(arguments.file) + ".atlas.html" : arguments.output;
     check_output(arguments, page, {".html"});
     const std::string store = store_for(arguments, terminal, store_beside(page));
-    const Atlas atlas(store);
+    const bool is_volume = store != arguments.file;
+    const Atlas atlas(store, {.corrections = is_volume ? Corrections{} : corrections_of(arguments)});
+    for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     PageReport report;
     {
         Session session(arguments, terminal);
         const WritingGuard guard;
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
-        const std::vector<ObjectName> names = names_in(object_names_path(store), atlas.info().extent, terminal);
-        report = write_page(page, atlas, {.top = top, .top_cavities = (top + 1) / 2, .names = names, .source = store}, session.context());
+        const PageOptions options{.top = top,
+                                  .top_cavities = (top + 1) / 2,
+                                  .names = names_in(object_names_path(store), atlas.info().extent, terminal),
+                                  .source = store,
+                                  .notes = notes_of(arguments, atlas),
+                                  .smoothing = smoothing_of(arguments, atlas.info(), page)};
+        report = write_page(page, atlas, options, session.context());
     }
     if (arguments.json) {
-        Json json = document("atlas", atlas.info(), atlas.interpolant(), atlas.tunnel_height());
+        VolumeInfo info = atlas.info();
+        info.notes = notes_of(arguments, atlas);
+        Json json = document("atlas", info, atlas.interpolant(), atlas.tunnel_height());
         json["store"] = store;
         json["output"] = page;
         json["bytes"] = report.bytes;

@@ -92,7 +92,10 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
     const auto voxels = static_cast<double>(info.extent.voxels()), bytes = static_cast<double>(report.bytes);
     const double raw = voxels * static_cast<double>(size_of(info.type));
     if (arguments.json) {
-        Json json = document("build", atlas.info(), atlas.interpolant(), atlas.tunnel_height());
+        VolumeInfo described = atlas.info();
+        described.notes = info.notes;
+        described.notes.insert(described.notes.end(), arguments.inputs.assumed.begin(), arguments.inputs.assumed.end());
+        Json json = document("build", described, atlas.interpolant(), atlas.tunnel_height());
         json["output"] = arguments.output;
         json["bytes"] = report.bytes;
         json["sample_bytes"] = static_cast<std::int64_t>(raw);
@@ -157,6 +160,7 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
                     {.file = arguments.file, .what = "is already a store", .expected = "a volume", .next = "name the volume file"});
     }
     const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+    for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     if (arguments.dry_run) return dry_run(arguments, terminal, *reader, build_options(arguments, reader->info()));
     const BuildReport report = build_store(arguments, terminal, *reader);
     print_report(arguments, terminal, reader->info(), report);

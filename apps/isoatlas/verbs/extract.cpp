@@ -245,6 +245,10 @@ Written write_several(const Arguments& arguments, Source& source, const std::vec
 }  // namespace
 
 int run_extract(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.inputs.are_labels && !arguments.tau && !arguments.best) {
+        check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
+        return extract_label_objects(arguments, terminal);
+    }
     check_extract_arguments(arguments);
     Source source(arguments, terminal);
     std::vector<ChosenObject> chosen;

@@ -1,15 +1,13 @@
 // isoatlas info: describes a file and the cost of its analysis.
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "data/session.h"
 #include "text/document.h"
-#include "text/interrupt.h"
 #include "text/terminal.h"
 #include "text/values.h"
 #include "verbs/verbs.h"
@@ -24,19 +22,14 @@ struct Values {
     bool known = false;
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();  ///< stored
     std::int64_t missing = 0;                                                                               ///< NaN and infinite samples
+    std::optional<SampleSurvey> survey;                                                                     ///< of volume files
+    std::optional<FillValue> fill;
+    double noise = 0, sigma = 0;  ///< stored; advised_sigma()
 };
 
-template <class T>
-void look_at(std::span<const T> samples, Values& values) {
-    for (const T sample : samples) {
-        const auto value = static_cast<double>(sample);
-        if (!std::isfinite(value)) {
-            ++values.missing;
-            continue;
-        }
-        values.low = std::min(values.low, value);
-        values.high = std::max(values.high, value);
-    }
+/// The range without a fill value.
+std::pair<double, double> range_of(const Values& values) {
+    return values.fill ? std::pair(values.fill->low, values.fill->high) : std::pair(values.low, values.high);
 }
 
 Values read_values(VolumeReader& reader, Session& session) {
@@ -44,20 +37,15 @@ Values read_values(VolumeReader& reader, Session& session) {
     Values values;
     const auto bytes = static_cast<double>(info.extent.voxels()) * static_cast<double>(size_of(info.type));
     if (bytes > kReadLimit) return values;
-    const std::int64_t slices = info.extent.size[2];
-    const std::int64_t step = std::max<std::int64_t>(1, (std::int64_t{16} << 20) / std::max<std::int64_t>(1, info.extent.slice()));
-    const Context context = session.context();
-    for (std::int64_t z = 0; z < slices; z += step) {
-        stop_if_interrupted();
-        Volume slab;
-        slab.info.type = info.type;
-        const std::int64_t end = std::min(z + step, slices);
-        slab.bytes.resize(static_cast<std::size_t>((end - z) * info.extent.slice()) * size_of(info.type));
-        reader.read(z, end, slab.bytes);
-        visit_samples(slab, [&](auto samples) { look_at(samples, values); });
-        context.report("read values", 0, 1, static_cast<double>(end) / static_cast<double>(slices));
-    }
+    values.survey = survey_samples(reader, session.context());
+    values.low = values.survey->low.value, values.high = values.survey->high.value, values.missing = values.survey->missing;
     values.known = values.low <= values.high;
+    if (!values.known) return values;
+    values.fill = fill_value(*values.survey, info);
+    if (values.survey->likeness.are_labels) return values;
+    values.noise = independent_noise(reader, *values.survey, values.fill);
+    const auto [low, high] = range_of(values);
+    values.sigma = advised_sigma(info, values.noise, high - low);
     return values;
 }
 
@@ -93,6 +81,26 @@ void print_preview(std::ostream& out, const SurfacePreview& preview, double tau)
         << text_of(preview.bricks) << '\n';
 }
 
+/// What the samples look like.
+void add_survey(Json& json, const VolumeInfo& info, const Values& values) {
+    Json& entry = json["survey"] = nullptr;
+    if (!values.survey || !values.known) return;
+    const LabelLikeness& like = values.survey->likeness;
+    const auto [low, high] = range_of(values);
+    entry = {{"fill_value", nullptr}, {"values", values.survey->values == 0 ? Json(nullptr) : Json(values.survey->values)}};
+    if (values.fill) {
+        entry["fill_value"] = {{"stored", values.fill->value},
+                               {"samples", values.fill->count},
+                               {"low", info.calibration.reported(values.fill->low)},
+                               {"high", info.calibration.reported(values.fill->high)}};
+    }
+    entry["labels"] = like.are_labels;
+    entry["equal_neighbours"] = values.survey->values == 0 ? Json(nullptr) : Json(like.equal);
+    entry["noise"] = info.calibration.reported_difference(values.noise);
+    entry["noise_part"] = high > low ? values.noise / (high - low) : 0;
+    entry["advised_gaussian"] = values.sigma > 0 ? Json(values.sigma) : Json(nullptr);
+}
+
 Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
     Json json = document("info", info);
     json["file"] = {
@@ -106,6 +114,7 @@ Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
     }
     json["values"] = range;
     json["missing_samples"] = values.known || values.missing > 0 ? Json(values.missing) : Json(nullptr);
+    add_survey(json, info, values);
     const auto bytes = [](double count) { return static_cast<std::int64_t>(count); };
     json["estimate"] = {{"memory_bytes", {{"smooth", bytes(cost.memory_smooth)}, {"noise", bytes(cost.memory_noise)}}},
                         {"seconds", {{"smooth", cost.seconds_smooth}, {"noise", cost.seconds_noise}}}};
@@ -119,7 +128,7 @@ std::string vector_text(const Vec3& v, int rank) {
 void print_geometry(std::ostream& out, const VolumeInfo& info) {
     const Geometry& geometry = info.geometry;
     const std::string unit = geometry.unit.empty() ? "" : " " + geometry.unit;
-    const std::string no_unit = geometry.unit.empty() ? "  (the file names no unit)" : "";
+    const std::string no_unit = geometry.unit.empty() ? "  (no unit; --unit names one)" : "";
     Vec3 size{};
     for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = geometry.spacing[axis] * static_cast<double>(info.extent.size[axis]);
     if (geometry.coordinates[0].empty()) {
@@ -130,6 +139,28 @@ void print_geometry(std::ostream& out, const VolumeInfo& info) {
     }
     out << "origin       " << vector_text(geometry.origin, info.extent.rank) << unit << '\n';
     out << "space        " << geometry.space << (handedness(geometry) < 0 ? " (mirrored axes)" : "") << '\n';
+}
+
+void print_survey(std::ostream& out, const VolumeInfo& info, const Values& values) {
+    if (!values.survey || !values.known) return;
+    const Scale scale(info);
+    const auto percent = [](double part) { return fmt::format("{:.2g} %", 100 * part); };
+    if (values.fill) {
+        out << "fill value   " << scale.text(values.fill->value) << " looks like one: " << counted(values.fill->count, "sample")
+            << "; the others are " << scale.brief(values.fill->low) << " .. " << scale.brief(values.fill->high)
+            << "; it counts as missing unless --no-data none is given\n";
+    }
+    if (values.survey->likeness.are_labels) {
+        out << "labels       " << values.survey->values << " whole numbers, " << percent(values.survey->likeness.equal)
+            << " of the neighbours are equal: taken for labels unless --labels no is given\n";
+        return;
+    }
+    const auto [low, high] = range_of(values);
+    if (values.noise > 0 && high > low) {
+        out << fmt::format("noise        about {:.3g}, {} of the range", info.calibration.reported_difference(values.noise),
+                           percent(values.noise / (high - low)))
+            << (values.sigma > 0 ? fmt::format(": --gaussian auto (sigma {}) smooths it", values.sigma) : "") << '\n';
+    }
 }
 
 void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values, const Arguments& arguments) {
@@ -152,6 +183,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
     }
     if (values.missing > 0)
         out << "missing      " << counted(values.missing, "sample") << " NaN or infinite: analyse with --missing below\n";
+    print_survey(out, info, values);
     for (const std::string& note : info.notes) out << "note         " << note << '\n';
     out << "analysis     " << cost_text(info, arguments.threads) << '\n';
 }
@@ -170,11 +202,11 @@ int run_info(const Arguments& arguments, Terminal& terminal) {
     Values values;
     std::optional<SurfacePreview> preview;
     if (is_atlas(arguments.file)) {
-        const Atlas atlas(arguments.file);
+        const Atlas atlas(arguments.file, {.corrections = corrections_of(arguments)});
         const std::array<double, 2> range = atlas.range();
         info = atlas.info();
         info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()));
-        values = {true, range[0], range[1], 0};
+        values.known = true, values.low = range[0], values.high = range[1];
         if (arguments.tau) preview = atlas.preview(Scale(info).stored(*arguments.tau));
     } else {
         if (arguments.tau) refuse_tau(arguments);

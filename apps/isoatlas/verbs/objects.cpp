@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/assume_inputs.h"
 #include "data/object_directory.h"
 #include "data/source.h"
 #include "text/cavity_table.h"
@@ -69,6 +70,8 @@ void print_table_json(Terminal& terminal, Source& source, ObjectDirectory& direc
     head["branches"] = table.branches;
     head["hidden"] = table.branches - shown_objects(table);
     head["noise"] = table.noise * info.calibration.slope;
+    const ValueRange range = source.range();
+    head["noise_part"] = range.high > range.low ? table.noise / (range.high - range.low) : 0;
     if (cavities != nullptr) add_cavities(head, *cavities, info, directory);
     add_reads(head, source.reads());
     print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
@@ -107,7 +110,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
     const bool has_name = has_names(table, directory);
     std::vector<Table::Column> columns{{"#"}};
     if (has_name) columns.push_back({"name", true});
-    columns.insert(columns.end(), {{"id"}, {"appears"}, {"merges"}, {"best tau"}});
+    columns.insert(columns.end(), {{"id"}, {"appears"}, {"merges"}, {"best tau" + in_unit(source.info())}});
     sizes.add_titles(columns);
     columns.insert(columns.end(), {{"reason", true}, {"note", true}});
     Table text(columns);
@@ -123,6 +126,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
     }
     tell_table(terminal, source, table);
     text.print(terminal);
+    if (const std::string advice = noise_advice(arguments, source.info()); !advice.empty()) terminal.say("note: " + advice);
     tell_other_isovalues(terminal, table, called, scale);
     if (table.entries.empty()) {
         terminal.say("no object is above the noise level; --all lists all objects");
@@ -252,6 +256,7 @@ int list_at(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 int run_objects(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.inputs.are_labels) return list_label_objects(arguments, terminal);
     if (arguments.tau && (arguments.selects || !arguments.curve.empty())) {
         throw Error(ErrorKind::usage, {.what = "a selection applies to the table of best isovalues, not to one isovalue",
                                        .next = "omit --tau, or the selection"});

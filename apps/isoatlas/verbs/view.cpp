@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include "data/session.h"
 #include "data/store_awaited.h"
 #include "text/advice.h"
 #include "text/document.h"
@@ -114,7 +115,9 @@ void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& se
 int run_view(const Arguments& arguments, Terminal& terminal) {
     keep_memory_flat();
     const std::string store = store_to_view(arguments);
-    const AtlasOptions options{.cache_bytes = arguments.memory};
+    AtlasOptions options{.cache_bytes = arguments.memory};
+    if (store == arguments.file) options.corrections = corrections_of(arguments);
+    for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     std::optional<Atlas> atlas;
     if (is_ready(arguments, terminal, store)) {
         atlas.emplace(store, options);

@@ -11,6 +11,7 @@
 #include "formats/volume/formats.h"
 #include "formats/volume/raw_description.h"
 #include "isoatlas/text.h"
+#include "isoatlas/units.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -171,11 +172,7 @@ std::unique_ptr<VolumeReader> open_file_volume(const std::string& path, const Op
                                    .value = member});
 }
 
-std::string text_of(const Vec3& vector) {
-    return std::to_string(vector[0]) + "," + std::to_string(vector[1]) + "," + std::to_string(vector[2]);
-}
-
-/// Options describe RAW files; for other files they may repeat the header but not contradict it.
+/// These options describe RAW files; for other files they may repeat the header but not contradict it.
 void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
     if (info.format == "RAW") return;
     const Extent& extent = info.extent;
@@ -190,8 +187,6 @@ void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
         contradiction(info.path, "big_endian", info.big_endian ? "big" : "little");
     }
     if (options.skip_bytes && *options.skip_bytes != 0) contradiction(info.path, "skip_bytes", "samples where the header says");
-    if (options.spacing && *options.spacing != info.geometry.spacing) contradiction(info.path, "spacing", text_of(info.geometry.spacing));
-    if (options.origin && *options.origin != info.geometry.origin) contradiction(info.path, "origin", text_of(info.geometry.origin));
 }
 
 }  // namespace
@@ -201,6 +196,7 @@ std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOpt
     if (!folder && !anything_at(path)) missing_file(path);
     std::unique_ptr<VolumeReader> reader = folder ? open_folder(path, options) : open_file_volume(path, options);
     check_agreement(reader->info(), options);
+    correct(reader->info_, {.spacing = options.spacing, .origin = options.origin, .unit = options.unit, .value_unit = options.value_unit});
     return reader;
 }
 

@@ -1,5 +1,5 @@
 // RAW: samples without a header. Their description comes from the options, from a JSON sidecar and from the file name, in this order (see
-// raw_description.h); options that contradict the sidecar are an error, both override the name.
+// raw_description.h); options about the samples that contradict the sidecar are an error, both override the name.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,8 +56,8 @@ RawDescription collect(const std::string& path, const OpenOptions& options) {
     take(path, "type", options.type, known.type);
     take(path, "big_endian", options.big_endian, known.big_endian);
     take(path, "skip_bytes", options.skip_bytes, known.skip_bytes);
-    take(path, "spacing", options.spacing, known.spacing);
-    take(path, "origin", options.origin, known.origin);
+    if (!known.spacing) known.spacing = options.spacing;  // a sidecar is corrected in open_volume(), with a note
+    if (!known.origin) known.origin = options.origin;
     const RawDescription name = description_from_name(path);
     guess(name.dims, known.dims, "dims", known.notes);
     guess(name.type, known.type, "type", known.notes);
@@ -178,7 +178,8 @@ std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOption
     for (int axis = 0; known.spacing && axis < info.extent.rank; ++axis) set_axis_spacing(info, axis, (*known.spacing)[axis]);
     if (known.origin) info.geometry.origin = *known.origin;
     if (!known.space.empty()) info.geometry.space = known.space;
-    info.geometry.unit = known.unit;
+    info.geometry.unit = known.unit.empty() ? options.unit.value_or("") : known.unit;
+    info.value_unit = known.value_unit.empty() ? options.value_unit.value_or("") : known.value_unit;
     const TimeStep step = choose_time_step(path, options, 1);
     return make_sample_reader(std::move(info), open_file_source(path, skip), options, step);
 }

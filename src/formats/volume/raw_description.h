@@ -5,7 +5,7 @@
 //   "type":    "uint8" "int8" "uint16" "int16" "uint32" "int32" "float32" "float64" (or "u8" ... "f64", "float", "double")
 //   "skip":    bytes before the samples                    "spacing": [sx, sy] or [sx, sy, sz]
 //   "origin":  [ox, oy] or [ox, oy, oz]                    "unit":    of lengths, "mm"
-//   "space":   what the axes mean, "LPS", "RAS", ...
+//   "space":   what the axes mean, "LPS", "RAS", ...     "value_unit": of samples, "HU"
 //
 // Name: words between '_', '-' and '.', for example foo_512x512x512_float32.raw or foo_256x256x128_uint16_big.raw: sizes joined by 'x',
 // a type as above, "le" / "little" / "be" / "big".
@@ -27,7 +27,7 @@ struct RawDescription {
     std::optional<bool> big_endian;
     std::optional<std::int64_t> skip_bytes;
     std::optional<Vec3> spacing, origin;
-    std::string unit, space;
+    std::string unit, value_unit, space;
     std::vector<std::string> notes;
 };
 

@@ -94,6 +94,8 @@ void read_key(const std::string& path, const std::string& key, const Json& value
         description.origin = read_vector(path, key, value, 0);
     } else if (key == "unit") {
         description.unit = read_text(path, key, value);
+    } else if (key == "value_unit") {
+        description.value_unit = read_text(path, key, value);
     } else if (key == "space") {
         description.space = read_text(path, key, value);
     } else {

@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "isoatlas/text.h"
+#include "isoatlas/units.h"
 
 namespace isoatlas {
 namespace {
@@ -129,6 +130,7 @@ std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_pt
 void tidy_texts(VolumeInfo& info) {
     info.description = header_text(info.description, /*lines=*/true);
     for (std::string* text : {&info.value_unit, &info.geometry.unit, &info.geometry.space}) *text = header_text(*text);
+    info.geometry.unit = unit_name(info.geometry.unit);
     for (std::string& note : info.notes) note = header_text(note);
 }
 

@@ -5,6 +5,7 @@
 #include "formats/common/generator.h"
 #include "formats/common/gzip_stream.h"
 #include "formats/common/volume_file.h"
+#include "isoatlas/units.h"
 
 namespace isoatlas {
 
@@ -45,7 +46,7 @@ std::string geometry_lines(const VolumeInfo& info) {
         text += " " + vector_text(step, dimension);
     }
     text += "\nspace origin: " + vector_text(geometry.origin, dimension) + "\n";
-    const std::string unit = one_line(geometry.unit);
+    const std::string unit = ascii_unit(one_line(geometry.unit));
     if (unit.empty() || unit.find('"') != std::string::npos) return text;
     text += "space units:";
     for (int i = 0; i < dimension; ++i) text += " \"" + unit + "\"";

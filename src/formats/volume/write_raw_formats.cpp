@@ -7,6 +7,7 @@
 #include "formats/common/json_stream.h"
 #include "formats/common/volume_file.h"
 #include "formats/volume/raw_description.h"
+#include "isoatlas/units.h"
 
 namespace isoatlas {
 
@@ -50,7 +51,7 @@ std::string meta_header(const VolumeInfo& info) {
     text += std::string("BinaryData = True\nBinaryDataByteOrderMSB = ") + (kBigEndian ? "True" : "False") + "\nCompressedData = False\n";
     text += "TransformMatrix =" + matrix + "\nOffset =" + offset + "\nCenterOfRotation =" + centre + "\n";
     if (rank == 3 && is_anatomical(geometry)) text += "AnatomicalOrientation = " + anatomical_orientation(geometry) + "\n";
-    const std::string unit = one_line(geometry.unit);
+    const std::string unit = ascii_unit(one_line(geometry.unit));
     if (!unit.empty()) text += "DistanceUnits = " + unit + "\n";
     return text + "ElementSpacing =" + spacing + "\nDimSize =" + sizes + "\nElementType = " + meta_type(info.type) +
            "\nElementDataFile = LOCAL\n";
@@ -85,7 +86,7 @@ bool name_is_enough(const std::string& path, const VolumeInfo& info) {
                                        .expected = size + " " + name_of(info.type) + (kBigEndian ? ", big endian" : ", little endian"),
                                        .next = "choose a name like volume_" + size + "_" + name_of(info.type) + ".raw"});
     }
-    return name.dims && name.type && !kBigEndian && info.geometry == Geometry{};
+    return name.dims && name.type && !kBigEndian && info.geometry == Geometry{} && info.value_unit.empty();
 }
 
 void write_sidecar(const std::string& path, const VolumeInfo& info) {
@@ -101,6 +102,7 @@ void write_sidecar(const std::string& path, const VolumeInfo& info) {
     for (int axis = 0; axis < info.extent.rank; ++axis) json.value(geometry.origin[axis]);
     json.end_array();
     if (!geometry.unit.empty()) json.key("unit").value(geometry.unit);
+    if (!info.value_unit.empty()) json.key("value_unit").value(info.value_unit);
     if (geometry.space != "unknown") json.key("space").value(geometry.space);
     json.end_object().finish();
     file.commit();

@@ -11,6 +11,7 @@
 
 #include "formats/common/byte_writer.h"
 #include "formats/common/volume_file.h"
+#include "isoatlas/units.h"
 
 namespace isoatlas {
 
@@ -35,7 +36,7 @@ std::size_t bytes_of_type(FieldType type) {
 std::string description_of(const VolumeInfo& info, const Geometry& geometry, const KeyValues& pairs) {
     std::string text = "ImageJ=1.53t\n";
     if (info.extent.rank == 3) text += "slices=" + std::to_string(info.extent.size[2]) + "\n";
-    const std::string unit = one_line(geometry.unit);
+    const std::string unit = ascii_unit(one_line(geometry.unit));
     text += "unit=" + (unit.empty() ? "pixel" : unit) + "\nspacing=" + number_text(geometry.spacing[2]) + "\nloop=false\n";
     if (!info.calibration.is_identity()) {
         text += "cf=0\nc0=" + number_text(info.calibration.intercept) + "\nc1=" + number_text(info.calibration.slope) + "\n";

@@ -48,6 +48,17 @@ TEST(Noise, OfCleanBoxesIsNone) {
     EXPECT_EQ(fit_noise(volume).at(300), 0);
 }
 
+double waves(const Index3& p) { return 100 * std::sin(0.4 * static_cast<double>(p[0])) * std::cos(0.3 * static_cast<double>(p[1] + p[2])); }
+
+TEST(Noise, TheFinestDifferenceSeesNoStructure) {
+    EXPECT_EQ(finest_noise(volume_of(48, boxes, [](double) { return 0; })), 0);
+    for (const Field& field : {Field(boxes), Field(slope), Field(waves)}) {
+        EXPECT_LT(finest_noise(volume_of(48, field, [](double) { return 0; })), 0.2);
+        EXPECT_NEAR(finest_noise(volume_of(48, field, [](double) { return 5; })), 5, 0.5);
+    }
+    EXPECT_GT(estimate_noise(volume_of(48, waves, [](double) { return 0; })), 1) << "the plain estimate does";
+}
+
 TEST(Noise, OfOneStrengthIsFoundAndHasNoSlope) {
     for (const Field& field : {Field(boxes), Field(slope)}) {
         const Volume volume = volume_of(48, field, [](double) { return 5; });

@@ -28,7 +28,24 @@ function about(page: Page): HTMLElement {
     html("h1", {}, volume.name),
     html("p", {}, `${volume.size.join(" × ")} samples, ${volume.type}, ${range}${noise}${spacing}.`),
     ...verdict(page).map((words) => html("p", {}, words)),
+    ...(page.notes ?? []).map((words) => html("p", { class: "assumed" }, `Note: ${words}.`)),
+    ...smoothing(page),
   );
+}
+
+/** Strong noise, and how to make the page of the smoothed volume beside this one. */
+function smoothing(page: Page): HTMLElement[] {
+  if (!page.smoothing) return [];
+  const { noisePart, command } = page.smoothing;
+  return [
+    html(
+      "p",
+      { class: "assumed" },
+      `The noise is ${value(Number((100 * noisePart).toPrecision(2)))} % of the range of values: objects are ragged and may be joined. `,
+      "A page of the smoothed volume beside this one: ",
+      html("code", {}, command),
+    ),
+  ];
 }
 
 function verdict(page: Page): string[] {

@@ -20,7 +20,7 @@ export function plural(n: number, one: string, many = `${one}s`): string {
 
 const ladders: Record<string, [string, number][]> = {
   mm: [["cm", 10], ["dm", 10], ["m", 10]],
-  um: [["mm", 1000], ["m", 1000]],
+  "µm": [["mm", 1000], ["m", 1000]],
   nm: [["µm", 1000], ["mm", 1000], ["m", 1000]],
 };
 

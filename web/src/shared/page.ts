@@ -157,6 +157,10 @@ export interface Page {
     high: number;
     noise: number;
   };
+  /** what was assumed about the samples, and how to undo it */
+  notes?: string[];
+  /** offered where the noise is strong: its part of the range of values, and the command that makes the page of the filtered volume */
+  smoothing?: { noisePart: number; sigma: number; command: string } | null;
   interpolant: string;
   found: { objects: Found; cavities: Found };
   /** bend: null for a linear axis; else equal steps of asinh((value - low) / bend) */

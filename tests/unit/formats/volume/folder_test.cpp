@@ -65,7 +65,7 @@ TEST_F(Folder, VoxelSizeOfTheFirstFile) {
     for (const int i : {0, 1})
         slice("s" + std::to_string(i) + ".tif", i, 1,
               {.description = "ImageJ=1.53f\nunit=um\nspacing=3\n", .x_resolution = 2, .y_resolution = 2, .resolution_unit = RESUNIT_NONE});
-    EXPECT_EQ(open_volume(path())->info().geometry, (Geometry{.spacing = {0.5, 0.5, 3}, .unit = "um"}));
+    EXPECT_EQ(open_volume(path())->info().geometry, (Geometry{.spacing = {0.5, 0.5, 3}, .unit = "\u00b5m"}));
 }
 
 TEST_F(Folder, MisfitsAreNamed) {

@@ -123,8 +123,9 @@ TEST(Labels, RectilinearGridsGetTheirMeanSpacing) {
 TEST(Labels, UnitsOfNifti) {
     const TestFolder folder;
     const Extent extent{.rank = 3, .size = {4, 3, 2}};
-    const std::pair<const char*, std::pair<const char*, double>> units[] = {
-        {"um", {"um", 1}}, {"nm", {"um", 1e-3}}, {"cm", {"mm", 10}}, {"m", {"m", 1}}, {"furlong", {"", 1}}};
+    const std::pair<const char*, std::pair<const char*, double>> units[] = {{"um", {"\u00b5m", 1}},    {"\u00b5m", {"\u00b5m", 1}},
+                                                                            {"nm", {"\u00b5m", 1e-3}}, {"cm", {"mm", 10}},
+                                                                            {"m", {"m", 1}},           {"furlong", {"", 1}}};
     for (const auto& [unit, expected] : units) {
         write_labels(folder / "l.nii", info_of(extent, {.spacing = {2, 2, 2}, .unit = unit}), labels_up_to(24, 9));
         const Geometry back = load_volume(folder / "l.nii").info.geometry;

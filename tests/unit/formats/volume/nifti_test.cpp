@@ -173,7 +173,7 @@ TEST(Nifti, SformBeforeQformBeforePixdim) {
                                     .origin = {10, 20, 30},
                                     .direction = {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}},
                                     .space = "RAS",
-                                    .unit = "um"}));
+                                    .unit = "\u00b5m"}));
     file.codes(1, 2).sform({0, 0, 5, -1, 0.5, 0, 0, -2, 0, 0.25, 0, -3}).units(1);
     EXPECT_EQ(geometry(), (Geometry{.spacing = {0.5, 0.25, 5},
                                     .origin = {-1, -2, -3},

@@ -215,7 +215,7 @@ TEST(Nrrd, Geometry) {
     EXPECT_EQ(plain.spacing, (Vec3{0.5, 2, 1}));
     EXPECT_EQ(plain.direction[1][1], -1);
     EXPECT_EQ(plain.origin, (Vec3{10, 20, 0}));
-    EXPECT_EQ(plain.unit, "um");
+    EXPECT_EQ(plain.unit, "\u00b5m");
     EXPECT_EQ(plain.space, "unknown");
 
     const Geometry ends = geometry_of("2", "5 4", "axis mins: 0 0\naxis maxs: 8 8\ncenters: node cell");

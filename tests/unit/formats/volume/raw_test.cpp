@@ -75,7 +75,7 @@ TEST(Raw, Sidecar) {
         EXPECT_EQ(test::text_of_bytes(volume), samples);
         EXPECT_EQ(volume.info.geometry.spacing, (Vec3{1, 2, 0.5}));
         EXPECT_EQ(volume.info.geometry.origin, (Vec3{1, 2, 3}));
-        EXPECT_EQ(volume.info.geometry.unit, "um");
+        EXPECT_EQ(volume.info.geometry.unit, "\u00b5m");
         EXPECT_EQ(volume.info.geometry.space, "RAS");
         EXPECT_EQ(volume.info.notes.size(), 2U);  // the sidecar, its unknown key
         EXPECT_EQ(test::text_of_bytes(load_volume(path, options_of({2, 3, 4}, ValueType::i16))), samples);

@@ -82,7 +82,7 @@ TEST(Tiff, VoxelSize) {
                                       .x_resolution = 4,
                                       .y_resolution = 2,
                                       .resolution_unit = RESUNIT_NONE});
-    EXPECT_EQ(imagej, (Geometry{.spacing = {0.25, 0.5, 2.5}, .unit = "um"}));
+    EXPECT_EQ(imagej, (Geometry{.spacing = {0.25, 0.5, 2.5}, .unit = "\u00b5m"}));
     EXPECT_EQ(geometry({.description = {}, .x_resolution = 100, .y_resolution = 50, .resolution_unit = RESUNIT_CENTIMETER}),
               (Geometry{.spacing = {0.1, 0.2, 0.1}, .unit = "mm"}));
     EXPECT_EQ(geometry({.description = {}, .x_resolution = 254, .y_resolution = 254, .resolution_unit = RESUNIT_INCH}).spacing[0],
@@ -93,7 +93,7 @@ TEST(Tiff, VoxelSize) {
         geometry({.description =
                       "<?xml version=\"1.0\"?><OME xmlns=\"o\"><Image><Pixels SizeC=\"1\" SizeT=\"1\" SizeZ=\"3\" DimensionOrder=\"XYZCT\" "
                       "PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.25\" PhysicalSizeZ=\"2\"/></Image></OME>"});
-    EXPECT_EQ(ome, (Geometry{.spacing = {0.5, 0.25, 2}, .unit = "um"}));
+    EXPECT_EQ(ome, (Geometry{.spacing = {0.5, 0.25, 2}, .unit = "\u00b5m"}));
 }
 
 TEST(Tiff, CalibrationOfImageJ) {
@@ -239,7 +239,7 @@ TEST(TiffSharedData, OriginalsEqualTheConvertedFiles) {
     const Geometry beads = open_volume(kData + "beads/original/Bead_Image1_crop.tif")->info().geometry;
     EXPECT_NEAR(beads.spacing[0], 1 / 44.460534, 1e-9);
     EXPECT_EQ(beads.spacing[2], 0.125);
-    EXPECT_EQ(beads.unit, "um");
+    EXPECT_EQ(beads.unit, "\u00b5m");
 }
 
 }  // namespace

@@ -209,7 +209,7 @@ TEST(WriteVolume, FilesOfOthersAreRead) {
                                                           .unit = volume.info.geometry.unit}));
             }
             if (end[1] == '7') {
-                EXPECT_EQ(volume.info.geometry, (Geometry{.spacing = {0.5, 0.5, 4}, .unit = "um"}));
+                EXPECT_EQ(volume.info.geometry, (Geometry{.spacing = {0.5, 0.5, 4}, .unit = "\u00b5m"}));
             }
         }
     }

@@ -29,7 +29,7 @@ export function tableCsv(page: Page, state: State): string {
     const branch = branchOf(page, entry.branch);
     const name = (k: number): string => (k >= 0 ? nameOf(page, k) : "");
     const shown = state.shown.find((one) => one.entry === i);
-    const unit = page.volume.unit ? `${page.volume.unit}3` : "voxel";
+    const unit = page.volume.unit ? `${page.volume.unit}³` : "voxel";
     return [
       nameOf(page, i),
       referenceOf(page, i),

@@ -14,20 +14,25 @@ export function isMeasuredAtEntry(page: Page, { entry, tau }: Shown): boolean {
 /** Empty for cavities, the whole isosurface, and objects that do not exist at this isovalue. */
 export async function measuredFacts({ api, page }: ViewerContext, shown: Shown): Promise<[name: string, text: string][]> {
   if (branchOfShown(page, shown.entry)?.side !== "object") return [];
-  const { id, voxels } = entryOf(page, shown.entry);
+  const { id, voxels, measure } = entryOf(page, shown.entry);
   try {
     const [there] = await api.measures(shown.tau, [id]);
     if (!there) return [];
-    return factsOf(isMeasuredAtEntry(page, shown) ? { ...there, voxels: [voxels, voxels] } : there, id, shown.tau, page.volume.unit);
+    const known = isMeasuredAtEntry(page, shown) ? { ...there, voxels: [voxels, voxels] as [number, number] } : there;
+    return factsOf(known, id, shown.tau, page.volume.unit, voxels > 0 ? measure / voxels : 1);
   } catch (error) {
     return isSuperseded(error) ? [] : [[`at ${value(shown.tau)}`, "it does not exist"]];
   }
 }
 
-/** id: the requested object. */
-export function factsOf(there: Measures, id: number, tau: number, unit: string | null): [name: string, text: string][] {
+/**
+ * id: the requested object. voxel: volume of a voxel. The first size is that of cards, tables and files: number of voxels times their volume;
+ * what the surface encloses is named so.
+ */
+export function factsOf(there: Measures, id: number, tau: number, unit: string | null, voxel: number): [name: string, text: string][] {
   return [
-    [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit)}`],
+    [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit, voxel)}`],
+    ["enclosed volume", unit === null ? plural(Number(there.volume.toPrecision(3)), "voxel") : volume(there.volume, unit)],
     ["area", area(there.area, unit)],
     ["diameters", diametersOf(there, unit)],
     ["sphericity", value(there.sphericity)],
@@ -44,9 +49,10 @@ function diametersOf({ feret }: Measures, unit: string | null): string {
 /** relative width below which a range of voxels is shown */
 const MIN_RATIO = 0.8;
 
-/** Omits wide bounds of the number of voxels; without a unit, shows the enclosed volume. */
-function sizeOf({ voxels: [min, max], volume: enclosed }: Measures, unit: string | null): string {
+/** Where only wide bounds of the number of voxels are known, the enclosed volume stands for it. */
+function sizeOf({ voxels: [min, max], volume: enclosed }: Measures, unit: string | null, voxel: number): string {
   const voxels = min === max ? plural(max, "voxel") : `${count(min)} to ${plural(max, "voxel")}`;
   if (unit === null) return min === max ? voxels : `about ${plural(Number(enclosed.toPrecision(3)), "voxel")}`;
-  return min >= MIN_RATIO * max ? `${volume(enclosed, unit)}, ${voxels}` : volume(enclosed, unit);
+  if (min === max) return `${volume(max * voxel, unit)}, ${voxels}`;
+  return min >= MIN_RATIO * max ? `about ${volume(enclosed, unit)}, ${voxels}` : `about ${volume(enclosed, unit)}`;
 }

@@ -1,0 +1,143 @@
+// Label volumes: `objects` lists their labels, `extract` writes the surface of each.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "data/source.h"
+#include "text/document.h"
+#include "text/interrupt.h"
+#include "text/sizes.h"
+#include "text/table.h"
+#include "text/terminal.h"
+#include "text/values.h"
+#include "verbs/verbs.h"
+
+namespace isoatlas::cli {
+namespace {
+
+constexpr std::size_t kMostAtOnce = 1024;  ///< surfaces in one file, unless --object names them
+
+Json region_json(const LabelRegion& region, const VolumeInfo& info) {
+    return {{"label", region.label},
+            {"voxels", region.voxels},
+            {"measure", region.measure},
+            {"components", region.components},
+            {"tunnels", region.tunnels},
+            {"cavities", region.cavities},
+            {"box", {{"low", region.box_low}, {"high", region.box_high}}},
+            {"position", region.position},
+            {"position_physical", to_physical(info.geometry, region.position)}};
+}
+
+std::string box_text(const LabelRegion& region, int rank) {
+    std::string text;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(rank); ++axis)
+        text += fmt::format("{}{}..{}", axis > 0 ? " x " : "", region.box_low[axis], region.box_high[axis]);
+    return text;
+}
+
+void print_labels_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const LabelTable& table) {
+    const Sizes sizes(info, largest_measure(table.regions));
+    std::vector<Table::Column> columns{{"label"}};
+    sizes.add_titles(columns);
+    columns.insert(columns.end(), {{"components"}, {"box", true}});
+    Table text(columns);
+    for (const LabelRegion& region : table.regions) {
+        std::vector<std::string> row{fmt::format("{}", region.label)};
+        sizes.add(row, region.voxels, region.measure, region.tunnels, region.cavities);
+        row.insert(row.end(), {count_text(region.components), box_text(region, info.extent.rank)});
+        text.add(row);
+    }
+    terminal.say(fmt::format("{}; {} of background (0); {}", counted(std::ssize(table.regions), "label"),
+                             counted(table.background, "voxel"), interpolant_text(info, arguments.interpolant, 0)));
+    text.print(terminal);
+    if (table.regions.empty()) return;
+    terminal.next(fmt::format("isoatlas extract {}{} --object {} -o label.ply", shell_word(arguments.file), reading_options(arguments),
+                              table.regions.front().label));
+}
+
+std::vector<std::int64_t> wanted_labels(const Arguments& arguments, Source& source) {
+    std::vector<std::int64_t> labels;
+    for (const ObjectReference& reference : arguments.objects) {
+        if (reference.kind != ObjectReference::Kind::number || reference.tau) {
+            throw Error(ErrorKind::usage, {.where = "--object",
+                                           .what = "'" + reference.word + "' is not a label",
+                                           .expected = "the number of a label: this volume holds labels, which have no isovalues",
+                                           .next = "isoatlas objects " + shell_word(arguments.file) + " lists them; or --labels no"});
+        }
+        labels.push_back(reference.number);
+    }
+    if (!labels.empty()) return labels;
+    const LabelTable table = list_labels(source.volume(), {.interpolant = source.interpolant()}, source.context());
+    for (const LabelRegion& region : table.regions) labels.push_back(region.label);
+    if (labels.empty() || labels.size() > kMostAtOnce) {
+        throw Error(ErrorKind::not_found,
+                    {.file = arguments.file,
+                     .what = labels.empty() ? "there is no label but the background" : "there are too many labels for one file",
+                     .next = "name some with --object LABEL"});
+    }
+    return labels;
+}
+
+}  // namespace
+
+int list_label_objects(const Arguments& arguments, Terminal& terminal) {
+    Source source(arguments, terminal);
+    const Volume& volume = source.volume();
+    const LabelTable table = list_labels(volume, {.interpolant = source.interpolant()}, source.context());
+    if (!arguments.json) {
+        print_labels_text(arguments, terminal, volume.info, table);
+        return 0;
+    }
+    Json head = document("labels", volume.info, source.interpolant(), 0);
+    head["background"] = table.background;
+    add_reads(head, source.reads());
+    print(terminal, head, "labels", std::ssize(table.regions),
+          [&](std::int64_t i) { return region_json(table.regions[static_cast<std::size_t>(i)], volume.info); });
+    return 0;
+}
+
+int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
+    Source source(arguments, terminal);
+    SurfaceOptions options;
+    options.boundary = arguments.boundary, options.style = arguments.style, options.shell = arguments.shell;
+    const std::vector<std::int64_t> labels = wanted_labels(arguments, source);
+    std::vector<NamedSurface> surfaces;
+    std::size_t points = 0, triangles = 0, segments = 0;
+    for (const std::int64_t label : labels) {
+        Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
+        points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
+        surfaces.push_back({std::move(part), fmt::format("label {}", label), colour_of_object(label)});
+    }
+    const Surface& surface = surfaces.front().surface;
+    const SurfaceFileOptions file_options{.space = arguments.space.value_or(PointSpace::lps)};
+    std::vector<std::string> warnings;
+    {
+        const WritingGuard guard;
+        warnings = write_surfaces(arguments.output, surfaces, file_options);
+    }
+    for (const std::string& warning : warnings) terminal.warn(warning);
+    const auto facets = static_cast<std::int64_t>(segments == 0 ? triangles : segments);
+    if (arguments.json) {
+        Json json = document("extract-labels", source.info(), surface.interpolant, 0, arguments.boundary);
+        json["output"] = arguments.output;
+        json["labels"] = labels;
+        json["points"] = points;
+        json["triangles"] = triangles;
+        json["segments"] = segments;
+        json["closed"] = surface.closed;
+        json["space"] = space_in_file(arguments.output, surface.space, file_options);
+        json["warnings"] = warnings;
+        add_reads(json, source.reads());
+        print(terminal, json);
+        return 0;
+    }
+    terminal.out() << shown_name(arguments.output) << ": " << counted(facets, surface.segments.empty() ? "triangle" : "segment") << " of "
+                   << counted(std::ssize(labels), "label") << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
+                   << interpolant_text(source.info(), surface.interpolant, 0) << '\n';
+    if (labels.size() == 1 && !surface.triangles.empty() && surface.closed)
+        terminal.next("isoatlas verify " + shell_word(arguments.output));
+    return 0;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,204 @@
+"""What is assumed about the samples, and what the user says instead of the header: fill values, labels, noise, geometry, units."""
+import json
+import struct
+
+from harness import CliTest, main
+
+MICRO = "\u00b5m"
+
+
+def npy(samples, type, shape):
+    kinds = {"<f4": "f", "<i2": "h", "|u1": "B", "<u2": "H"}
+    head = f"{{'descr': '{type}', 'fortran_order': False, 'shape': {shape}, }}".encode()
+    head += b" " * (-(10 + len(head) + 1) % 64) + b"\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + struct.pack(f"<{len(samples)}{kinds[type]}", *samples)
+
+
+def noise(seed):
+    """Numbers from 0 to 1."""
+    state = seed
+    while True:
+        state = (state * 6364136223846793005 + 1442695040888963407) % 2 ** 64
+        yield (state >> 33) / 2 ** 31
+
+
+class Assumed(CliTest):
+    N = 24
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        n = cls.N
+        voxels = [(x, y, z) for z in range(n) for y in range(n) for x in range(n)]
+        near = lambda p, q, r: sum((a - b) ** 2 for a, b in zip(p, q)) < r * r
+        random = noise(1)
+        cls.values = [10 + 90 * near(p, (7, 7, 7), 5) + 60 * near(p, (16, 16, 14), 5) + 0.5 * next(random) for p in voxels]
+        cls.write("plain.npy", npy(cls.values, "<f4", (n, n, n)))
+        cls.write("land.npy", npy([1e20 if x < 6 else v for (x, _, _), v in zip(voxels, cls.values)], "<f4", (n, n, n)))
+        cls.write("padded.npy", npy([-2000 if x < 6 else round(v) - 20 + (x + y + z) % 12 for (x, y, z), v in zip(voxels, cls.values)], "<i2", (n, n, n)))
+        names = [7 if near(p, (7, 7, 7), 5) else 9 if near(p, (16, 16, 14), 6) else 3 if near(p, (16, 6, 18), 4) else 0 for p in voxels]
+        cls.labels = names
+        cls.write("labels.npy", npy(names, "|u1", (n, n, n)))
+        random = noise(2)
+        noisy = [round(v + 40 * (sum(next(random) for _ in range(6)) - 3)) + 1000 for v in cls.values]
+        cls.write("noisy.npy", npy(noisy, "<u2", (n, n, n)))
+
+    @classmethod
+    def write(cls, name, content):
+        (cls.folder / name).write_bytes(content)
+
+    # Geometry and units
+
+    GEOMETRY = ["--spacing", "0.5,0.5,2", "--origin", "1,2,3", "--unit", "um", "--value-unit", "HU"]
+
+    def test_geometry_and_units_are_those_that_the_user_gives(self):
+        info = self.run_json("info", "plain.npy", *self.GEOMETRY)
+        volume = info["volume"]
+        self.assertEqual((volume["spacing"], volume["origin"], volume["unit"], volume["value_unit"]), ([0.5, 0.5, 2], [1, 2, 3], MICRO, "HU"))
+        self.assertIn("spacing 0.5 x 0.5 x 2 as given, instead of 1 x 1 x 1", volume["notes"])
+        self.assertEqual(info["units"], {"length": MICRO, "measure": MICRO + "³", "value": "HU"})
+        plain, given = self.run_json("objects", "plain.npy"), self.run_json("objects", "plain.npy", *self.GEOMETRY)
+        self.assertEqual([o["measure"] for o in given["objects"]], [0.5 * o["measure"] for o in plain["objects"]])
+        text = self.run_ok("objects", "plain.npy", *self.GEOMETRY)
+        self.assertIn(f"volume [{MICRO}³]", text.stdout)
+        self.assertIn("best tau [HU]", text.stdout)
+        self.assertIn("--spacing 0.5,0.5,2 --origin 1,2,3 --unit um --value-unit HU", text.stderr)
+        self.run_ok("extract", "plain.npy", *self.GEOMETRY, "--tau", "50", "-o", "given.ply")
+        self.assertIn(f"comment unit {MICRO}\n".encode(), (self.folder / "given.ply").read_bytes())
+        for name in ("given.nrrd", "given.mha", "given.raw"):
+            self.run_ok("convert", "plain.npy", *self.GEOMETRY, "-o", name)
+            back = self.run_json("info", name)["volume"]
+            self.assertEqual((back["spacing"], back["unit"]), ([0.5, 0.5, 2], MICRO), name)
+
+    def test_no_unit_is_said_in_one_way(self):
+        text = self.run_ok("objects", "plain.npy", "--spacing", "2")
+        self.assertIn("volume [units³]", text.stdout)
+        self.assertEqual(self.run_json("objects", "plain.npy", "--spacing", "2")["units"]["measure"], "units³")
+        self.assertEqual(self.run_json("objects", "plain.npy")["units"]["measure"], "voxels")
+
+    def test_stores_are_corrected_too(self):
+        self.run_ok("build", "plain.npy", "-o", "plain.atlas")
+        self.run_ok("build", "plain.npy", *self.GEOMETRY, "-o", "given.atlas")
+        one, other = (self.run_json("objects", *source) for source in (["plain.atlas", *self.GEOMETRY], ["given.atlas"]))
+        self.assertEqual(one["objects"], other["objects"])
+        self.assertEqual(one["units"], other["units"])
+        self.run_ok("extract", "plain.atlas", *self.GEOMETRY, "--tau", "50", "-o", "one.ply")
+        self.run_ok("extract", "given.atlas", "--tau", "50", "-o", "other.ply")
+        self.assertEqual((self.folder / "one.ply").read_bytes(), (self.folder / "other.ply").read_bytes())
+        self.assertEqual(self.run_json("info", "plain.atlas", "--unit", "nm")["volume"]["unit"], "nm")
+        self.run_ok("build", "plain.npy", "--gaussian", "1", "-o", "filtered.atlas")
+        self.run_error(2, "objects", "filtered.atlas", "--spacing", "2", says="filtered")
+
+    def test_geometry_is_part_of_the_fingerprint(self):
+        self.run_ok("plain.npy", "-o", "page.html", "--top", "1")
+        told = self.run_ok("plain.npy", "-o", "page.html", "--top", "1", *self.GEOMETRY).stderr
+        self.assertIn("spacing 1 x 1 x 1 there, 0.5 x 0.5 x 2 here", told)
+        self.assertIn("exists and is used", self.run_ok("plain.npy", "-o", "page.html", "--top", "1", *self.GEOMETRY).stderr)
+        data = self.page("page.html")
+        self.assertEqual((data["volume"]["unit"], data["volume"]["valueUnit"]), (MICRO, "HU"))
+        self.assertTrue(any("spacing 0.5 x 0.5 x 2 as given" in note for note in data["notes"]))
+
+    def page(self, name):
+        text = (self.folder / name).read_text()
+        data = json.loads(text.split('id="atlas-data" type="application/json">')[1].split("</script>")[0])
+        self.assert_schema(data, "page")
+        return data
+
+    def test_units_are_text(self):
+        for option in ("--unit", "--value-unit"):
+            self.run_error(2, "info", "plain.npy", option, "a\nb", says="cannot be")
+            self.run_error(2, "info", "plain.npy", option, "", says="empty value")
+
+    # Fill values
+
+    def test_fill_values_are_found_said_and_undone(self):
+        found = self.run_json("objects", "land.npy")
+        self.assertLess(max(o["appears"] for o in found["objects"]), 102)
+        self.assertTrue(any("1e+20 looks like a fill value (25 %" in note and "--no-data none" in note for note in found["volume"]["notes"]))
+        undone = self.run_json("objects", "land.npy", "--no-data", "none")
+        self.assertGreater(max(o["best_tau"] for o in undone["objects"]), 1e18)
+        self.assertFalse(any("fill value" in note for note in undone["volume"]["notes"]))
+        said = self.run_json("objects", "land.npy", "--no-data", "1e20")
+        self.assertEqual(said["objects"], found["objects"])
+        self.assertIn("--no-data 1e+20", self.run_ok("objects", "land.npy").stderr.split("next:")[1])
+        low = self.run_json("objects", "padded.npy")
+        self.assertTrue(any("-2000 looks like a fill value" in note for note in low["volume"]["notes"]))
+        info = self.run_json("info", "land.npy")
+        self.assertEqual(info["survey"]["fill_value"]["samples"], 6 * self.N ** 2)
+        self.assert_schema(info, "info")
+        self.assertIn("fill value", self.run_ok("info", "land.npy").stdout)
+        self.assertIsNone(self.run_json("info", "plain.npy")["survey"]["fill_value"])
+
+    def test_every_verb_assumes_the_same(self):
+        self.run_ok("build", "land.npy", "-o", "land.atlas")
+        self.assertEqual(self.run_json("objects", "land.atlas")["objects"], self.run_json("objects", "land.npy")["objects"])
+        self.run_ok("land.npy", "-o", "land.html", "--top", "1")   # the store that was built is the one that the page wants
+        data = self.page("land.html")
+        self.assertTrue(any("--no-data none" in note for note in data["notes"]))
+        first = self.run_json("objects", "land.npy")["objects"][0]
+        self.run_ok("extract", "land.npy", "--tau", str(first["best_tau"]), "-o", "land.ply")
+        self.run_ok("convert", "land.npy", "-o", "same.npy")       # takes samples as they are
+        self.assertEqual((self.folder / "same.npy").read_bytes()[-4 * self.N ** 3:], (self.folder / "land.npy").read_bytes()[-4 * self.N ** 3:])
+
+    # Labels
+
+    def test_labels_are_objects(self):
+        table = self.run_json("objects", "labels.npy")
+        self.assertEqual(table["schema"], "isoatlas/labels/1")
+        self.assert_schema(table, "labels")
+        self.assertEqual([(o["label"], o["voxels"]) for o in table["labels"]], [(k, self.labels.count(k)) for k in (3, 7, 9)])
+        self.assertEqual(table["background"], self.labels.count(0))
+        self.assertEqual([(o["components"], o["tunnels"], o["cavities"]) for o in table["labels"]], [(1, 0, 0)] * 3)
+        self.assertIn("--labels no", self.run_ok("objects", "labels.npy").stderr)
+        self.assertEqual(self.run_json("objects", "labels.npy", "--labels", "no")["schema"], "isoatlas/objects/2")
+        self.assertEqual(self.run_json("objects", "plain.npy")["schema"], "isoatlas/objects/2")
+        for name in ("label.ply", "label.glb"):
+            document = self.run_json("extract", "labels.npy", "--object", "7", "-o", name)
+            self.assert_schema(document, "extract-labels")
+            self.assertEqual(document["labels"], [7])
+            self.run_ok("verify", name)
+        self.assertEqual(self.run_json("extract", "labels.npy", "-o", "all.ply")["labels"], [3, 7, 9])
+        self.run_error(6, "extract", "labels.npy", "--object", "8", "-o", "none.ply", says="label 8")
+        self.run_error(3, "objects", "plain.npy", "--labels", "yes", says="is not a label")
+        self.assertIn("look like labels", self.run_ok("tree", "labels.npy").stderr)
+        self.assertTrue(self.run_json("info", "labels.npy")["survey"]["labels"])
+
+    def test_labels_of_a_store(self):
+        self.run_ok("build", "labels.npy", "-o", "labels.atlas")
+        self.assertEqual(self.run_json("objects", "labels.atlas", "--labels", "yes")["labels"], self.run_json("objects", "labels.npy")["labels"])
+
+    # Noise
+
+    def test_strong_noise_is_said_and_smoothed(self):
+        self.assertIn("--gaussian auto", self.run_ok("objects", "noisy.npy").stderr)
+        self.assertNotIn("--gaussian auto", self.run_ok("objects", "plain.npy").stderr)
+        info = self.run_json("info", "noisy.npy")["survey"]
+        self.assertGreater(info["noise_part"], 0.03)
+        sigma = info["advised_gaussian"]
+        found = self.run_json("objects", "noisy.npy", "--gaussian", "auto")
+        self.assertEqual(found["volume"]["gaussian"], sigma)
+        self.assertEqual(found["objects"], self.run_json("objects", "noisy.npy", "--gaussian", str(sigma))["objects"])
+        self.assertIn(f"--gaussian {sigma:g}", self.run_ok("objects", "noisy.npy", "--gaussian", "auto").stderr)
+        self.assertIsNone(self.run_json("objects", "plain.npy", "--gaussian", "auto")["volume"]["gaussian"])
+        self.run_ok("noisy.npy", "-o", "noisy.html", "--top", "1")
+        smoothing = self.page("noisy.html")["smoothing"]
+        self.assertEqual(smoothing["sigma"], sigma)
+        self.run_ok(*smoothing["command"].split()[1:], "--top", "1")
+        self.assertIsNone(self.page("noisy.smooth.html")["smoothing"])
+        self.run_error(2, "noisy.atlas", "--gaussian", "auto", says="contradicts the store")
+
+    def test_every_verb_takes_gaussian(self):
+        options = ["noisy.npy", "--gaussian", "1"]
+        self.run_ok("build", *options, "-o", "smooth.atlas")
+        for verb, suffix, more in (("extract", ".ply", ["--tau", "1060"]), ("label", ".nrrd", ["--tau", "1060"]), ("tree", ".json", []),
+                                   ("spectrum", ".csv", []), ("render", ".png", ["--tau", "1060", "--size", "32x32", "--samples", "1"])):
+            self.run_ok(verb, *options, *more, "-o", "one" + suffix)
+            self.run_ok(verb, "smooth.atlas", *more, "-o", "other" + suffix)
+            if verb not in ("tree", "spectrum"):   # these name their source
+                self.assertEqual((self.folder / ("one" + suffix)).read_bytes(), (self.folder / ("other" + suffix)).read_bytes(), verb)
+        self.run_ok("handles", *options)
+        self.run_ok("verify", *options)
+        self.assertEqual(self.run_json("objects", *options)["objects"], self.run_json("objects", "smooth.atlas")["objects"])
+
+
+main()
