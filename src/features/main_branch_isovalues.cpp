@@ -24,8 +24,9 @@ double volume_at(const BranchHistogram& histogram, const std::vector<double>& vo
     return std::lerp(volume[bin], volume[bin + 1], place - std::floor(place));
 }
 
-/// How much an isovalue adds to what is taken: all of its prominence where the object is at least e times as large or as small; -1: nothing,
-/// it is the same object. At the higher of two isovalues a branch is part of what it is at the lower one, so their overlap is a ratio of sizes.
+/// How much an isovalue adds to what is taken: all of its prominence where the object is at least e times as large or as small; -1:
+/// nothing, it is the same object. At the higher of two isovalues a branch is part of what it is at the lower one, so their overlap is a
+/// ratio of sizes.
 double gain(const BranchIsovalue& isovalue, const std::vector<BranchIsovalue>& taken) {
     double apart = 1;
     for (const BranchIsovalue& other : taken) apart = std::min(apart, std::abs(std::log(isovalue.volume / other.volume)));

@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr std::size_t kSampleBlock = std::size_t{1} << 20;
 
 void check_isovalues(std::span<const double> taus) {
     const bool finite = std::ranges::all_of(taus, [](double tau) { return std::isfinite(tau); });
@@ -36,13 +36,13 @@ std::vector<std::int64_t> samples_below(const Volume& volume, std::span<const do
     check_isovalues(taus);
     std::vector<std::int64_t> below(taus.size());
     const auto total = static_cast<std::size_t>(volume.info.extent.voxels());
-    std::vector<std::vector<std::int64_t>> counts((total + kBlock - 1) / kBlock);
+    std::vector<std::vector<std::int64_t>> counts((total + kSampleBlock - 1) / kSampleBlock);
     const CallerLooks look(context);
     for_each_block(context.threads, std::ssize(counts), [&](std::int64_t block) {
         look();
         visit_samples(volume, [&](auto samples) {
-            const std::size_t first = static_cast<std::size_t>(block) * kBlock;
-            counts[static_cast<std::size_t>(block)] = reached(samples.subspan(first, std::min(kBlock, total - first)), taus);
+            const std::size_t first = static_cast<std::size_t>(block) * kSampleBlock;
+            counts[static_cast<std::size_t>(block)] = reached(samples.subspan(first, std::min(kSampleBlock, total - first)), taus);
         });
     });
     for (const std::vector<std::int64_t>& part : counts) {

@@ -46,7 +46,6 @@ int status_of(ErrorKind kind) {
 
 Response refusal(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
 Response json_answer(std::string text) { return {200, "application/json", std::move(text)}; }
-Response file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
 
 double required_tau(QueryParameters& words) {
     const std::optional<double> tau = words.number("tau");

@@ -17,13 +17,11 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMaxObjects = 256;
-
-Response file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
+constexpr std::size_t kMaxParts = 256;
 
 /// Every one with an isovalue.
 std::vector<NamedPart> parts_of(const SeveralObjects& all, QueryParameters& words) {
-    std::vector<NamedPart> parts = named_parts(words, all.atlas, all.lines, kMaxObjects);
+    std::vector<NamedPart> parts = named_parts(words, all.atlas, all.lines, kMaxParts);
     if (parts.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=REF,..."});
     for (const NamedPart& part : parts) {
         if (!part.tau)

@@ -9,7 +9,8 @@ namespace {
 /// --top N limits lines, --top P% selects objects: `tree` has no lines, `handles` has no objects, `label` takes both.
 void take_top(const std::string& word, Arguments& arguments) {
     const bool is_part = word.ends_with('%');
-    const bool has_lines = arguments.verb == "objects" || arguments.verb == "measure" || arguments.verb == "handles" || arguments.verb == "label";
+    const bool has_lines =
+        arguments.verb == "objects" || arguments.verb == "measure" || arguments.verb == "handles" || arguments.verb == "label";
     if (!is_part && !has_lines) {
         throw Error(ErrorKind::usage, {.what = "--top requires a percent sign here",
                                        .next = "--top 5% keeps a part of all objects, --keep N keeps N objects"});

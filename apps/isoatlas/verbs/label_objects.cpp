@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "data/chosen_surfaces.h"
 #include "data/source.h"
 #include "text/document.h"
 #include "text/interrupt.h"
@@ -107,7 +108,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     for (const std::int64_t label : labels) {
         Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
         points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
-        surfaces.push_back({std::move(part), fmt::format("label {}", label), colour_of_object(label)});
+        surfaces.push_back({std::move(part), fmt::format("label {}", label), bytes_of(colour_of_object(label))});
     }
     const Surface& surface = surfaces.front().surface;
     const SurfaceFileOptions file_options{.space = arguments.space.value_or(PointSpace::lps)};

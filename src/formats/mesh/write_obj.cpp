@@ -56,7 +56,7 @@ std::string group_name(const MeshPart& part, const std::string& otherwise) {
     return name;
 }
 
-void put_cells(ByteWriter& out, const MeshParts& parts, const MeshPart& part) {
+void put_faces(ByteWriter& out, const MeshParts& parts, const MeshPart& part) {
     const ObjectGroups groups = parts.named ? one_group(part.surface()) : group_by_object(part.surface());
     for (const ObjectGroups::Group& group : groups.groups) {
         out.text("o " + group_name(part, groups.has_ids ? "object_" + std::to_string(group.object) : "surface") + "\n");
@@ -79,7 +79,7 @@ void write_obj(Sink& sink, const MeshParts& parts, Warnings& warnings) {
     ByteWriter out(sink);
     out.text(comment_lines(parts, "#"));
     put_points(out, parts);
-    for (const MeshPart& part : parts.parts) put_cells(out, parts, part);
+    for (const MeshPart& part : parts.parts) put_faces(out, parts, part);
     out.finish();
 }
 
