@@ -57,7 +57,7 @@ struct RecommendedIsovalue {
 };
 
 struct ObjectTable {
-    std::vector<ObjectEntry> entries;  ///< by rank; the main branch has up to five, from the outside in, which look different
+    std::vector<ObjectEntry> entries;  ///< by rank; the main branch has up to five, from the outside in, the box of the volume last
     /// Of all objects of the table, by their rank; of each those of rows first, then by descending prominence, outlines last; then outer
     /// and inner ones that can be distinguished from the former, of up to five cavities. Empty: a store of an early version.
     std::vector<RecommendedIsovalue> isovalues{};

@@ -12,7 +12,6 @@ constexpr double kPart = 0.05;       // of a joint object that makes a merge sig
 constexpr double kGrown = 4.0 / 3;   // a volume that looks different
 constexpr double kReproduced = 0.9;  // of the volume, in spite of noise
 constexpr double kProminence = 1e3;  // instead of infinity
-constexpr double kSameObject = 0.6;  // part of the voxels at either isovalue that are in the object at both
 
 bool is_outline(const BranchIsovalue& isovalue) { return isovalue.reason == IsovalueReason::outline; }
 
@@ -24,19 +23,11 @@ double volume_at(const BranchHistogram& histogram, const std::vector<double>& vo
     return std::lerp(volume[bin], volume[bin + 1], place - std::floor(place));
 }
 
-/// How much an isovalue adds to what is taken: all of its prominence where the object is at least e times as large or as small; -1:
-/// nothing, it is the same object. At the higher of two isovalues a branch is part of what it is at the lower one, so their overlap is a
-/// ratio of sizes.
+/// How much an isovalue adds to what is taken: all of its prominence where the object is at least e times as large or as small.
 double gain(const BranchIsovalue& isovalue, const std::vector<BranchIsovalue>& taken) {
     double apart = 1;
     for (const BranchIsovalue& other : taken) apart = std::min(apart, std::abs(std::log(isovalue.volume / other.volume)));
-    if (apart <= -std::log(kSameObject)) return -1;
     return std::min(isovalue.prominence, kProminence) * apart;
-}
-
-/// Is it the outline of the scanned field, rather than of what is in it?
-bool is_box(const BranchIsovalue& isovalue, std::int64_t voxels) {
-    return is_outline(isovalue) && isovalue.volume > kBackgroundPart * static_cast<double>(voxels);
 }
 
 }  // namespace
@@ -66,21 +57,20 @@ std::vector<BranchIsovalue> before_merges(const BranchDecomposition& branches, c
 }
 
 std::size_t arrange_main_branch(std::vector<BranchIsovalue>& own, std::int64_t voxels) {
-    std::vector<BranchIsovalue> taken, left = own;
-    const bool has_outline = is_outline(own.back());
-    const auto take = [&](std::vector<BranchIsovalue>::iterator isovalue) {
-        taken.push_back(*isovalue);
-        left.erase(isovalue);
-    };
-    while (taken.size() + (has_outline ? 1 : 0) < kRows) {
-        std::vector<double> gains;
-        for (const BranchIsovalue& isovalue : left) gains.push_back(is_outline(isovalue) ? -1 : gain(isovalue, taken));
-        const auto best = std::ranges::max_element(gains);
-        if (best == gains.end() || *best < 0) break;
-        take(left.begin() + (best - gains.begin()));
+    std::vector<BranchIsovalue> outline, taken, left = own;
+    if (is_outline(left.back())) outline.push_back(left.back()), left.pop_back();
+    while (taken.size() + outline.size() < kRows && !left.empty()) {
+        const auto best = std::ranges::max_element(
+            left, {}, [&](const BranchIsovalue& isovalue) { return is_outline(isovalue) ? -1 : gain(isovalue, taken); });
+        taken.push_back(*best);
+        left.erase(best);
     }
-    if (has_outline && (taken.empty() || (!is_box(own.back(), voxels) && gain(own.back(), taken) >= 0))) take(left.end() - 1);
-    std::ranges::sort(taken, {}, &BranchIsovalue::tau);
+    taken.insert(taken.end(), outline.begin(), outline.end());
+    const auto is_box = [voxels](const BranchIsovalue& isovalue) {
+        return is_outline(isovalue) && isovalue.volume > kBackgroundPart * static_cast<double>(voxels);
+    };
+    std::ranges::sort(taken,
+                      [&](const BranchIsovalue& p, const BranchIsovalue& q) { return is_box(p) != is_box(q) ? is_box(q) : p.tau < q.tau; });
     const std::size_t rows = taken.size();
     taken.insert(taken.end(), left.begin(), left.end());
     own = std::move(taken);

@@ -13,10 +13,9 @@ namespace isoatlas {
                                                         const BranchHistogram& histogram, const std::vector<BranchIsovalue>& own,
                                                         const NoiseModel& noise);
 
-/// Moves those that get a row to the front, from the outside in; the others keep their order. Returns how many. Isovalues are taken by
-/// prominence, less where the object is about as large as at one that is taken, and never where the two share kSameObject of their voxels:
-/// then it looks the same. The last outline comes after all others, and has no row if it is hardly more than the box of the volume, unless
-/// there is nothing else. own: by descending prominence, outlines last; voxels: of the volume.
+/// Moves those that get a row to the front, from the outside in, what is hardly more than the box of the volume last; the others keep their
+/// order. Returns how many. The last outline has a row; the others are taken by prominence, less where the object is about as large as at
+/// one that is taken: then it looks the same. own: by descending prominence, outlines last; voxels: of the volume.
 [[nodiscard]] std::size_t arrange_main_branch(std::vector<BranchIsovalue>& own, std::int64_t voxels);
 
 }  // namespace isoatlas

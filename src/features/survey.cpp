@@ -14,7 +14,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kSlab = 16 << 20, kPart = 32 << 20;  // bytes
+constexpr std::int64_t kSlab = 16 << 20, kReadPart = 32 << 20;  // bytes
 constexpr double kFarFromKnown = 0.1, kFarFromAny = 1, kPlateau = 0.01;
 constexpr std::size_t kFewest = 10;
 
@@ -53,7 +53,7 @@ std::optional<Found> fill_at(const RangeEnd& end, double other, const SampleSurv
 Volume some_slices(VolumeReader& reader, const SampleSurvey& survey, const std::optional<FillValue>& fill) {
     const VolumeInfo& info = reader.info();
     const std::int64_t slice = info.extent.slice() * static_cast<std::int64_t>(size_of(info.type));
-    const std::int64_t count = std::clamp<std::int64_t>(kPart / slice, 1, info.extent.size[2]);
+    const std::int64_t count = std::clamp<std::int64_t>(kReadPart / slice, 1, info.extent.size[2]);
     Extent extent = info.extent;
     extent.size[2] = count;
     Volume part = make_volume(extent, info.type, info.geometry);

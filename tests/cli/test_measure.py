@@ -51,7 +51,7 @@ class Measure(harness.CliTest):
     def test_the_table(self):
         done = self.run_ok("measure", "demo.nrrd", "--top", "3")
         lines = done.stdout.splitlines()
-        self.assertIn("volume [mm3]", lines[0])
+        self.assertIn("volume [mm³]", lines[0])
         self.assertIn("sphericity", lines[0])
         self.assertEqual(len(lines), 1 + 3 + 1 + 2)
         self.assertTrue(lines[-2].startswith("high values percolate up to "), done.stdout)

@@ -108,7 +108,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   it("sorts and filters", async () => {
     const { tab } = await open(scene);
     await tab.selectOption("select[name=order]", "size");
-    expect(await tab.locator(".card .title").allTextContents()).toEqual(["Object 1", "Object 2", "Object 3", "Cavity 1"]);
+    expect(await tab.locator(".card .title").allTextContents()).toEqual(["Object 1", "Object 2", "Cavity 1", "Object 3"]);
     await tab.selectOption("select[name=side]", "cavity");
     expect(await tab.locator(".card").count()).toBe(1);
     expect(await tab.locator(".message").textContent()).toBe("1 of 4 pictures shown");

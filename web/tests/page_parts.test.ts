@@ -4,7 +4,9 @@ import { chosenBranches, chosenEntries, firstChoice, ranked } from "../src/page/
 import { columnAt, countPath, countWords, Scale } from "../src/page/columns";
 import { hiddenSentences } from "../src/shared/hidden_counts";
 import { plural, value, volume } from "../src/shared/format";
-import { anchorOf, branchName, contentsOf, describe as said, furtherIsovalues, nameOf, placeOf, rangeOf, reasonOf } from "../src/shared/names";
+import {
+  anchorOf, branchName, contentsOf, describe as said, furtherIsovalues, nameOf, placeOf, rangeOf, reasonOf,
+} from "../src/shared/names";
 import { largestAt } from "../src/page/others";
 import { isDeep, lanesOf } from "../src/shared/overview";
 import { readPage } from "../src/shared/page";

@@ -65,6 +65,7 @@ describe.skipIf(!canServe)("accessibility of the viewer", () => {
 
   it("moves through a menu by arrow keys, without moving the camera", async () => {
     const { tab } = await served.open();
+    await expect.poll(() => tab.url()).toContain("&view="); // the scene has been fitted to the view
     const before = tab.url();
     const summary = tab.locator(".menus summary", { hasText: "View" });
     await summary.focus();

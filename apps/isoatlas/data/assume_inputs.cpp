@@ -18,8 +18,8 @@ constexpr double kReadLimit = 2e9;  ///< bytes of samples, as for `info`
 
 /// Verbs whose results follow from the samples; the others take them as they are.
 bool is_analysis(const std::string& verb) {
-    constexpr std::array<std::string_view, 12> verbs{"atlas", "view",    "build",   "objects", "tree",   "extract",
-                                                     "label", "animate", "handles", "render",  "verify", "spectrum"};
+    constexpr std::array<std::string_view, 14> verbs{"atlas", "view",    "build",   "objects", "measure", "tree",     "extract",
+                                                     "label", "animate", "handles", "render",  "verify",  "spectrum", "name"};
     return std::ranges::find(verbs, verb) != verbs.end();
 }
 

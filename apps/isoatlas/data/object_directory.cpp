@@ -197,7 +197,7 @@ ChosenObject ObjectDirectory::numbered(const ObjectReference& reference, const s
     const std::int64_t count = std::ssize(objects().entries);
     if (number < 1 || number > count) no_number(number, false, count);
     const ObjectEntry& entry = objects_->entries[static_cast<std::size_t>(number - 1)];
-    const ChosenObject object = chosen(entry, number);
+    ChosenObject object = chosen(entry, number);
     if (!typed) return object;
     const Scale scale(source_.info());
     if (scale.stored(*typed) > entry.appears && source_.stored(*typed) > entry.appears) {

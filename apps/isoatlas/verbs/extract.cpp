@@ -257,10 +257,9 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
         chosen = chosen_objects(arguments, directory);
         source.release_trees();
     }
-    const Written written =
-        is_one_surface(arguments, chosen) ? write_one(arguments, source, chosen) : write_several(arguments, source, chosen);
+    Written written = is_one_surface(arguments, chosen) ? write_one(arguments, source, chosen) : write_several(arguments, source, chosen);
     if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
-        terminal.warn("--space does not apply to .glb, which has metres and y up");
+        written.warnings.emplace_back("--space does not apply to .glb, which has metres and y up");
     for (const std::string& warning : written.warnings) terminal.warn(warning);
     for (const std::string& note : written.notes) terminal.say("note: " + note);
     if (arguments.json) {

@@ -93,14 +93,14 @@ void print_json(Terminal& terminal, Source& source, const Measured& measured, st
 
 // Text
 
-std::string size_text(double size) {
+std::string measure_text(double size) {
     if (!std::isfinite(size)) return "-";
     return size < 1000 ? fmt::format("{:.4g}", size) : count_text(std::llround(size));
 }
 
 std::string with_unit(const std::string& title, const std::string& unit) { return unit.empty() ? title : title + " [" + unit + "]"; }
 
-std::string note_of(const Measured& measured, std::size_t i) {
+std::string measured_note(const Measured& measured, std::size_t i) {
     std::string note = measured.notes.empty() ? "" : measured.notes[i];
     if (measured.objects[i].touches_border) note += note.empty() ? "reaches the border" : ", reaches the border";
     return note;
@@ -116,7 +116,7 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
     std::vector<Table::Column> columns{{"#"}, {"id"}};
     if (!measured.tau) columns.push_back({"tau"});
     columns.push_back({with_unit(flat ? "area" : "volume", unit.name)});
-    columns.push_back({flat ? with_unit("length", length) : with_unit("area", length.empty() ? "" : length + "2")});
+    columns.push_back({flat ? with_unit("length", length) : with_unit("area", length.empty() ? "" : length + "²")});
     columns.push_back({with_unit("Feret", length)});
     columns.push_back({"min"});
     columns.push_back({flat ? "circularity" : "sphericity"});
@@ -129,11 +129,11 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
         const ObjectMeasures& object = measured.objects[i];
         std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
         if (!measured.tau) row.push_back(scale.brief(object.tau));
-        row.insert(row.end(), {size_text(object.volume * unit.factor), size_text(object.area), size_text(object.feret.max),
-                               size_text(object.feret.min), fmt::format("{:.3f}", object.sphericity), size_text(object.values.mean),
+        row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
+                               measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity), measure_text(object.values.mean),
                                object.tunnels == 0 ? "-" : count_text(object.tunnels)});
         if (!flat) row.push_back(object.cavities == 0 ? "-" : count_text(object.cavities));
-        row.push_back(note_of(measured, i));
+        row.push_back(measured_note(measured, i));
         text.add(row);
     }
     text.print(terminal);
@@ -154,7 +154,7 @@ void print_volume(Terminal& terminal, const VolumeInfo& info, const Measured& me
                                       Scale(info).brief(*measured.tau), 100 - percent);
         const SizeDistribution sizes = size_distribution(measured.objects);
         const auto quantiles = [&](const SizeQuantiles& q) {
-            return fmt::format("{} (10 %), {} (50 %), {} (90 %)", size_text(q[0]), size_text(q[2]), size_text(q[4]));
+            return fmt::format("{} (10 %), {} (50 %), {} (90 %)", measure_text(q[0]), measure_text(q[2]), measure_text(q[4]));
         };
         terminal.out() << fmt::format("diameters{} of {}: {}; by volume {}\n",
                                       info.geometry.unit.empty() ? "" : " in " + info.geometry.unit, counted(sizes.objects, "object"),

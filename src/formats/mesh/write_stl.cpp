@@ -73,9 +73,9 @@ void write_stl(Sink& sink, const MeshParts& parts, Warnings& warnings) {
     for (const MeshPart& part : parts.parts) {
         for (std::size_t i = 0; i < part.surface().triangles.size(); ++i) {
             const auto t = part.turned.triangle(i);
-            const Point a = part.turned.point(t[0]), b = part.turned.point(t[1]), c = part.turned.point(t[2]);
+            const Corner a = part.turned.point(t[0]), b = part.turned.point(t[1]), c = part.turned.point(t[2]);
             out.put(facet_normal(a, b, c));
-            for (const Point& p : {a, b, c}) out.put(to_float(p));
+            for (const Corner& p : {a, b, c}) out.put(to_float(p));
             out.put(std::uint16_t{0});
         }
     }

@@ -122,12 +122,12 @@ private:
         const bool is_written =
             surface_.triangles.size() > 2000 || tally_.rounded_meshes % 7 == 0;  // the disk is slower than all else here
         if (is_written) {
-            isoatlas::write_surface(folder / "surface.ply", surface_);
+            isoatlas::write_surface(folder / "surface.ply", surface_, {.space = isoatlas::PointSpace::volume});
             const std::string fault = fault_in_ply(isoatlas::read_mesh(folder / "surface.ply"), keeps_double);
             if (!fault.empty()) return "PLY: " + fault;
         }
         if (keeps_double) return "";  // STL has float32 only, and the writer of PLY knows that this is too coarse here
-        if (is_written) isoatlas::write_surface(folder / "surface.stl", surface_);
+        if (is_written) isoatlas::write_surface(folder / "surface.stl", surface_, {.space = isoatlas::PointSpace::volume});
         const std::string fault = fault_in_rounded(is_written ? isoatlas::read_mesh(folder / "surface.stl") : rounded());
         return fault.empty() ? "" : "float32: " + fault;
     }

@@ -26,8 +26,8 @@ export async function measuredFacts({ api, page }: ViewerContext, shown: Shown):
 }
 
 /**
- * id: the requested object. voxel: volume of a voxel. The first size is that of cards, tables and files: number of voxels times their volume;
- * what the surface encloses is named so.
+ * id: the requested object. voxel: volume of a voxel. The first size is that of cards, tables and files: number of voxels times their
+ * volume; what the surface encloses is named so.
  */
 export function factsOf(there: Measures, id: number, tau: number, unit: string | null, voxel: number): [name: string, text: string][] {
   return [
