@@ -1,32 +1,20 @@
 #include "server/object_words.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/error.h"
 #include "isoatlas/isovalue.h"
+#include "server/parameter_text.h"
 #include "server/query_parameters.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kLongestWord = 60;
-
 [[noreturn]] void refuse(std::string_view name, std::string_view item) {
-    const char* expected = name == "contour" ? "c and the number of a cavity, or v and a voxel; with an isovalue: c3, v218663@150"
-                                             : "a number of the table, or v and a voxel; with an isovalue: 2, v218663, 2@150";
-    throw Error(
-        ErrorKind::usage,
-        {.where = std::string(name), .what = "'" + std::string(item.substr(0, kLongestWord)) + "' is not valid", .expected = expected});
-}
-
-template <class Number>
-std::optional<Number> read_word(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
+    refuse_parameter(name, item,
+                     name == "contour" ? "c and the number of a cavity, or v and a voxel; with an isovalue: c3, v218663@150"
+                                       : "a number of the table, or v and a voxel; with an isovalue: 2, v218663, 2@150");
 }
 
 const NumberedLines::Line& line_of(std::string_view name, std::int64_t number, const std::vector<NumberedLines::Line>& lines,
@@ -43,13 +31,13 @@ NamedPart part_of(std::string_view name, std::string_view item, const Atlas& atl
     std::string_view word = item.substr(0, mark);
     NamedPart part{.is_contour = name == "contour"};
     if (mark < item.size()) {
-        const std::optional<double> tau = read_word<double>(item.substr(mark + 1));
+        const std::optional<double> tau = whole_text_as<double>(item.substr(mark + 1));
         if (!tau || !std::isfinite(*tau)) refuse(name, item);
         part.tau = stored_isovalue(atlas.info(), *tau), part.has_own_tau = true;
     }
     const char letter = word.empty() || (word[0] >= '0' && word[0] <= '9') ? '\0' : word[0];
     if (letter != '\0') word.remove_prefix(1);
-    const std::optional<std::int64_t> number = read_word<std::int64_t>(word);
+    const std::optional<std::int64_t> number = whole_text_as<std::int64_t>(word);
     if (!number || *number < 0 || letter == (part.is_contour ? '\0' : 'c') || (letter != '\0' && letter != 'v' && letter != 'c'))
         refuse(name, item);
     if (letter == 'v') {

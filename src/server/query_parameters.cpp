@@ -1,36 +1,19 @@
 #include "server/query_parameters.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "formats/common/byte_writer.h"
 #include "isoatlas/error.h"
+#include "server/parameter_text.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kLongestShown = 60;
-
-[[noreturn]] void refuse(std::string_view name, std::string_view text, const std::string& expected) {
-    throw Error(
-        ErrorKind::usage,
-        {.where = std::string(name), .what = "'" + std::string(text.substr(0, kLongestShown)) + "' is not valid", .expected = expected});
-}
-
-/// The whole text is a number.
-template <class Number>
-std::optional<Number> read(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
 std::int64_t whole_in(std::string_view name, std::string_view text, std::int64_t min, std::int64_t max) {
-    const std::optional<std::int64_t> number = read<std::int64_t>(text);
+    const std::optional<std::int64_t> number = whole_text_as<std::int64_t>(text);
     if (!number || *number < min || *number > max)
-        refuse(name, text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+        refuse_parameter(name, text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
     return *number;
 }
 
@@ -40,21 +23,21 @@ std::optional<std::string_view> QueryParameters::take(std::string_view name) {
     known_.push_back(name);
     const auto [begin, end] = words_.equal_range(std::string(name));
     if (begin == end) return std::nullopt;
-    if (std::next(begin) != end) refuse(name, begin->second, "one value");
+    if (std::next(begin) != end) refuse_parameter(name, begin->second, "one value");
     return begin->second;
 }
 
 std::optional<double> QueryParameters::number(std::string_view name) {
     const std::optional<std::string_view> text = take(name);
     if (!text) return std::nullopt;
-    const std::optional<double> number = read<double>(*text);
-    if (!number || !std::isfinite(*number)) refuse(name, *text, "a finite number");
+    const std::optional<double> number = whole_text_as<double>(*text);
+    if (!number || !std::isfinite(*number)) refuse_parameter(name, *text, "a finite number");
     return number;
 }
 
 std::optional<double> QueryParameters::number(std::string_view name, double min) {
     const std::optional<double> any = number(name);
-    if (any && *any < min) refuse(name, words_.find(std::string(name))->second, "a number from " + number_text(min) + " on");
+    if (any && *any < min) refuse_parameter(name, words_.find(std::string(name))->second, "a number from " + number_text(min) + " on");
     return any;
 }
 
@@ -70,7 +53,7 @@ std::optional<std::string> QueryParameters::choice(std::string_view name, const 
     if (std::ranges::find(choices, *text) == choices.end()) {
         std::string expected;
         for (const std::string_view choice : choices) expected += (expected.empty() ? "" : ", ") + std::string(choice);
-        refuse(name, *text, "one of " + expected);
+        refuse_parameter(name, *text, "one of " + expected);
     }
     return std::string(*text);
 }
@@ -85,7 +68,7 @@ std::vector<std::string_view> QueryParameters::items(std::string_view name, std:
     const std::optional<std::string_view> text = take(name);
     if (!text) return items;
     for (std::string_view rest = *text;;) {
-        if (items.size() == count) refuse(name, *text, "at most " + std::to_string(count) + " numbers");
+        if (items.size() == count) refuse_parameter(name, *text, "at most " + std::to_string(count) + " numbers");
         const std::size_t comma = rest.find(',');
         items.push_back(rest.substr(0, comma));
         if (comma == std::string_view::npos) return items;

@@ -17,13 +17,6 @@ using namespace test;
 
 const std::vector<std::string> kNames = {"l.nrrd", "l.nii", "l.nii.gz", "l.tif", "L.TIFF"};
 
-VolumeInfo info_of(const Extent& extent, const Geometry& geometry = {}) {
-    VolumeInfo info;
-    info.extent = extent;
-    info.geometry = geometry;
-    return info;
-}
-
 std::vector<std::uint32_t> labels_up_to(std::int64_t count, std::uint32_t largest) {
     std::vector<std::uint32_t> labels(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = i % 3 == 0 ? 0 : static_cast<std::uint32_t>((i * 2654435761U) % largest);

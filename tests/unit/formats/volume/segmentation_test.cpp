@@ -21,13 +21,6 @@ using namespace test;
 
 const std::vector<std::string> kNames = {"s.seg.nrrd", "s.nrrd", "s.nii", "s.nii.gz", "s.tif"};
 
-VolumeInfo info_of(const Extent& extent, const Geometry& geometry = {}) {
-    VolumeInfo info;
-    info.extent = extent;
-    info.geometry = geometry;
-    return info;
-}
-
 /// 6 x 5 x 4: object 2 in a corner, object 700 a line, object 3 nowhere.
 std::vector<std::uint32_t> labels() {
     std::vector<std::uint32_t> of_voxel(120, 0);

@@ -177,4 +177,11 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
+inline VolumeInfo info_of(const Extent& extent, const Geometry& geometry = {}) {
+    VolumeInfo info;
+    info.extent = extent;
+    info.geometry = geometry;
+    return info;
+}
+
 }  // namespace isoatlas::test
